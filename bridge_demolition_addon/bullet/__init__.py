@@ -1,0 +1,1 @@
+"""Bridge into the Bullet world that Blender keeps in memory."""

@@ -1,0 +1,1 @@
+"""Command line: ``bda`` and ``python -m bridge_demolition_addon``."""

@@ -1,0 +1,1 @@
+"""The engineering: numpy arrays in, numpy arrays out. Never imports bpy."""

@@ -1,0 +1,25 @@
+"""Everything that can go wrong in a way the user can mend, one family under one base."""
+
+
+class DemolitionError(Exception):
+    """Base of all errors of this project; its text is a sentence a user can act on."""
+
+
+class ScenarioError(DemolitionError):
+    """A scenario names an unknown key, lacks a needed one or holds a value that cannot be used."""
+
+
+class GeometryError(DemolitionError):
+    """A solid is not closed, has no volume or cannot be cut as asked."""
+
+
+class OutputError(DemolitionError):
+    """The folder for the results exists already or cannot be written."""
+
+
+class LayoutError(DemolitionError):
+    """Blender's memory does not look as expected; nothing was trusted and nothing was written."""
+
+
+class SimulationError(DemolitionError):
+    """The simulation could not be set up or was changed from outside while it ran."""

@@ -1,0 +1,1 @@
+"""Charts made with matplotlib from the results of a run."""

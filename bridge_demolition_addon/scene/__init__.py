@@ -1,0 +1,1 @@
+"""Blender data without user interface: bodies, connections, ball, pictures."""

@@ -1,0 +1,1 @@
+"""One step of data flow: from Bullet through the recorder into logs."""

@@ -1,0 +1,1 @@
+"""Sidebar of the 3D view: properties, operators and panels."""
