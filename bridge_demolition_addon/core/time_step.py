@@ -1,0 +1,45 @@
+"""The one place where frames, sub-steps, forces and impulses are converted into each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class TimeStep:
+    """How Blender cuts time: frames into sub-steps, each one step of Bullet.
+
+    Parameters
+    ----------
+    frames_per_second, frames_per_second_base
+        Blender's frame rate, the quotient of the two (29.97 Hz is 30 / 1.001).
+    substeps_per_frame
+        Bullet's steps in a frame.
+    time_scale
+        Simulated seconds per second of animation.
+    """
+
+    frames_per_second: int
+    frames_per_second_base: float
+    substeps_per_frame: int
+    time_scale: float
+
+    @property
+    def frame_s(self) -> float:
+        """Simulated time of one frame, s."""
+        return self.time_scale * self.frames_per_second_base / self.frames_per_second
+
+    @property
+    def substep_s(self) -> float:
+        """Simulated time of one sub-step, s."""
+        return self.frame_s / self.substeps_per_frame
+
+    def impulse(self, force_newton: float) -> float:
+        """Impulse of a steady force over one sub-step, N·s: the unit of Blender's breaking threshold."""
+        return force_newton * self.substep_s
+
+    def frames(self, duration_s: float) -> int:
+        """Whole frames that cover a simulated duration; rounding noise does not add a frame."""
+        frames = duration_s / self.frame_s
+        nearest = round(frames)
+        return nearest if abs(frames - nearest) < 1e-6 else int(frames) + 1
