@@ -1,0 +1,143 @@
+"""Holding every offset against what Blender itself says, before any of it is trusted.
+
+All reads here are fault-free, so that a wrong offset ends in a `LayoutError` and never in a crash.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable
+
+import bpy
+
+from ..core.errors import LayoutError
+from .layout import ACTIVATION_STATES, CONSTRAINT_TYPES, RIGID_BODY, WARM_STARTING, Layout
+from .memory import read, read_pointer, read_value
+
+_FLOAT32 = 1e-6
+"""Relative spacing of the 32-bit values in Blender, with room for one rounding more."""
+
+
+def check_settings(layout: Layout, world: bpy.types.RigidBodyWorld) -> None:
+    """Blender's own world structure holds the sub-steps, iterations and time scale that Python shows."""
+    address, blender = world.as_pointer(), layout.blender
+    _expect("sub-steps of the world", read_value(address + blender.world_substeps, "h"), world.substeps_per_frame)
+    _expect("iterations of the world", read_value(address + blender.world_iterations, "h"), world.solver_iterations)
+    _expect_close("time scale of the world", read_value(address + blender.world_time_scale, "f"), world.time_scale)
+
+
+def is_physics_world(layout: Layout, address: int) -> bool:
+    """Whether an rbDynamicsWorld lies there: Blender and Bullet name the same dispatcher, broadphase and solver."""
+    blender, bullet = layout.blender, layout.world
+    try:
+        dynamics = read_pointer(address)
+        partners = (
+            (blender.physics_world_dispatcher, bullet.dispatcher),
+            (blender.physics_world_broadphase, bullet.broadphase),
+            (blender.physics_world_solver, bullet.solver),
+        )
+        pairs = [(read_pointer(address + here), read_pointer(dynamics + there)) for here, there in partners]
+    except LayoutError:
+        return False
+    return all(here == there != 0 for here, there in pairs)
+
+
+def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld) -> None:
+    """Bullet's solver settings are where they are expected."""
+    _expect("solver iterations", read_value(dynamics + layout.world.iterations, "i"), world.solver_iterations)
+    _expect("warm starting", read_value(dynamics + layout.world.warm_starting, "d"), WARM_STARTING)
+    step = read_value(dynamics + layout.world.step, "d")
+    if not 0.0 <= step <= 1e3:
+        raise LayoutError(f"solver step is {step:g} s")
+
+
+def check_bodies(layout: Layout, bodies: Iterable[tuple[bpy.types.Object, int, int]]) -> None:
+    """Each body's Bullet values are those that Python shows.
+
+    Parameters
+    ----------
+    bodies
+        Object, address of Blender's rbRigidBody and of Bullet's btRigidBody.
+    """
+    for body, holder, address in bodies:
+        _check_body(layout, body, holder, address)
+
+
+def check_connections(layout: Layout, connections: Iterable[tuple[bpy.types.Object, int]], bodies: dict) -> None:
+    """Each connection has a known type, its own two bodies and its own breaking threshold.
+
+    Parameters
+    ----------
+    connections
+        Object and address of Bullet's btTypedConstraint.
+    bodies
+        Address of the btRigidBody of every body, by object.
+    """
+    for connection, address in connections:
+        _check_connection(layout, connection, address, bodies)
+
+
+def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: int) -> None:
+    offsets, settings, name = layout.body, body.rigid_body, f"of body {body.name!r}"
+    raw = read(address, offsets.linear_damping + 8)
+    if raw is None:
+        raise LayoutError(f"memory {name} cannot be read")
+
+    def value(format_: str, offset: int) -> int | float:
+        return struct.unpack_from("<" + format_, raw, offset)[0]
+
+    _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)
+    _expect(f"internal type {name}", value("i", offsets.internal_type), RIGID_BODY)
+    _expect_member(f"activation state {name}", value("i", offsets.activation), ACTIVATION_STATES)
+    _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
+    _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)
+    _check_inverse_mass(name, value("d", offsets.inverse_mass), settings)
+    _check_place(name, body, struct.unpack_from("<3d", raw, offsets.origin))
+
+
+def _check_inverse_mass(name: str, inverse_mass: float, settings: bpy.types.RigidBodyObject) -> None:
+    if settings.type == "PASSIVE" or inverse_mass == 0.0:
+        dynamic = settings.type == "ACTIVE" and settings.enabled and not settings.kinematic
+        # Animation can hold a body still that Python already shows as free, or the other way round, within a frame.
+        if inverse_mass != 0.0 or (dynamic and not _is_animated(settings)):
+            raise LayoutError(f"inverse mass {name} is {inverse_mass:g}")
+        return
+    _expect_close(f"mass {name}", 1.0 / inverse_mass, settings.mass)
+
+
+def _is_animated(settings: bpy.types.RigidBodyObject) -> bool:
+    return settings.id_data.animation_data is not None
+
+
+def _check_place(name: str, body: bpy.types.Object, origin: tuple[float, float, float]) -> None:
+    """Bullet's origin is a place near the scene, not noise; it moves within a frame, so it is not compared exactly."""
+    if not all(abs(coordinate) < 1e7 for coordinate in origin):
+        raise LayoutError(f"place {name} is {origin}")
+
+
+def _check_connection(layout: Layout, connection: bpy.types.Object, address: int, bodies: dict) -> None:
+    offsets, settings, name = layout.constraint, connection.rigid_body_constraint, f"of connection {connection.name!r}"
+    _expect_member(f"type {name}", read_value(address + offsets.type, "i"), CONSTRAINT_TYPES[settings.type])
+    found = {read_pointer(address + offsets.body_a), read_pointer(address + offsets.body_b)}
+    wanted = {bodies.get(settings.object1), bodies.get(settings.object2)}
+    if None not in wanted:
+        _expect(f"bodies {name}", found, wanted)
+    if settings.use_breaking:
+        threshold = read_value(address + offsets.breaking_threshold, "d")
+        _expect_close(f"breaking threshold {name}", threshold, settings.breaking_threshold)
+    _expect_member(f"enabled flag {name}", read_value(address + offsets.enabled, "B"), {0, 1})
+
+
+def _expect(what: str, found: object, expected: object) -> None:
+    if found != expected:
+        raise LayoutError(f"{what} is {found}, not {expected}")
+
+
+def _expect_close(what: str, found: float, expected: float) -> None:
+    if not abs(found - expected) <= _FLOAT32 * max(1.0, abs(expected)):
+        raise LayoutError(f"{what} is {found:g}, not {expected:g}")
+
+
+def _expect_member(what: str, found: int, expected: Iterable[int]) -> None:
+    if found not in expected:
+        raise LayoutError(f"{what} is {found}")

@@ -1,0 +1,221 @@
+"""The Bullet world of a scene, bound to the scene's bodies and connections.
+
+Blender makes the world anew whenever a simulation starts again, often at the same address. A token in a field that
+Blender leaves unused tells a world that has been checked and prepared from one that has not.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ..core.errors import LayoutError, SimulationError
+from . import checks
+from .layout import Layout, platform_layout
+from .memory import (
+    gather_doubles,
+    gather_integers,
+    gather_pointers,
+    read_pointer,
+    read_value,
+    write_double,
+    write_pointers,
+)
+
+_FEEDBACK_DOUBLES = 16
+"""btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
+
+_tokens = itertools.count(0x42444100)
+
+_buffers_bullet_may_write: list[np.ndarray] = []
+"""Buffers handed to Bullet. They are never freed: a constraint may outlive the recording that asked for its forces."""
+
+
+class BulletWorld:
+    """Bodies and connections of a scene as arrays over Bullet's own memory.
+
+    Parameters
+    ----------
+    scene
+        Scene with a rigid-body world.
+    bodies, connections
+        Objects with a rigid body, and objects with a rigid-body constraint. All arrays are in their order.
+    layout
+        Byte offsets; those of this platform unless given.
+    """
+
+    def __init__(
+        self,
+        scene: bpy.types.Scene,
+        bodies: Sequence[bpy.types.Object],
+        connections: Sequence[bpy.types.Object],
+        layout: Layout | None = None,
+    ):
+        self.scene = scene
+        self.bodies = tuple(bodies)
+        self.connections = tuple(connections)
+        self._layout = layout or platform_layout()
+        self._dynamics = 0
+        self._token = 0
+        self._body_addresses = np.zeros(len(self.bodies), np.uint64)
+        self._connection_addresses = np.zeros(len(self.connections), np.uint64)
+        self._exists = np.zeros(len(self.connections), bool)
+        self._feedback = _aligned_doubles(len(self.connections))
+
+    def bind(self, depsgraph: bpy.types.Depsgraph) -> bool:
+        """Find the world, and check and prepare it where it is new. Cheap where it is not.
+
+        Returns
+        -------
+        bool
+            Whether there is a world; Blender makes it at the first frame after the start frame.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected; nothing has been written.
+        SimulationError
+            A body is not part of Blender's simulation.
+        """
+        dynamics = self._find_dynamics_world()
+        if dynamics and not (dynamics == self._dynamics and self._is_marked(dynamics)):
+            self._adopt(dynamics, depsgraph)
+        self._dynamics = dynamics
+        return bool(dynamics)
+
+    def take_substep(self) -> float:
+        """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
+
+        Bullet writes the length at every sub-step and never reads it back, so that taking it out tells frames that
+        were simulated from frames that Blender played back from its cache.
+        """
+        address = self._dynamics + self._layout.world.step
+        substep = float(gather_doubles(np.array([address]))[0, 0])
+        write_double(address, 0.0)
+        return substep
+
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """Origins (n, 3) in m and rotation matrices (n, 3, 3) of all bodies."""
+        transforms = gather_doubles(self._body_addresses + np.uint64(self._layout.body.transform), 15)
+        return transforms[:, 12:15], transforms[:, :12].reshape(-1, 3, 4)[:, :, :3]
+
+    def velocities(self) -> np.ndarray:
+        """Linear velocities (n, 3) of all bodies, m/s."""
+        return gather_doubles(self._body_addresses + np.uint64(self._layout.body.linear_velocity), 3)
+
+    def intact(self) -> np.ndarray:
+        """Whether each connection (m,) exists and has not broken."""
+        intact = np.zeros(len(self.connections), bool)
+        addresses = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.enabled)
+        intact[self._exists] = (gather_integers(addresses) & 0xFF) != 0
+        return intact
+
+    def joint_feedback(self) -> np.ndarray:
+        """Loads that each connection put on its bodies in the last sub-step, (m, 4, 3).
+
+        Rows: force on Bullet's body A (N), torque on A about its centre (N·m), force on B, torque on B. Bullet writes
+        into the array this looks at; copy what must last.
+        """
+        return self._feedback[:, :, :3]
+
+    def first_is_body_a(self) -> np.ndarray:
+        """Whether `object1` of each connection (m,) is Bullet's body A; True where the connection does not exist."""
+        first = np.ones(len(self.connections), bool)
+        addresses = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.body_a)
+        body_a = gather_pointers(addresses)
+        by_object = dict(zip(self.bodies, self._body_addresses.tolist(), strict=True))
+        existing = [connection for connection, exists in zip(self.connections, self._exists, strict=True) if exists]
+        expected = [by_object.get(connection.rigid_body_constraint.object1) for connection in existing]
+        first[self._exists] = [a == e for a, e in zip(body_a.tolist(), expected, strict=True)]
+        return first
+
+    def missing_connections(self) -> list[str]:
+        """Names of connections that Bullet has not got, for want of a body or because they are switched off."""
+        return [connection.name for connection, exists in zip(self.connections, self._exists, strict=True) if not exists]
+
+    def release(self) -> None:
+        """Take our buffers out of the world again, where it is still the one that was prepared."""
+        try:
+            dynamics = self._find_dynamics_world()
+            ours = dynamics and dynamics == self._dynamics and self._is_marked(dynamics)
+        except (LayoutError, ReferenceError):  # the scene is gone, and its world with it
+            ours = False
+        if ours:
+            self._point_feedback_at(np.uint64(0))
+            write_pointers(dynamics + self._layout.world.user_info, 0)
+        self._dynamics = 0
+
+    def _find_dynamics_world(self) -> int:
+        """Address of the btDiscreteDynamicsWorld, 0 while there is none."""
+        blender, world = self._layout.blender, self.scene.rigidbody_world
+        if world is None:
+            return 0
+        checks.check_settings(self._layout, world)
+        shared = read_pointer(world.as_pointer() + blender.world_shared)
+        holder = read_pointer(shared + blender.shared_physics_world) if shared else 0
+        if not holder:
+            return 0
+        # Blender 4.2 points at the physics world itself, later ones at a block whose first field points at it.
+        inner = read_pointer(holder)
+        if not inner:
+            return 0
+        for candidate in (holder, inner):
+            if checks.is_physics_world(self._layout, candidate):
+                return read_pointer(candidate)
+        raise LayoutError("no Bullet world where Blender should keep it")
+
+    def _is_marked(self, dynamics: int) -> bool:
+        return bool(self._token) and read_value(dynamics + self._layout.world.user_info, "Q") == self._token
+
+    def _adopt(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> None:
+        """Check a new world from end to end, and only then write our token and our buffers into it."""
+        checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world)
+        body_addresses = self._find_bodies()
+        connection_addresses = self._find_connections(depsgraph, body_addresses)
+        if not read_value(dynamics + self._layout.world.user_info, "Q") in (0, self._token):
+            raise LayoutError("the world's user information is in use")
+        self._body_addresses = np.array(body_addresses, np.uint64)
+        self._connection_addresses = np.array(connection_addresses, np.uint64)
+        self._exists = self._connection_addresses != 0
+        self._feedback[:] = 0.0
+        starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)
+        self._point_feedback_at(starts[self._exists])
+        self._token = next(_tokens)
+        write_pointers(dynamics + self._layout.world.user_info, self._token)
+
+    def _find_bodies(self) -> list[int]:
+        holders, addresses = [], []
+        for body in self.bodies:
+            shared = read_pointer(body.rigid_body.as_pointer() + self._layout.blender.body_shared)
+            holder = read_pointer(shared) if shared else 0
+            if not holder:
+                raise SimulationError(f"body {body.name!r} is not part of the simulation: give it a mesh and a rigid body")
+            holders.append(holder)
+            addresses.append(read_pointer(holder))
+        checks.check_bodies(self._layout, zip(self.bodies, holders, addresses, strict=True))
+        return addresses
+
+    def _find_connections(self, depsgraph: bpy.types.Depsgraph, body_addresses: list[int]) -> list[int]:
+        """Bullet's constraints, 0 where there is none. Only evaluated objects know theirs."""
+        offset = self._layout.blender.connection_physics
+        evaluated = [connection.evaluated_get(depsgraph) for connection in self.connections]
+        addresses = [read_pointer(each.rigid_body_constraint.as_pointer() + offset) for each in evaluated]
+        existing = [pair for pair in zip(self.connections, addresses, strict=True) if pair[1]]
+        by_object = dict(zip(self.bodies, body_addresses, strict=True))
+        checks.check_connections(self._layout, existing, by_object)
+        return addresses
+
+    def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
+        fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.joint_feedback)
+        write_pointers(fields, targets)
+
+
+def _aligned_doubles(count: int) -> np.ndarray:
+    """Zeroed feedback blocks (count, 4, 4), 16-byte aligned as Bullet's vectors ask, that live as long as the process."""
+    raw = np.zeros(count * _FEEDBACK_DOUBLES + 1)
+    _buffers_bullet_may_write.append(raw)
+    start = (-raw.ctypes.data % 16) // 8
+    return raw[start : start + count * _FEEDBACK_DOUBLES].reshape(count, 4, 4)
