@@ -1,0 +1,165 @@
+"""Scenario files: TOML read strictly into a `Scenario`, and written back without loss."""
+
+import json
+import re
+import tomllib
+from collections.abc import Iterable, Iterator
+from dataclasses import fields
+from difflib import get_close_matches
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+from .errors import ScenarioError
+from .scenario import Scenario
+from .scenario_key import (
+    Table,
+    expected,
+    is_required,
+    key_fields,
+    key_name,
+    shown,
+    subtable_class,
+    subtable_fields,
+)
+
+BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
+
+
+def read_scenario(path: str | PathLike[str]) -> Scenario:
+    """Read a scenario file.
+
+    Parameters
+    ----------
+    path
+        A TOML file; `scenario_text` makes one, and the reference of all keys is ``docs/scenario.md``.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, is not TOML, or a key is unknown, missing or has a wrong value.
+        The text is one line: the path as given, the key and what was expected.
+    """
+    try:
+        return scenario_from_text(_file_text(Path(path)))
+    except ScenarioError as error:
+        raise ScenarioError(f"{fspath(path)}: {error}") from error
+
+
+def scenario_from_text(text: str) -> Scenario:
+    """Read a scenario from TOML.
+
+    Raises
+    ------
+    ScenarioError
+        The text is not TOML, or a key is unknown, missing or has a wrong value.
+    """
+    try:
+        document = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # tomllib lets too long numbers and too deep lists through as these
+        raise ScenarioError(f"not a TOML file: {error}") from error
+    return _scenario(document)
+
+
+def scenario_text(scenario: Scenario) -> str:
+    """Write a scenario as TOML; `scenario_from_text` gives an equal scenario back."""
+    return "\n".join(_table_lines(scenario))
+
+
+def _file_text(path: Path) -> str:
+    try:
+        # Editors on Windows may mark a UTF-8 file at its beginning, which tomllib does not take.
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError as error:
+        raise ScenarioError("no such file: expected a scenario in TOML") from error
+    except IsADirectoryError as error:
+        raise ScenarioError("is a directory: expected a scenario in TOML") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"not a text in UTF-8, at byte {error.start}: expected a scenario in TOML") from error
+    except OSError as error:
+        raise ScenarioError(f"cannot be read: {error.strerror}") from error
+
+
+def _scenario(document: dict[str, Any]) -> Scenario:
+    """The scenario in a document, where the table ``[scenario]`` stands beside the tables it is made of."""
+    names = [Scenario.table, *(item.name for item in subtable_fields(Scenario))]
+    _refuse_unknown("", document, names)
+    heading = document.get(Scenario.table, {})
+    if not isinstance(heading, dict):
+        raise ScenarioError(f"{Scenario.table} is {shown(heading)}: expected a table")
+    _refuse_unknown(Scenario.table, heading, [item.name for item in key_fields(Scenario)])
+    return Scenario(**_key_values(Scenario, heading), **_subtables(Scenario, document))
+
+
+def _table(table_class: type[Table], values: Any) -> Table:
+    if not isinstance(values, dict):
+        raise ScenarioError(f"{table_class.table} is {shown(values)}: expected a table")
+    _refuse_unknown(table_class.table, values, [item.name for item in fields(table_class)])
+    return table_class(**_key_values(table_class, values), **_subtables(table_class, values))
+
+
+def _key_values(table_class: type[Table], values: dict[str, Any]) -> dict[str, Any]:
+    for item in key_fields(table_class):
+        if is_required(item) and item.name not in values:
+            raise ScenarioError(f"{key_name(table_class, item)} is missing: expected {expected(item)}")
+    return {item.name: values[item.name] for item in key_fields(table_class) if item.name in values}
+
+
+def _subtables(table_class: type[Table], values: dict[str, Any]) -> dict[str, Table]:
+    for item in subtable_fields(table_class):
+        if is_required(item) and item.name not in values:
+            raise ScenarioError(f"{key_name(table_class, item)} is missing: expected a table")
+    return {
+        item.name: _table(subtable_class(item), values[item.name])
+        for item in subtable_fields(table_class)
+        if item.name in values
+    }
+
+
+def _refuse_unknown(table: str, values: dict[str, Any], known: Iterable[str]) -> None:
+    known = list(known)
+    for name in values:
+        if name not in known:
+            raise ScenarioError(f"{_dotted(table, name)} is unknown: {_suggestion(table, name, known)}")
+
+
+def _suggestion(table: str, name: str, known: list[str]) -> str:
+    """What was meant by an unknown name: one like it in its table, the same elsewhere, or any of its table."""
+    alike = [_dotted(table, match) for match in get_close_matches(name, known, n=1)]
+    elsewhere = [full for full in _full_names(Scenario) if full.rpartition(".")[2] == name]
+    if alike or elsewhere:
+        return f"did you mean {(alike + elsewhere)[0]}?"
+    return f"expected one of {', '.join(known)}"
+
+
+def _full_names(table_class: type[Table]) -> Iterator[str]:
+    for item in fields(table_class):
+        yield key_name(table_class, item)
+        if inner := subtable_class(item):
+            yield from _full_names(inner)
+
+
+def _dotted(table: str, name: str) -> str:
+    part = name if BARE_KEY.fullmatch(name) else shown(name)
+    return f"{table}.{part}" if table else part
+
+
+def _table_lines(table: Table) -> Iterator[str]:
+    """Lines of a table and of the tables in it; a value or table that is not there has no line."""
+    yield f"[{table.table}]"
+    for item in key_fields(type(table)):
+        value = getattr(table, item.name)
+        if value is not None:
+            yield f"{item.name} = {_toml_value(value)}"
+    yield ""
+    for item in subtable_fields(type(table)):
+        if inner := getattr(table, item.name):
+            yield from _table_lines(inner)
+
+
+def _toml_value(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_toml_value, value))}]"
+    if isinstance(value, bool | str):
+        return json.dumps(value, ensure_ascii=False)
+    return repr(value)
