@@ -66,6 +66,15 @@ def scenario_text(scenario: Scenario) -> str:
     return "\n".join(_table_lines(scenario))
 
 
+def toml_value(value: Any) -> str:
+    """Write a value of a key as TOML."""
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(toml_value, value))}]"
+    if isinstance(value, bool | str):
+        return json.dumps(value, ensure_ascii=False)
+    return repr(value)
+
+
 def _file_text(path: Path) -> str:
     try:
         # Editors on Windows may mark a UTF-8 file at its beginning, which tomllib does not take.
@@ -150,16 +159,8 @@ def _table_lines(table: Table) -> Iterator[str]:
     for item in key_fields(type(table)):
         value = getattr(table, item.name)
         if value is not None:
-            yield f"{item.name} = {_toml_value(value)}"
+            yield f"{item.name} = {toml_value(value)}"
     yield ""
     for item in subtable_fields(type(table)):
         if inner := getattr(table, item.name):
             yield from _table_lines(inner)
-
-
-def _toml_value(value: Any) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(map(_toml_value, value))}]"
-    if isinstance(value, bool | str):
-        return json.dumps(value, ensure_ascii=False)
-    return repr(value)

@@ -1,0 +1,92 @@
+"""``bda check``: what follows from a scenario, without running it."""
+
+import argparse
+from collections.abc import Iterator
+
+from ..core.bridge import bridge_density, bridge_members, deck_top
+from ..core.scenario import Ball, Bridge, ConnectionSettings, Scenario, TimeSettings
+from ..core.scenario_file import read_scenario
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser("check", help="read a scenario and say what follows from it", allow_abbrev=False)
+    parser.add_argument("scenario", metavar="SCENARIO.toml", help="scenario file, see docs/scenario.md")
+    parser.set_defaults(execute=check)
+
+
+def check(arguments: argparse.Namespace) -> None:
+    """Print what a planner wants to know before a run."""
+    for line in scenario_facts(read_scenario(arguments.scenario)):
+        print(line)
+
+
+def scenario_facts(scenario: Scenario) -> Iterator[str]:
+    """Lines on a scenario's bridge, time steps, connections and ball."""
+    yield scenario.title
+    yield from _section("Bridge", _bridge_facts(scenario.bridge))
+    yield from _section("Members", _member_facts(scenario.bridge))
+    yield from _section("Time", _time_facts(scenario.time))
+    yield from _section("Shards and connections", _connection_facts(scenario))
+    if scenario.ball:
+        yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
+
+
+def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:
+    yield ""
+    yield heading
+    for name, value in facts:
+        yield f"  {name:<24}{value}"
+
+
+def _bridge_facts(bridge: Bridge) -> Iterator[tuple[str, str]]:
+    yield "length", f"{bridge.length_m:.2f} m"
+    yield "spans", " + ".join(f"{span:.2f}" for span in bridge.span_lengths_m) + " m"
+    yield "deck top above ground", f"{deck_top(bridge):.2f} m"
+
+
+def _member_facts(bridge: Bridge) -> Iterator[tuple[str, str]]:
+    members = bridge_members(bridge)
+    density = bridge_density(bridge, members)
+    volume = sum(member.volume_m3 for member in members)
+    for member in members:
+        yield member.name, _volume_and_mass(member.volume_m3, density)
+    yield "all", _volume_and_mass(volume, density)
+    yield "density", f"{density:.0f} kg/m³"
+
+
+def _volume_and_mass(volume_m3: float, density_kg_m3: float) -> str:
+    return f"{volume_m3:9.3f} m³ {volume_m3 * density_kg_m3 / 1000.0:10.3f} t"
+
+
+def _time_facts(time: TimeSettings) -> Iterator[tuple[str, str]]:
+    yield "duration", f"{time.duration_s:g} s"
+    yield "frames", f"{time.frames} of {time.step.frame_s:.6g} s"
+    yield "sub-step", f"{time.step.substep_s:.6g} s, {time.substeps_per_frame} in a frame"
+
+
+def _connection_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    connections = scenario.connections
+    force = connections.breaking_force_newton
+    yield "shards", f"{scenario.fracture.shards}"
+    yield "connections", f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
+    yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
+    yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
+
+
+def _method(connections: ConnectionSettings) -> str:
+    if connections.method == "face":
+        return "shards that share a face"
+    places = {"vertex": "nearest vertices", "centre": "centres of mass"}
+    return f"{places[connections.method]} within {connections.search_radius_m:g} m"
+
+
+def _ball_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
+    impact_time_s = ball.release_time_s + ball.fall_time_s
+    late = ", after the end of the run" if impact_time_s > time.duration_s else ""
+    yield "mass", f"{ball.mass_kg / 1000.0:.3f} t"
+    yield "diameter", f"{ball.diameter_m:.2f} m, so {ball.density_kg_m3:.0f} kg/m³"
+    yield "clear drop height", f"{ball.drop_height_m:.2f} m"
+    yield "fall time", f"{ball.fall_time_s:.3f} s, so it hits the deck at {impact_time_s:.3f} s{late}"
+    yield "impact speed", f"{ball.impact_speed_m_s:.2f} m/s"
+    yield "impact energy", f"{ball.mass_kg * ball.impact_speed_m_s**2 / 2000.0:.1f} kJ"

@@ -1,0 +1,64 @@
+"""``bda run``: run a scenario and keep its results in a folder."""
+
+import argparse
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import SimulationError
+from ..core.scenario_file import read_scenario
+from .progress import Progress, progress_on
+
+RESULTS = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "scene.blend", "frames")
+"""What a run may leave in its folder, in the order in which a reader wants to see it."""
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser("run", help="run a scenario and keep its results in a folder", allow_abbrev=False)
+    parser.add_argument("scenario", metavar="SCENARIO.toml", help="scenario file, see docs/scenario.md")
+    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the results, made if new")
+    parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
+    parser.add_argument("--no-pictures", action="store_true", help="render no pictures")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.set_defaults(execute=run)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Run the scenario, say how far it is, and then where the results are."""
+    progress = progress_on(sys.stdout, quiet=arguments.quiet)
+    try:
+        summary = _run_scenario(arguments, progress)
+    finally:
+        progress.finish()
+    if not arguments.quiet:
+        _print_results(summary, arguments.output)
+
+
+def _run_scenario(arguments: argparse.Namespace, progress: Progress) -> Mapping[str, Any]:
+    scenario = read_scenario(arguments.scenario)
+    try:
+        from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
+    except ModuleNotFoundError as error:
+        if error.name != "bpy":
+            raise
+        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
+    return run_scenario(
+        scenario,
+        arguments.output,
+        overwrite=arguments.overwrite,
+        pictures=not arguments.no_pictures,
+        progress=progress,
+    )
+
+
+def _print_results(summary: Mapping[str, Any], output: Path) -> None:
+    print()
+    for name, value in summary.items():
+        if isinstance(value, int | float | str):
+            print(f"{name.replace('_', ' ')}: {value}")
+    print()
+    for path in (output / name for name in RESULTS):
+        if path.exists():
+            print(path)

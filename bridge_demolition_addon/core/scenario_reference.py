@@ -1,0 +1,62 @@
+"""The reference of all keys of a scenario file, made from the dataclasses that check them.
+
+``python -m bridge_demolition_addon.core.scenario_reference docs/scenario.md`` writes it.
+"""
+
+import sys
+from collections.abc import Iterator
+from dataclasses import Field
+from pathlib import Path
+
+from .scenario import Scenario
+from .scenario_file import toml_value
+from .scenario_key import Table, expected, is_required, key_fields, subtable_class, subtable_fields
+
+INTRODUCTION = """\
+# Scenario files
+
+<!-- Made by `python -m bridge_demolition_addon.core.scenario_reference docs/scenario.md`: change the code instead. -->
+
+A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads one and says what follows from it, `bda run FILE`
+runs it; [examples](../examples) has some to start from. Every key carries its unit in its name. A key that is not
+listed here is refused, and so is a value outside its limits.
+
+x runs along the road with the axis of the first pier at 0, y across it with 0 in its middle, z up with the ground at 0.
+The deck's top is at the height of a pier, a pier cap and the deck together.
+"""
+
+
+def scenario_reference() -> str:
+    """Every table and key of a scenario file with its default, limits and meaning, in Markdown."""
+    return "\n".join([INTRODUCTION, *_section(Scenario, required=True)])
+
+
+def _section(table_class: type[Table], *, required: bool) -> Iterator[str]:
+    yield f"## [{table_class.table}]"
+    yield ""
+    yield f"{_meaning(table_class)} {'Required.' if required else 'May be left out.'}"
+    yield ""
+    yield "| Key | Value | Default | Meaning |"
+    yield "| --- | --- | --- | --- |"
+    yield from map(_row, key_fields(table_class))
+    yield ""
+    for item in subtable_fields(table_class):
+        yield from _section(subtable_class(item), required=is_required(item))
+
+
+def _row(item: Field) -> str:
+    return f"| `{item.name}` | {expected(item)} | {_default(item)} | {item.metadata['key'].description} |"
+
+
+def _default(item: Field) -> str:
+    if is_required(item):
+        return "required"
+    return "none" if item.default is None else f"`{toml_value(item.default)}`"
+
+
+def _meaning(table_class: type[Table]) -> str:
+    return " ".join(table_class.__doc__.split())
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_text(scenario_reference(), encoding="utf-8", newline="\n")
