@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from enum import Enum
 
 import bpy
 import numpy as np
@@ -32,6 +33,14 @@ _tokens = itertools.count(0x42444100)
 
 _buffers_bullet_may_write: list[np.ndarray] = []
 """Buffers handed to Bullet. They are never freed: a constraint may outlive the recording that asked for its forces."""
+
+
+class WorldState(Enum):
+    """What `BulletWorld.bind` found."""
+
+    ABSENT = "Blender has made no world yet"
+    NEW = "a world that was checked and prepared just now"
+    KNOWN = "the world of the last call"
 
 
 class BulletWorld:
@@ -65,13 +74,10 @@ class BulletWorld:
         self._exists = np.zeros(len(self.connections), bool)
         self._feedback = _aligned_doubles(len(self.connections))
 
-    def bind(self, depsgraph: bpy.types.Depsgraph) -> bool:
+    def bind(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
         """Find the world, and check and prepare it where it is new. Cheap where it is not.
 
-        Returns
-        -------
-        bool
-            Whether there is a world; Blender makes it at the first frame after the start frame.
+        Not for the start frame: there Blender still holds the world of an earlier simulation.
 
         Raises
         ------
@@ -81,10 +87,14 @@ class BulletWorld:
             A body is not part of Blender's simulation.
         """
         dynamics = self._find_dynamics_world()
-        if dynamics and not (dynamics == self._dynamics and self._is_marked(dynamics)):
+        known = dynamics == self._dynamics and self._is_marked(dynamics)
+        self._dynamics = 0
+        if not dynamics:
+            return WorldState.ABSENT
+        if not known:
             self._adopt(dynamics, depsgraph)
         self._dynamics = dynamics
-        return bool(dynamics)
+        return WorldState.KNOWN if known else WorldState.NEW
 
     def take_substep(self) -> float:
         """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
@@ -168,14 +178,14 @@ class BulletWorld:
         raise LayoutError("no Bullet world where Blender should keep it")
 
     def _is_marked(self, dynamics: int) -> bool:
-        return bool(self._token) and read_value(dynamics + self._layout.world.user_info, "Q") == self._token
+        return bool(dynamics and self._token) and read_value(dynamics + self._layout.world.user_info, "Q") == self._token
 
     def _adopt(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> None:
         """Check a new world from end to end, and only then write our token and our buffers into it."""
         checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world)
         body_addresses = self._find_bodies()
         connection_addresses = self._find_connections(depsgraph, body_addresses)
-        if not read_value(dynamics + self._layout.world.user_info, "Q") in (0, self._token):
+        if read_value(dynamics + self._layout.world.user_info, "Q") not in (0, self._token):
             raise LayoutError("the world's user information is in use")
         self._body_addresses = np.array(body_addresses, np.uint64)
         self._connection_addresses = np.array(connection_addresses, np.uint64)

@@ -1,0 +1,77 @@
+"""What connections do to bodies: resultants, sums of magnitudes, and moments at the connections themselves."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
+    """Vector sum of the connection forces on every body.
+
+    Parameters
+    ----------
+    pairs
+        (m, 2) indices of the connected bodies.
+    forces
+        (m, 3) force on the first body of each pair, N; the second gets the opposite (Newton's third law).
+    body_count
+        Number of bodies n.
+
+    Returns
+    -------
+    numpy.ndarray
+        (n, 3) in N.
+    """
+    first, second = pairs.T
+    components = [
+        np.bincount(first, forces[:, axis], body_count) - np.bincount(second, forces[:, axis], body_count)
+        for axis in range(3)
+    ]
+    return np.column_stack(components)
+
+
+def magnitude_sums(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
+    """Sum of the magnitudes of the connection forces on every body, (n,) in N.
+
+    The measure of how hard a body is held from all sides, where the resultant of a body at rest is only its weight.
+    """
+    magnitudes = np.linalg.norm(forces, axis=1)
+    first, second = pairs.T
+    return np.bincount(first, magnitudes, body_count) + np.bincount(second, magnitudes, body_count)
+
+
+def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    """Moments of connections about their own points.
+
+    Parameters
+    ----------
+    points
+        (m, 3) where the connections sit, m.
+    forces, torques
+        (m, 3) force on a body in N, and the torque of the whole load about that body's centre in N·m.
+    centres
+        (m, 3) that body's centre, m.
+
+    Returns
+    -------
+    numpy.ndarray
+        (m, 3) in N·m: the torque less what the force makes by its lever arm.
+    """
+    return torques - np.cross(points - centres, forces)
+
+
+def carried_points(
+    local_points: np.ndarray, bodies: np.ndarray, centres: np.ndarray, rotations: np.ndarray
+) -> np.ndarray:
+    """Where points fixed to moving bodies are, (m, 3) in m.
+
+    Parameters
+    ----------
+    local_points
+        (m, 3) in the axes of their bodies, from the bodies' centres.
+    bodies
+        (m,) the body of each point.
+    centres, rotations
+        (n, 3) and (n, 3, 3) of all bodies.
+    """
+    return centres[bodies] + np.einsum("mij,mj->mi", rotations[bodies], local_points)

@@ -1,0 +1,120 @@
+"""From a scenario to the model that is simulated: shards with their masses, and the connections between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import connections as connecting
+from .bridge import Member, bridge_density, bridge_members
+from .connections import Connections
+from .errors import GeometryError
+from .fracture import ShardMesh, SharedFaces, fracture, touching_faces
+from .scenario import ConnectionSettings, Scenario
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A bridge cut into shards, and its connections.
+
+    Attributes
+    ----------
+    members
+        Members of the bridge before they were cut.
+    density_kg_m3
+        Density of all members.
+    shards
+        The n shards' closed meshes, in the bridge's coordinates.
+    member_of_shard
+        (n,) index of the member that each shard was cut from.
+    masses_kg
+        (n,) mass of each shard.
+    centres_m
+        (n, 3) centre of mass of each shard.
+    connections
+        Connections between shards and to the ground.
+    """
+
+    members: tuple[Member, ...]
+    density_kg_m3: float
+    shards: tuple[ShardMesh, ...]
+    member_of_shard: np.ndarray
+    masses_kg: np.ndarray
+    centres_m: np.ndarray
+    connections: Connections
+
+
+def build_model(scenario: Scenario) -> Model:
+    """Bridge, shards and connections of a scenario; the same scenario gives the same model.
+
+    Raises
+    ------
+    GeometryError
+        The bridge cannot be cut into that many shards.
+    """
+    members = bridge_members(scenario.bridge)
+    density = bridge_density(scenario.bridge, members)
+    counts = shards_per_member(np.array([member.volume_m3 for member in members]), scenario.fracture.shards)
+    seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
+    parts = [
+        fracture(member.solid, int(count), int(seed)) for member, count, seed in zip(members, counts, seeds, strict=True)
+    ]
+    shards = tuple(shard for part in parts for shard in part.shards)
+    member_of_shard = np.repeat(np.arange(len(members)), counts)
+    centres = np.concatenate([part.centres for part in parts])
+    faces = _all_faces([part.faces for part in parts], shards, member_of_shard, counts)
+    return Model(
+        members=members,
+        density_kg_m3=density,
+        shards=shards,
+        member_of_shard=member_of_shard,
+        masses_kg=density * np.concatenate([part.volumes for part in parts]),
+        centres_m=centres,
+        connections=_connections(scenario.connections, shards, centres, faces),
+    )
+
+
+def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
+    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together.
+
+    Raises
+    ------
+    GeometryError
+        There are fewer shards than members.
+    """
+    if shard_count < len(volumes):
+        raise GeometryError(
+            f"fracture.shards is {shard_count}: expected at least {len(volumes)}, one for each member of the bridge"
+        )
+    shares = volumes / volumes.sum() * (shard_count - len(volumes))
+    counts = 1 + np.floor(shares).astype(int)
+    largest_remainders = np.argsort(-(shares - np.floor(shares)), kind="stable")
+    counts[largest_remainders[: shard_count - counts.sum()]] += 1
+    return counts
+
+
+def _all_faces(
+    within: list[SharedFaces], shards: tuple[ShardMesh, ...], member_of_shard: np.ndarray, counts: np.ndarray
+) -> SharedFaces:
+    """Faces shared within each member, and those where two members touch."""
+    first_shards = np.concatenate(([0], np.cumsum(counts)[:-1]))
+    between = touching_faces(shards, member_of_shard)
+    return SharedFaces(
+        pairs=np.concatenate([f.pairs + first for f, first in zip(within, first_shards, strict=True)] + [between.pairs]),
+        areas=np.concatenate([f.areas for f in within] + [between.areas]),
+        centres=np.concatenate([f.centres for f in within] + [between.centres]),
+        normals=np.concatenate([f.normals for f in within] + [between.normals]),
+    )
+
+
+def _connections(
+    settings: ConnectionSettings, shards: tuple[ShardMesh, ...], centres: np.ndarray, faces: SharedFaces
+) -> Connections:
+    neighbours = {
+        "face": lambda: connecting.neighbours_by_face(faces),
+        "centre": lambda: connecting.neighbours_by_centre(centres, settings.search_radius_m),
+        "vertex": lambda: connecting.neighbours_by_vertex(shards, settings.search_radius_m),
+    }
+    between = connecting.connect(centres, faces, *neighbours[settings.method](), settings.limit_per_shard)
+    return connecting.joined([between, connecting.foundations(shards)]) if settings.foundation else between

@@ -1,0 +1,41 @@
+"""What can be read off the motion of bodies: travel, throw, and when a falling body is hit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+_HIT_SHARE = 0.5
+"""A frame counts as a hit when velocity departs from free fall by more than this share of the frame's g·t."""
+
+
+def travel(first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Straight-line distance (n,) between first and last places (n, 3), m."""
+    return np.linalg.norm(last - first, axis=1)
+
+
+def throw(first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Horizontal distance (n,) between first and last places (n, 3), m."""
+    return np.linalg.norm((last - first)[:, :2], axis=1)
+
+
+def first_hit(velocities: np.ndarray, times: np.ndarray, gravity: np.ndarray) -> int | None:
+    """First step in which something other than gravity acted on a falling body.
+
+    Parameters
+    ----------
+    velocities
+        (k, 3) velocity of the body after each step since its release, m/s.
+    times
+        (k,) simulated time after each step, s.
+    gravity
+        (3,) acceleration of gravity, m/s².
+
+    Returns
+    -------
+    int or None
+        Index of that step, None where the body fell freely throughout.
+    """
+    steps = np.diff(times)
+    departures = np.linalg.norm(np.diff(velocities, axis=0) - steps[:, None] * gravity, axis=1)
+    hits = np.flatnonzero(departures > _HIT_SHARE * steps * np.linalg.norm(gravity))
+    return int(hits[0]) + 1 if len(hits) else None

@@ -1,0 +1,148 @@
+"""Rigid bodies of a demolition: shards, the ball and the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import Enum
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.fracture import ShardMesh
+from ..core.scenario import Ball, Ground, ShardSettings
+
+_KIND = "bda_kind"
+_GROUND_THICKNESS_M = 2.0
+_BALL_SEGMENTS = 32
+
+_CONCRETE = (0.62, 0.60, 0.56)
+_STEEL = (0.08, 0.09, 0.10, 1.0)
+_SOIL = (0.33, 0.30, 0.24, 1.0)
+_SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
+
+
+class Kind(str, Enum):
+    """What a rigid body stands for."""
+
+    SHARD = "shard"
+    BALL = "ball"
+    GROUND = "ground"
+
+
+def kind_of(body: bpy.types.Object) -> Kind:
+    """What a body stands for; one that nobody marked is a shard where it can move, and ground where it cannot."""
+    if _KIND in body:
+        return Kind(body[_KIND])
+    return Kind.SHARD if body.rigid_body.type == "ACTIVE" else Kind.GROUND
+
+
+def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """All mesh objects that take part in the scene's rigid-body world."""
+    return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]
+
+
+def create_shard_template(world: bpy.types.RigidBodyWorld, settings: ShardSettings) -> bpy.types.Object:
+    """Body that all shards are copied from; to be removed afterwards."""
+    template = _rigid_body(world, bpy.data.meshes.new("Shard"), Kind.SHARD, "CONVEX_HULL")
+    rigid = template.rigid_body
+    _set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
+    rigid.linear_damping = settings.linear_damping
+    rigid.angular_damping = settings.angular_damping
+    rigid.use_deactivation = settings.use_deactivation
+    rigid.use_start_deactivated = settings.start_deactivated
+    rigid.deactivate_linear_velocity = settings.deactivation_linear_velocity_m_s
+    rigid.deactivate_angular_velocity = settings.deactivation_angular_velocity_rad_s
+    return template
+
+
+def create_shards(
+    collection: bpy.types.Collection,
+    template: bpy.types.Object,
+    shards: Iterable[ShardMesh],
+    centres_m: np.ndarray,
+    masses_kg: np.ndarray,
+) -> list[bpy.types.Object]:
+    """One active body per shard, its origin at its centre of mass.
+
+    Parameters
+    ----------
+    collection, template
+        Where the bodies go, and what they are copied from.
+    shards, centres_m, masses_kg
+        For each of n shards its mesh, centre of mass (n, 3) and mass (n,).
+    """
+    bodies = []
+    for number, (shard, centre, mass) in enumerate(zip(shards, centres_m, masses_kg, strict=True)):
+        mesh = bpy.data.meshes.new(f"Shard {number:05d}")
+        mesh.from_pydata(shard.vertices - centre, [], shard.triangles.tolist())
+        body = template.copy()
+        body.name, body.data, body.location = mesh.name, mesh, centre
+        body.color = (*(channel * _SHADES[number % len(_SHADES)] for channel in _CONCRETE), 1.0)
+        body.rigid_body.mass = mass
+        collection.objects.link(body)
+        bodies.append(body)
+    return bodies
+
+
+def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
+    """Passive block with its top at height 0, `half_size_m` to every side of the origin."""
+    shape = bmesh.new()
+    bmesh.ops.create_cube(shape, size=1.0)
+    size = (2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M)
+    bmesh.ops.scale(shape, vec=size, verts=shape.verts)
+    ground = _rigid_body(world, _mesh("Ground", shape), Kind.GROUND, "BOX")
+    ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
+    ground.color = _SOIL
+    ground.rigid_body.type = "PASSIVE"
+    _set_surface(ground.rigid_body, settings.friction, settings.restitution, 0.0)
+    return ground
+
+
+def create_ball(
+    world: bpy.types.RigidBodyWorld, settings: Ball, deck_top_m: float, start_frame: int, release_frame: int
+) -> bpy.types.Object:
+    """Wrecking ball above its target: held by animation up to its release, then free.
+
+    In the release frame it is free for the first time, so that it falls in the step towards that frame.
+    """
+    radius = settings.diameter_m / 2.0
+    shape = bmesh.new()
+    bmesh.ops.create_uvsphere(shape, u_segments=_BALL_SEGMENTS, v_segments=_BALL_SEGMENTS // 2, radius=radius)
+    ball = _rigid_body(world, _mesh("Wrecking ball", shape), Kind.BALL, "SPHERE")
+    ball.location = (*settings.target_m, deck_top_m + settings.drop_height_m + radius)
+    ball.color = _STEEL
+    rigid = ball.rigid_body
+    rigid.mass = settings.mass_kg
+    _set_surface(rigid, settings.friction, settings.restitution, 0.0)
+    # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
+    rigid.linear_damping = rigid.angular_damping = 0.0
+    rigid.use_deactivation = False
+    for frame, held in ((start_frame, True), (release_frame, False)):
+        rigid.kinematic = held
+        ball.keyframe_insert("rigid_body.kinematic", frame=frame)
+    rigid.kinematic = True
+    return ball
+
+
+def _rigid_body(
+    world: bpy.types.RigidBodyWorld, mesh: bpy.types.Mesh, kind: Kind, collision_shape: str
+) -> bpy.types.Object:
+    """Object in the world's collection, which makes it a rigid body."""
+    body = bpy.data.objects.new(mesh.name, mesh)
+    world.collection.objects.link(body)
+    body.rigid_body.collision_shape = collision_shape
+    body[_KIND] = kind.value
+    return body
+
+
+def _set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution: float, margin_m: float) -> None:
+    rigid.friction, rigid.restitution = friction, restitution
+    rigid.use_margin, rigid.collision_margin = True, margin_m
+
+
+def _mesh(name: str, shape: bmesh.types.BMesh) -> bpy.types.Mesh:
+    mesh = bpy.data.meshes.new(name)
+    shape.to_mesh(mesh)
+    shape.free()
+    return mesh

@@ -1,0 +1,52 @@
+"""A whole demolition as Blender data: a model's shards and connections, the ground and the ball."""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+
+from ..core.bridge import deck_top
+from ..core.model import Model
+from ..core.scenario import Scenario
+from .bodies import create_ball, create_ground, create_shard_template, create_shards
+from .connections import create_connection_template, create_connections
+from .world import START_FRAME, create_world, off_scene
+
+FIRST_STEP_FRAME = START_FRAME + 2
+"""First frame that time leads to: Blender makes the world in the frame before, in which no time passes."""
+
+_DEBRIS_ROOM = 10.0
+"""Ground to each side of the bridge, as a multiple of its height; debris of a felled bridge stays well inside."""
+
+
+def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
+    """Put a model and everything around it into an empty scene, ready to be played from its start frame."""
+    world = create_world(scene, scenario.time, last_frame(scenario))
+    ground = create_ground(world, _ground_half_size(scenario), scenario.ground)
+    if scenario.ball:
+        create_ball(world, scenario.ball, deck_top(scenario.bridge), START_FRAME, release_frame(scenario))
+    impulse = scenario.time.step.impulse(scenario.connections.breaking_force_newton)
+    shard_template = create_shard_template(world, scenario.shards)
+    connection_template = create_connection_template(world, scenario.connections.type, impulse)
+    with off_scene(scene) as (bodies, connections):
+        shards = create_shards(bodies, shard_template, model.shards, model.centres_m, model.masses_kg)
+        create_connections(connections, connection_template, model.connections, shards, ground)
+    for template in (shard_template, connection_template):
+        bpy.data.objects.remove(template)
+
+
+def last_frame(scenario: Scenario) -> int:
+    """Frame at which a scenario's duration is over."""
+    return FIRST_STEP_FRAME - 1 + scenario.time.frames
+
+
+def release_frame(scenario: Scenario) -> int:
+    """First frame towards which the ball falls freely."""
+    return FIRST_STEP_FRAME + scenario.time.step.frames(scenario.ball.release_time_s)
+
+
+def _ground_half_size(scenario: Scenario) -> float:
+    bridge = scenario.bridge
+    height = deck_top(bridge) + (scenario.ball.drop_height_m if scenario.ball else 0.0)
+    return math.hypot(bridge.length_m, bridge.deck.width_m) + _DEBRIS_ROOM * height

@@ -1,0 +1,62 @@
+"""The scene's rigid-body world, its time, and the collections that its bodies and connections live in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ..core.scenario import STANDARD_GRAVITY_M_S2, TimeSettings
+from ..core.time_step import TimeStep
+
+START_FRAME = 1
+
+
+def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int) -> bpy.types.RigidBodyWorld:
+    """Give a scene a rigid-body world of its own, over the frames from `START_FRAME` to `last_frame`."""
+    scene.unit_settings.system = "METRIC"
+    scene.unit_settings.scale_length = 1.0
+    scene.gravity = (0.0, 0.0, -STANDARD_GRAVITY_M_S2)
+    scene.render.fps = settings.frames_per_second
+    scene.render.fps_base = settings.frames_per_second_base
+    scene.frame_start, scene.frame_end = START_FRAME, last_frame
+    scene.frame_set(START_FRAME)
+    with bpy.context.temp_override(scene=scene):
+        bpy.ops.rigidbody.world_add()
+    world = scene.rigidbody_world
+    world.substeps_per_frame = settings.substeps_per_frame
+    world.solver_iterations = settings.solver_iterations
+    world.time_scale = settings.time_scale
+    world.point_cache.frame_start, world.point_cache.frame_end = START_FRAME, last_frame
+    world.collection = bpy.data.collections.new("Bodies")
+    world.constraints = bpy.data.collections.new("Connections")
+    scene.collection.children.link(world.collection)
+    scene.collection.children.link(world.constraints)
+    return world
+
+
+def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
+    """How the scene cuts time now."""
+    world = scene.rigidbody_world
+    return TimeStep(scene.render.fps, scene.render.fps_base, world.substeps_per_frame, world.time_scale)
+
+
+@contextmanager
+def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bpy.types.Collection]]:
+    """The collections of bodies and of connections, taken off the scene while many objects are linked to them.
+
+    Every link to a collection that a scene shows brings the whole scene up to date, so that thousands of them take
+    time that grows with the square of their number.
+    """
+    world = scene.rigidbody_world
+    bodies, connections = world.collection, world.constraints
+    world.collection = world.constraints = None
+    scene.collection.children.unlink(bodies)
+    scene.collection.children.unlink(connections)
+    try:
+        yield bodies, connections
+    finally:
+        scene.collection.children.link(bodies)
+        scene.collection.children.link(connections)
+        world.collection, world.constraints = bodies, connections

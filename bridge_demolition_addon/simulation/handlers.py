@@ -1,0 +1,80 @@
+"""Blender's handlers that drive a recording. They are there while one runs, and never raise."""
+
+from __future__ import annotations
+
+import atexit
+from collections.abc import Callable
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..core.errors import SimulationError
+from .recording import Recording
+
+_current: Recording | None = None
+
+
+def start(recording: Recording) -> None:
+    """Let a recording follow its scene's timeline, in place of one that may still run."""
+    global _current
+    stop()
+    _current = recording
+    for handlers, ours in _handlers():
+        handlers.append(ours)
+
+
+def stop() -> Recording | None:
+    """End the running recording, take our handlers away, and give the recording back."""
+    global _current
+    for handlers, ours in _handlers():
+        while ours in handlers:
+            handlers.remove(ours)
+    recording, _current = _current, None
+    if recording and not recording.error:
+        recording.close()
+    return recording
+
+
+def current() -> Recording | None:
+    """The recording that runs now."""
+    return _current
+
+
+def _handlers() -> tuple[tuple[list, Callable], ...]:
+    lists = bpy.app.handlers
+    return (
+        (lists.frame_change_pre, _before_frame),
+        (lists.frame_change_post, _after_frame),
+        (lists.load_pre, _before_upheaval),
+        (lists.undo_pre, _before_upheaval),
+        (lists.redo_pre, _before_upheaval),
+    )
+
+
+@persistent
+def _before_frame(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    _follow(scene, lambda recording: recording.before_frame())
+
+
+@persistent
+def _after_frame(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    _follow(scene, lambda recording: recording.after_frame(depsgraph))
+
+
+@persistent
+def _before_upheaval(*_: object) -> None:
+    """Undo, redo and loading a file free what a recording looks at: it ends while that is still there."""
+    if _current and not _current.error:
+        _current.fail(SimulationError("recording ended, as undo, redo or loading a file replaces what it looks at"))
+
+
+def _follow(scene: bpy.types.Scene, action: Callable[[Recording], None]) -> None:
+    if _current is None or _current.error or scene != _current.scene:
+        return
+    try:
+        action(_current)
+    except Exception as error:  # an exception in a handler would be lost in the console: the recording keeps it
+        _current.fail(error)
+
+
+atexit.register(stop)

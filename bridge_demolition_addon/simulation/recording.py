@@ -1,0 +1,225 @@
+"""Recording a simulation while Blender's timeline runs: forces, motion and breaking, frame by frame."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..bullet.world import BulletWorld, WorldState
+from ..core import forces
+from ..core.errors import SimulationError
+from ..core.motion import throw, travel
+from ..core.results import Results
+from ..scene.bodies import bodies_of, kind_of
+from ..scene.connections import connections_of
+from .logs import DEBRIS_COLUMNS, FORCE_COLUMNS, BodyLog
+
+
+class Recording:
+    """What happens in one scene from its start frame on; a simulation that starts anew is recorded anew.
+
+    Parameters
+    ----------
+    scene
+        Scene with a rigid-body world.
+    folder
+        Existing folder for the logs.
+
+    Attributes
+    ----------
+    error
+        Why the recording ended before its time, or None.
+    seconds
+        Wall time that recording has taken so far.
+    """
+
+    def __init__(self, scene: bpy.types.Scene, folder: Path):
+        if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
+            raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+        self.scene = scene
+        self.error: Exception | None = None
+        self.seconds = 0.0
+        self._folder = folder
+        self._bodies = bodies_of(scene)
+        self._connections = connections_of(scene)
+        self._world = BulletWorld(scene, self._bodies, self._connections)
+        self._held_time_scale: float | None = None
+        self._logs: tuple[BodyLog, BodyLog] | None = None
+        self._steps: list[dict[str, np.ndarray | float]] = []
+
+    def before_frame(self) -> None:
+        """Let no time pass in the frame in which Blender makes its world.
+
+        The world's first step otherwise happens in the same breath as its making, before anything can be asked of it.
+        """
+        if self.scene.frame_current == self._start_frame + 1:
+            self._held_time_scale = self.scene.rigidbody_world.time_scale
+            self.scene.rigidbody_world.time_scale = 0.0
+
+    def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Take down what the frame's last sub-step left behind.
+
+        Raises
+        ------
+        LayoutError, SimulationError
+            The world cannot be read, or bodies were added or removed while it ran.
+        """
+        began = time.perf_counter()
+        try:
+            if self.scene.frame_current > self._start_frame:
+                self._record(self._bound_state(depsgraph))
+        finally:
+            self._release_time()
+            self.seconds += time.perf_counter() - began
+
+    def fail(self, error: Exception) -> None:
+        """End the recording for a reason."""
+        self.error = error
+        self.close()
+
+    def close(self) -> None:
+        """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
+        self._release_time()
+        self._world.release()
+        if self._logs:
+            self._write_debris(self._steps[-1])
+            for log in self._logs:
+                log.close()
+            self._logs = None
+
+    @property
+    def recorded_frames(self) -> int:
+        """Frames recorded so far."""
+        return len(self._steps)
+
+    @property
+    def broken(self) -> int:
+        """Connections broken by now."""
+        return int((~self._steps[-1]["intact"]).sum()) if self._steps else 0
+
+    def results(self) -> Results:
+        """Everything recorded.
+
+        Raises
+        ------
+        SimulationError
+            Nothing was recorded.
+        """
+        if not self._steps:
+            raise SimulationError("nothing was recorded: play the timeline from its start frame")
+        series = {name: np.array([step[name] for step in self._steps]) for name in self._steps[0]}
+        return Results(
+            body_names=np.array(self._names),
+            body_kinds=np.array(self._kinds),
+            masses_kg=self._masses,
+            connection_names=np.array(self._connection_names),
+            pairs=self._pairs,
+            **series,
+        )
+
+    @property
+    def _start_frame(self) -> int:
+        return self.scene.rigidbody_world.point_cache.frame_start
+
+    def _bound_state(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
+        world = self.scene.rigidbody_world
+        if len(bodies_of(self.scene)) != len(self._bodies) or len(connections_of(self.scene)) != len(self._connections):
+            raise SimulationError("bodies or connections were added or removed: go to the start frame and record anew")
+        if world is None:
+            raise SimulationError("the rigid-body world was removed while it was recorded")
+        return self._world.bind(depsgraph)
+
+    def _record(self, state: WorldState) -> None:
+        if state is WorldState.ABSENT:
+            return
+        substep = self._world.take_substep()
+        if state is WorldState.NEW:
+            self._begin()
+            substep = 0.0 if self._held_time_scale is not None else substep
+        elif substep == 0.0:
+            return  # played back from Blender's cache: Bullet stands where it stood
+        self._record_step(substep)
+
+    def _begin(self) -> None:
+        """Note what stays the same throughout, and start the logs."""
+        self._steps.clear()
+        self._elapsed = 0.0
+        self._names = [body.name for body in self._bodies]
+        self._kinds = [kind_of(body).value for body in self._bodies]
+        active = np.array([body.rigid_body.type == "ACTIVE" for body in self._bodies])
+        self._masses = np.where(active, [body.rigid_body.mass for body in self._bodies], 0.0)
+        self._connection_names = [connection.name for connection in self._connections]
+        self._pairs = self._paired_bodies()
+        self._first_is_a = self._world.first_is_body_a()
+        self._local_points = self._points_in_first_bodies()
+        self._logs = (
+            BodyLog(self._folder / "force_log.csv", FORCE_COLUMNS, self._names),
+            BodyLog(self._folder / "debris_log.csv", DEBRIS_COLUMNS, self._names),
+        )
+
+    def _paired_bodies(self) -> np.ndarray:
+        index = {body: number for number, body in enumerate(self._bodies)}
+        pairs = []
+        for connection in self._connections:
+            constraint = connection.rigid_body_constraint
+            if constraint.object1 not in index or constraint.object2 not in index:
+                raise SimulationError(f"connection {connection.name!r} lacks a body: give it two, or delete it")
+            pairs.append((index[constraint.object1], index[constraint.object2]))
+        return np.array(pairs, int).reshape(-1, 2)
+
+    def _points_in_first_bodies(self) -> np.ndarray:
+        """Points of the connections (m, 3) in the axes of their first bodies."""
+        points = np.array([connection.matrix_world.translation for connection in self._connections]).reshape(-1, 3)
+        centres, rotations = self._world.places()
+        first = self._pairs[:, 0]
+        return np.einsum("mji,mj->mi", rotations[first], points - centres[first])
+
+    def _record_step(self, substep_s: float) -> None:
+        self._elapsed += substep_s * self.scene.rigidbody_world.substeps_per_frame
+        places, rotations = self._world.places()
+        force, moment = self._connection_loads(places, rotations)
+        step = {
+            "frames": self.scene.frame_current,
+            "times_s": self._elapsed,
+            "substep_s": substep_s,
+            "places_m": places,
+            "rotations": rotations,
+            "velocities_m_s": self._world.velocities(),
+            "connection_forces_n": force,
+            "connection_moments_nm": moment,
+            "intact": self._world.intact(),
+        }
+        self._steps.append(step)
+        self._write_forces(step)
+        if len(self._steps) == 1:
+            self._write_debris(step)
+
+    def _connection_loads(self, places: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Force (m, 3) on the first body of each connection, and moment (m, 3) about the connection's point."""
+        feedback = self._world.joint_feedback()
+        on_first = np.where(self._first_is_a[:, None, None], feedback[:, :2], feedback[:, 2:])
+        force, torque = on_first[:, 0], on_first[:, 1]
+        first = self._pairs[:, 0]
+        points = forces.carried_points(self._local_points, first, places, rotations)
+        return force, forces.moments_at(points, force, torque, places[first])
+
+    def _write_forces(self, step: dict) -> None:
+        force, count = step["connection_forces_n"], len(self._bodies)
+        values = np.column_stack(
+            (forces.resultants(self._pairs, force, count), forces.magnitude_sums(self._pairs, force, count))
+        )
+        self._logs[0].write(step["frames"], step["times_s"], values)
+
+    def _write_debris(self, step: dict) -> None:
+        first, last = self._steps[0]["places_m"], step["places_m"]
+        self._logs[1].write(
+            step["frames"], step["times_s"], np.column_stack((last, travel(first, last), throw(first, last)))
+        )
+
+    def _release_time(self) -> None:
+        if self._held_time_scale is not None:
+            self.scene.rigidbody_world.time_scale = self._held_time_scale
+            self._held_time_scale = None
