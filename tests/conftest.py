@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What every test can ask for: an empty Blender, and a process that ends whatever Blender's state."""
+
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+_session = pytest.StashKey[pytest.Session]()
+_user_folder = pytest.StashKey[str]()
+
+
+@pytest.fixture
+def blender() -> Iterator[ModuleType]:
+    """The bpy module, with an empty factory scene; what the test left behind is gone afterwards."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    yield bpy
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # Blender reads this once, when bpy is imported. A person's own preferences and add-ons must
+    # neither change a test nor be changed by one.
+    config.stash[_user_folder] = os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="bda-tests-")
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    session.config.stash[_session] = session
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Leave at once when Blender lives in this process.
+
+    The bpy module may hang (4.5) or crash (4.2) in the interpreter's exit when a handler is still
+    registered, as it is after a failed test: pytest's verdict would be lost. By now the summary is
+    printed, and the other plugins have cleaned up, so nothing is skipped. With pytest-xdist the same
+    holds for each worker, which has sent its results before it gets here.
+    """
+    shutil.rmtree(config.stash[_user_folder], ignore_errors=True)
+    session = config.stash.get(_session, None)
+    if session is not None and "bpy" in sys.modules:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(int(session.exitstatus))
