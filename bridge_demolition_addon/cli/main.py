@@ -52,8 +52,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("bda: interrupted", file=sys.stderr)
         return INTERRUPTED
-    except SystemExit:  # argparse leaves this way after --help
-        return DONE
+    except SystemExit as leaving:  # argparse, after --help
+        return leaving.code or DONE
     return DONE
 
 
@@ -61,8 +61,12 @@ def entry() -> NoReturn:
     """Run the command line and end the process with its exit status."""
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="backslashreplace")  # a title may hold letters that the console lacks
-    status = main()
-    sys.stdout.flush()
+    try:
+        status = main()
+        sys.stdout.flush()
+    except BrokenPipeError:  # whoever read the output, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        status = RUN_FAILED
     sys.stderr.flush()
     if "bpy" in sys.modules:
         os._exit(status)  # Blender's own clean-up may hang or crash when Python ends

@@ -18,6 +18,9 @@ STANDARD_GRAVITY_M_S2 = 9.80665
 MOST_FRAMES = 1_048_574
 """Last frame that Blender can show."""
 
+SHORTEST_LENGTH_M = 0.001
+"""Least size of anything solid: Bullet cannot tell contacts apart on bodies that are smaller still."""
+
 ROUNDING = 1e-9
 """Relative slack where lengths are compared that a user would add up in decimals."""
 
@@ -71,8 +74,8 @@ class Deck(Table):
 
     table: ClassVar[str] = "bridge.deck"
 
-    width_m: float = key("Width across the road.", unit="m", above=0)
-    thickness_m: float = key("Thickness of the slab.", unit="m", above=0)
+    width_m: float = key("Width across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
+    thickness_m: float = key("Thickness of the slab.", unit="m", at_least=SHORTEST_LENGTH_M)
     overhang_m: float = key(
         "Length of deck beyond the axes of the first and of the last pier.", default=0.0, unit="m", at_least=0
     )
@@ -85,9 +88,9 @@ class Piers(Table):
     table: ClassVar[str] = "bridge.piers"
 
     columns: int = key("Columns of one pier, spread evenly across the road.", default=1, at_least=1, at_most=1000)
-    column_length_m: float = key("Size of a column along the road.", unit="m", above=0)
-    column_width_m: float = key("Size of a column across the road.", unit="m", above=0)
-    height_m: float = key("Height of a column above the ground.", unit="m", above=0)
+    column_length_m: float = key("Size of a column along the road.", unit="m", at_least=SHORTEST_LENGTH_M)
+    column_width_m: float = key("Size of a column across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
+    height_m: float = key("Height of a column above the ground.", unit="m", at_least=SHORTEST_LENGTH_M)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,9 +99,9 @@ class PierCaps(Table):
 
     table: ClassVar[str] = "bridge.pier_caps"
 
-    length_m: float = key("Size along the road.", unit="m", above=0)
-    width_m: float = key("Size across the road.", unit="m", above=0)
-    height_m: float = key("Height of the beam.", unit="m", above=0)
+    length_m: float = key("Size along the road.", unit="m", at_least=SHORTEST_LENGTH_M)
+    width_m: float = key("Size across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
+    height_m: float = key("Height of the beam.", unit="m", at_least=SHORTEST_LENGTH_M)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,7 +111,7 @@ class Bridge(Table):
     table: ClassVar[str] = "bridge"
 
     span_lengths_m: tuple[float, ...] = key(
-        "Lengths of the spans, in their order along the road, each from pier axis to pier axis.", unit="m", above=0
+        "Lengths of the spans, in their order along the road, each from pier axis to pier axis.", unit="m", at_least=SHORTEST_LENGTH_M
     )
     density_kg_m3: float | None = key(
         "Density of the whole bridge. Give this or `mass_kg`.", default=None, unit="kg/m³", above=0
@@ -272,7 +275,7 @@ class Ball(Table):
     table: ClassVar[str] = "ball"
 
     mass_kg: float = key("Mass.", unit="kg", above=0)
-    diameter_m: float = key("Diameter.", unit="m", above=0)
+    diameter_m: float = key("Diameter.", unit="m", at_least=SHORTEST_LENGTH_M)
     target_m: tuple[float, float] = key(
         "Where it hits the deck: along the road from the first pier's axis, and across it from its middle.", unit="m"
     )

@@ -9,10 +9,16 @@ from types import NoneType
 from typing import Any, ClassVar, get_args, get_origin
 from unicodedata import category
 
+import numpy as np
+
 from .errors import ScenarioError
 
 LARGEST_INTEGER = 2**31 - 1
 """Largest whole number that Blender's properties hold."""
+
+SMALLEST_NUMBER = float(np.finfo(np.float32).tiny)
+LARGEST_NUMBER = float(np.finfo(np.float32).max)
+"""Bounds of the sizes that Blender's single precision holds; what is not 0 has to lie between them."""
 
 LONGEST_SHOWN_TEXT = 60
 LINE_BREAKING_CATEGORIES = {"Cc", "Cs", "Zl", "Zp"}
@@ -135,7 +141,7 @@ def expected(item: Field) -> str:
     if held is bool:
         return "true or false"
     if held is str:
-        return "one of " + ", ".join(map(json.dumps, rule.choices)) if rule.choices else "a text of one line"
+        return "one of " + ", ".join(map(json.dumps, rule.choices)) if rule.choices else "a text on one line, not blank"
     noun, nouns = ("a whole number", "whole numbers") if held is int else ("a number", "numbers")
     if get_origin(held) is tuple:
         noun = f"a list of {_list_length(held) or 'one or more'} {nouns}"
@@ -206,6 +212,8 @@ def _checked_number(item: Field, name: str, value: Any) -> int | float:
         raise _unexpected(item, name, value) from error
     if not item.metadata["key"].holds(number):
         raise _unexpected(item, name, value)
+    if number and not SMALLEST_NUMBER <= abs(number) <= LARGEST_NUMBER:
+        raise ScenarioError(f"{name} is {shown(value)}: expected a number that single precision can hold")
     return number
 
 
