@@ -76,6 +76,11 @@ def write_double(address: int, value: float) -> None:
     _DOUBLES[_indices(address, 8)] = value
 
 
+def write_float(address: int, value: float) -> None:
+    """Write one 32-bit float to a checked address."""
+    _FLOATS[_indices(address, 4)] = value
+
+
 def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | int) -> None:
     """Write pointers to checked addresses."""
     _POINTERS[_indices(addresses, 8)] = pointers
@@ -90,6 +95,7 @@ class _AddressSpace:
 
 
 _DOUBLES = np.asarray(_AddressSpace("<f8", 8))
+_FLOATS = np.asarray(_AddressSpace("<f4", 4))
 _POINTERS = np.asarray(_AddressSpace("<u8", 8))
 _INTEGERS = np.asarray(_AddressSpace("<i4", 4))
 

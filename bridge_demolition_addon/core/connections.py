@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .fracture import SharedFaces, ShardMesh
+from .fracture import SharedFaces, Shard
 
 GROUND = -1
 """Stands for the ground where a connection names its second body."""
@@ -92,7 +92,7 @@ def neighbours_by_centre(centres: np.ndarray, radius_m: float) -> tuple[np.ndarr
     return np.concatenate(found_pairs), np.concatenate(found_distances)
 
 
-def neighbours_by_vertex(shards: Sequence[ShardMesh], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+def neighbours_by_vertex(shards: Sequence[Shard], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (k, 2) of shards whose nearest vertices lie within a radius, and their distances (k,) in m."""
     candidates = _boxes_within(shards, radius_m)
     distances = np.array([_vertex_distance(shards[i].vertices, shards[j].vertices) for i, j in candidates])
@@ -117,7 +117,7 @@ def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shar
     return pairs[kept]
 
 
-def foundations(shards: Sequence[ShardMesh], level_m: float = 0.0) -> Connections:
+def foundations(shards: Sequence[Shard], level_m: float = 0.0) -> Connections:
     """Connections to the ground of all shards that stand on it, in the middle of the face they stand on."""
     standing = [(index, *_standing_face(shard, level_m)) for index, shard in enumerate(shards)]
     standing = [(index, area, centre) for index, area, centre in standing if area > 0.0]
@@ -137,7 +137,7 @@ def joined(parts: Sequence[Connections]) -> Connections:
     )
 
 
-def _standing_face(shard: ShardMesh, level_m: float) -> tuple[float, np.ndarray]:
+def _standing_face(shard: Shard, level_m: float) -> tuple[float, np.ndarray]:
     """Area and centre of what of a shard lies flat on a level."""
     corners = shard.vertices[shard.triangles]
     flat = corners[(abs(corners[:, :, 2] - level_m) <= _LEVEL_TOLERANCE_M).all(axis=1)]
@@ -147,7 +147,7 @@ def _standing_face(shard: ShardMesh, level_m: float) -> tuple[float, np.ndarray]
     return total, centre
 
 
-def _boxes_within(shards: Sequence[ShardMesh], radius_m: float) -> np.ndarray:
+def _boxes_within(shards: Sequence[Shard], radius_m: float) -> np.ndarray:
     """Pairs (k, 2) of shards whose bounding boxes come within a radius in every direction."""
     low = np.array([shard.vertices.min(axis=0) for shard in shards])
     high = np.array([shard.vertices.max(axis=0) for shard in shards]) + radius_m

@@ -16,7 +16,8 @@ from trimesh import Trimesh
 
 from .errors import GeometryError
 from .shared_faces import SharedFaces, overlaps, ranges, shared_faces, touching_faces, triangle_areas_and_normals
-from .solids import bodies, contains, from_manifold, to_manifold, volumes_and_centres
+from .sewing import sewn
+from .solids import arrays_of, bodies, contains, from_manifold, mesh_of, to_manifold, volumes_and_centres
 from .voronoi import ConvexCell, convex_cells
 
 __all__ = ["Fracture", "Shard", "SharedFaces", "fracture", "random_points", "touching_faces", "voronoi_cells"]
@@ -29,6 +30,9 @@ SMALLEST_FACE = 1e-10
 
 SMALLEST_PIECE = 1e-14
 """Part of the solid's volume below which a loose piece of a cell is rounding and is dropped."""
+
+_DICING_DEPTH = 10
+_FILLED_ENOUGH = 0.3
 
 _BOX_MARGIN = 1e-3
 """The box that bounds the cells is larger than the solid by this part of its longest edge, so that its sides cut nothing."""
@@ -75,9 +79,29 @@ class _Piece:
     """A connected part of a cell within the solid; `facing` (t,) is the point beyond each triangle, -1 at the surface."""
 
     cell: int
-    body: Manifold
     shard: Shard
     facing: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Triangles:
+    """All triangles of some pieces: the piece and the cell each belongs to and the cell it faces (t,), corners (t, 3, 3),
+    areas (t,) and normals (t, 3)."""
+
+    piece: np.ndarray
+    cell: np.ndarray
+    facing: np.ndarray
+    corners: np.ndarray
+    areas: np.ndarray
+    normals: np.ndarray
+
+    @classmethod
+    def of(cls, pieces: Sequence[_Piece]) -> "_Triangles":
+        owner = np.repeat(np.arange(len(pieces)), [len(piece.facing) for piece in pieces])
+        cell = np.array([piece.cell for piece in pieces])[owner]
+        facing = np.concatenate([piece.facing for piece in pieces])
+        corners = np.concatenate([piece.shard.vertices[piece.shard.triangles] for piece in pieces])
+        return cls(owner, cell, facing, corners, *triangle_areas_and_normals(corners))
 
 
 def fracture(solid: Trimesh, shard_count: int, seed: int = 0) -> Fracture:
@@ -142,24 +166,43 @@ def random_points(solid: Trimesh, count: int, generator: np.random.Generator) ->
     """
     if count < 1:
         raise GeometryError(f"A solid cannot be cut into {count} shards; ask for at least one.")
-    separate = bodies(to_manifold(solid))
+    whole = to_manifold(solid)
+    separate = bodies(whole)
     if count < len(separate):
         raise GeometryError(
             f"The solid consists of {len(separate)} separate bodies and cannot be cut into {count} shards; ask for at "
             f"least {len(separate)} or unite the bodies."
         )
-    firsts = [_uniform(from_manifold(body), 1, generator) for body in separate] if len(separate) > 1 else []
-    return np.concatenate([*firsts, _uniform(solid, count - len(firsts), generator)])
+    firsts = [_uniform(to_manifold(from_manifold(*shells)), 1, generator) for shells in separate] if len(separate) > 1 else []
+    return np.concatenate([*firsts, _uniform(whole, count - len(firsts), generator)])
 
 
-def _uniform(solid: Trimesh, count: int, generator: np.random.Generator) -> np.ndarray:
-    lower, upper = _extent(solid)
-    filled = _volume(solid) / np.prod(upper - lower)
+def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
+    """Points (count, 3) in the solid, which is diced first, so that its parts nearly fill the boxes they are tried in."""
+    dice = _diced(solid, _DICING_DEPTH)
+    volumes = np.array([part.volume() for part in dice])
+    counts = generator.multinomial(count, volumes / volumes.sum())
+    return np.concatenate([_uniform_by_trial(part, some, generator) for part, some in zip(dice, counts, strict=True)])
+
+
+def _diced(solid: Manifold, depth: int) -> list[Manifold]:
+    box = np.reshape(solid.bounding_box(), (2, 3))
+    size = box[1] - box[0]
+    if depth == 0 or solid.volume() > _FILLED_ENOUGH * size.prod():
+        return [solid]
+    normal = np.eye(3)[np.argmax(size)]
+    halves = solid.split_by_plane(normal.tolist(), float(normal @ box.mean(axis=0)))
+    return [part for half in halves if half.volume() > 0 for part in _diced(half, depth - 1)]
+
+
+def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
+    lower, upper = np.reshape(solid.bounding_box(), (2, 3))
+    filled = solid.volume() / np.prod(upper - lower)
+    mesh = from_manifold(solid)
     points = np.zeros((0, 3))
     while len(points) < count:
-        tries = int((count - len(points)) / filled * 1.1) + 8
-        candidates = lower + generator.random((tries, 3)) * (upper - lower)
-        points = np.concatenate([points, candidates[contains(solid, candidates)]])
+        candidates = lower + generator.random((int((count - len(points)) / filled) + 1, 3)) * (upper - lower)
+        points = np.concatenate([points, candidates[contains(mesh, candidates)]])
     return points[:count]
 
 
@@ -167,7 +210,8 @@ def _fractured(solid: Trimesh, points: np.ndarray) -> Fracture:
     pieces = _pieces(solid, points)
     faces = _faces_between(pieces, len(points))
     shard_of_piece = _joined_to_neighbours(pieces, points, faces)
-    shards = _shards(pieces, shard_of_piece, len(points))
+    extent = float(np.max(np.ptp(np.asarray(solid.vertices), axis=0)))
+    shards = _shards(pieces, shard_of_piece, len(points), SMALLEST_PIECE*_volume(solid), 1e-9*extent)
     volumes, centres = volumes_and_centres([s.vertices for s in shards], [s.triangles for s in shards])
     volume = _volume(solid)
     if abs(volumes.sum() - volume) > VOLUME_TOLERANCE * volume:
@@ -189,8 +233,8 @@ def _pieces(solid: Trimesh, points: np.ndarray) -> list[_Piece]:
     crumb = SMALLEST_PIECE * _volume(solid)
     pieces = []
     for index, cell in enumerate(convex_cells(points, lower - margin, upper + margin)):
-        parts = bodies(_manifold_of(cell, cut) ^ whole)
-        pieces += [_piece(index, part, cut) for part in parts if len(parts) == 1 or part.volume() > crumb]
+        parts = bodies(_manifold_of(cell, cut) ^ whole, smallest_volume=crumb)
+        pieces += [_piece(index, shells, cut) for shells in parts]
     return pieces
 
 
@@ -210,51 +254,59 @@ def _manifold_of(cell: ConvexCell, cut: int) -> Manifold:
     return manifold
 
 
-def _piece(cell: int, body: Manifold, cut: int) -> _Piece:
-    mesh = body.to_mesh64()
-    runs = np.diff(np.asarray(mesh.run_index, dtype=np.int64)) // 3
-    is_cut = np.repeat(np.asarray(mesh.run_original_id) == cut, runs)
-    facing = np.where(is_cut, np.asarray(mesh.face_id, dtype=np.int64), -1)
-    return _Piece(cell, body, _shard(body), facing)
+def _piece(cell: int, shells: Sequence[Manifold], cut: int) -> _Piece:
+    return _Piece(cell, _shard(shells), np.concatenate([_facing(shell, cut) for shell in shells]))
 
 
-def _shard(body: Manifold) -> Shard:
-    mesh = body.to_mesh64()
-    return Shard(mesh.vert_properties[:, :3].copy(), mesh.tri_verts.astype(np.int32))
+def _shard(shells: Sequence[Manifold]) -> Shard:
+    vertices, triangles = arrays_of(*shells)
+    return Shard(vertices, triangles.astype(np.int32))
+
+
+def _facing(shell: Manifold, cut: int) -> np.ndarray:
+    """The point (t,) beyond each triangle that the original `cut` made, -1 for those of the solid's own surface."""
+    mesh = shell.to_mesh64()
+    triangles_of_run = np.diff(np.asarray(mesh.run_index, dtype=np.int64)) // 3
+    is_cut = np.repeat(np.asarray(mesh.run_original_id) == cut, triangles_of_run)
+    return np.where(is_cut, np.asarray(mesh.face_id, dtype=np.int64), -1)
 
 
 def _faces_between(pieces: Sequence[_Piece], cell_count: int) -> SharedFaces:
     """Common faces of the pieces; the pairs are indices of pieces."""
+    triangles = _Triangles.of(pieces)
     cell = np.array([piece.cell for piece in pieces])
-    owner = np.repeat(np.arange(len(pieces)), [len(piece.facing) for piece in pieces])
-    facing = np.concatenate([piece.facing for piece in pieces])
-    corners = np.concatenate([piece.shard.vertices[piece.shard.triangles] for piece in pieces])
-    areas, normals = triangle_areas_and_normals(corners)
-
     whole = np.bincount(cell, minlength=cell_count) == 1
-    one_to_one = whole[cell[owner]] & whole[facing]
-    near = np.flatnonzero((facing > cell[owner]) & (areas > 0))
-    simple, tangled = near[one_to_one[near]], near[~one_to_one[near]]
-    # Between two cells in one piece each, everything that faces the other is common; else the two sides are laid over
-    # each other.
-    far = np.flatnonzero((facing >= 0) & (facing < cell[owner]) & (areas > 0) & ~one_to_one)
-    row, position = _matching(
-        cell[owner[tangled]] * cell_count + facing[tangled], facing[far] * cell_count + cell[owner[far]]
-    )
-    first, second = tangled[row], far[position]
-    common, common_centres = overlaps(corners[first], corners[second])
-    index_of_cell = np.searchsorted(cell, np.arange(cell_count))
+    one_to_one = whole[triangles.cell] & whole[triangles.facing]
+    # Between two cells in one piece each, all that faces the other is common; else the two sides are laid over each other.
+    simple = np.flatnonzero(one_to_one & (triangles.facing > triangles.cell))
+    opposite = np.searchsorted(cell, triangles.facing[simple])
+    first, second, common, centres = _laid_over(triangles, np.flatnonzero(~one_to_one))
     return shared_faces(
-        np.concatenate(
+        np.column_stack(
             [
-                np.column_stack([owner[simple], index_of_cell[facing[simple]]]),
-                np.column_stack([owner[first], owner[second]]),
+                np.concatenate([triangles.piece[simple], triangles.piece[first]]),
+                np.concatenate([opposite, triangles.piece[second]]),
             ]
         ),
-        np.concatenate([areas[simple], common]),
-        np.concatenate([corners[simple].mean(axis=1), common_centres]),
-        np.concatenate([normals[simple], normals[first]]),
+        np.concatenate([triangles.areas[simple], common]),
+        np.concatenate([triangles.corners[simple].mean(axis=1), centres]),
+        triangles.normals[np.concatenate([simple, first])],
     )
+
+
+def _laid_over(
+    triangles: _Triangles, candidates: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Which two of the candidates lie on either side of the same cut, and area and centre of what they have in common."""
+    candidates = candidates[triangles.areas[candidates] > 0]
+    near = candidates[triangles.facing[candidates] > triangles.cell[candidates]]
+    far = candidates[(triangles.facing[candidates] >= 0) & (triangles.facing[candidates] < triangles.cell[candidates])]
+    columns = int(triangles.cell.max(initial=0) + triangles.facing.max(initial=0)) + 1
+    row, position = _matching(
+        triangles.cell[near] * columns + triangles.facing[near], triangles.facing[far] * columns + triangles.cell[far]
+    )
+    first, second = near[row], far[position]
+    return first, second, *overlaps(triangles.corners[first], triangles.corners[second])
 
 
 def _matching(keys: np.ndarray, others: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -272,7 +324,7 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: np.ndarray, faces: S
     cell = np.array([piece.cell for piece in pieces])
     alone = np.bincount(cell, minlength=len(points))[cell] == 1
     for index, piece in enumerate(pieces):
-        if alone[index] or contains(from_manifold(piece.body), points[piece.cell])[0]:
+        if alone[index] or _holds(piece, points[piece.cell]):
             shard_of_piece[index] = piece.cell
     first, second = faces.pairs.T
     while (shard_of_piece < 0).any():
@@ -285,18 +337,33 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: np.ndarray, faces: S
     return shard_of_piece
 
 
-def _shards(pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int) -> tuple[Shard, ...]:
+def _holds(piece: _Piece, point: np.ndarray) -> bool:
+    return bool(contains(mesh_of(piece.shard.vertices, piece.shard.triangles), point)[0])
+
+
+def _shards(
+    pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int, crumb: float, tolerance_m: float
+) -> tuple[Shard, ...]:
     members: list[list[_Piece]] = [[] for _ in range(count)]
     for piece, shard in zip(pieces, shard_of_piece, strict=True):
         members[shard].append(piece)
-    return tuple(_united(parts) for parts in members)
+    return tuple(parts[0].shard if len(parts) == 1 else _sewn(parts, crumb, tolerance_m) for parts in members)
 
 
-def _united(parts: Sequence[_Piece]) -> Shard:
-    if len(parts) == 1:
-        return parts[0].shard
-    whole = Manifold.batch_boolean([part.body for part in parts], OpType.Add)
-    return _shard(whole)
+def _sewn(parts: Sequence[_Piece], crumb: float, tolerance_m: float) -> Shard:
+    """Pieces that touch as one shard."""
+    all_triangles = _Triangles.of(parts)
+    first, second, common, _ = _laid_over(all_triangles, np.arange(len(all_triangles.areas)))
+    covered = np.bincount(np.concatenate([first, second]), np.tile(common, 2), minlength=len(all_triangles.areas))
+    # A patch between two pieces is covered wholly; half is only the mark furthest from rounding.
+    patch = covered > all_triangles.areas / 2
+    vertices = np.concatenate([part.shard.vertices for part in parts])
+    firsts = np.cumsum([0] + [len(part.shard.vertices) for part in parts[:-1]])
+    triangles = np.concatenate([part.shard.triangles + first for part, first in zip(parts, firsts, strict=True)])
+    found = bodies(to_manifold(mesh_of(*sewn(vertices, triangles, patch, tolerance_m))), smallest_volume=crumb)
+    if len(found) != 1:
+        raise GeometryError(f"Pieces of a shard could not be joined ({len(found)} remain); try another seed or shard count.")
+    return _shard(found[0])
 
 
 def _extent(solid: Trimesh) -> tuple[np.ndarray, np.ndarray]:

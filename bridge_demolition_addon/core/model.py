@@ -10,7 +10,7 @@ from . import connections as connecting
 from .bridge import Member, bridge_density, bridge_members
 from .connections import Connections
 from .errors import GeometryError
-from .fracture import ShardMesh, SharedFaces, fracture, touching_faces
+from .fracture import Shard, SharedFaces, fracture, touching_faces
 from .scenario import ConnectionSettings, Scenario
 
 
@@ -38,7 +38,7 @@ class Model:
 
     members: tuple[Member, ...]
     density_kg_m3: float
-    shards: tuple[ShardMesh, ...]
+    shards: tuple[Shard, ...]
     member_of_shard: np.ndarray
     masses_kg: np.ndarray
     centres_m: np.ndarray
@@ -95,11 +95,11 @@ def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
 
 
 def _all_faces(
-    within: list[SharedFaces], shards: tuple[ShardMesh, ...], member_of_shard: np.ndarray, counts: np.ndarray
+    within: list[SharedFaces], shards: tuple[Shard, ...], member_of_shard: np.ndarray, counts: np.ndarray
 ) -> SharedFaces:
     """Faces shared within each member, and those where two members touch."""
     first_shards = np.concatenate(([0], np.cumsum(counts)[:-1]))
-    between = touching_faces(shards, member_of_shard)
+    between = touching_faces(shards, member=member_of_shard)
     return SharedFaces(
         pairs=np.concatenate([f.pairs + first for f, first in zip(within, first_shards, strict=True)] + [between.pairs]),
         areas=np.concatenate([f.areas for f in within] + [between.areas]),
@@ -109,7 +109,7 @@ def _all_faces(
 
 
 def _connections(
-    settings: ConnectionSettings, shards: tuple[ShardMesh, ...], centres: np.ndarray, faces: SharedFaces
+    settings: ConnectionSettings, shards: tuple[Shard, ...], centres: np.ndarray, faces: SharedFaces
 ) -> Connections:
     neighbours = {
         "face": lambda: connecting.neighbours_by_face(faces),

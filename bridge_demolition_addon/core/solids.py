@@ -19,7 +19,7 @@ _BOX_QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [
 _BOX_TRIANGLES = _BOX_QUADS[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
-def solid(vertices: np.ndarray, triangles: np.ndarray) -> Trimesh:
+def mesh_of(vertices: np.ndarray, triangles: np.ndarray) -> Trimesh:
     """A mesh of exactly these vertices (v, 3) in m and triangles (t, 3): nothing merged, dropped or reordered."""
     return Trimesh(vertices=vertices, faces=triangles, process=False, validate=False)
 
@@ -44,7 +44,7 @@ def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) ->
         raise GeometryError(
             f"A box needs three positive edge lengths and a finite centre, not {size.tolist()} m at {centre.tolist()} m."
         )
-    return solid(_BOX_CORNERS * size + centre, _BOX_TRIANGLES)
+    return mesh_of(_BOX_CORNERS * size + centre, _BOX_TRIANGLES)
 
 
 def union(solids: Sequence[Trimesh]) -> Trimesh:
@@ -90,8 +90,8 @@ def checked_solid(mesh: Trimesh, name: str) -> Trimesh:
     if volume < 0:
         triangles, volume = triangles[:, ::-1].copy(), -volume
     _check_volume(vertices, volume, name)
-    result = solid(vertices, triangles)
-    _check_bodies(bodies(to_manifold(result, name), name), name)
+    result = mesh_of(vertices, triangles)
+    _check_bodies(bodies(to_manifold(result, name), name=name), name)
     return result
 
 
@@ -115,14 +115,30 @@ def to_manifold(mesh: Trimesh, name: str = "The solid") -> Manifold:
     return manifold
 
 
-def from_manifold(manifold: Manifold) -> Trimesh:
-    """The engine's solid as a mesh."""
-    mesh = manifold.to_mesh64()
-    return solid(mesh.vert_properties[:, :3].copy(), mesh.tri_verts.astype(np.int64))
+def from_manifold(*shells: Manifold) -> Trimesh:
+    """The engine's shells as one mesh."""
+    return mesh_of(*arrays_of(*shells))
 
 
-def bodies(manifold: Manifold, name: str = "The solid") -> list[Manifold]:
-    """The separate bodies of a solid, each with the cavities inside it.
+def arrays_of(*shells: Manifold) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3) and triangles (t, 3) of the engine's shells, one after the other."""
+    meshes = [shell.to_mesh64() for shell in shells]
+    firsts = np.cumsum([0] + [len(mesh.vert_properties) for mesh in meshes[:-1]])
+    vertices = np.concatenate([mesh.vert_properties[:, :3] for mesh in meshes])
+    triangles = [mesh.tri_verts.astype(np.int64) + first for mesh, first in zip(meshes, firsts, strict=True)]
+    return vertices, np.concatenate(triangles)
+
+
+def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The solid") -> list[list[Manifold]]:
+    """The separate bodies of a solid, each as its outer shell followed by the cavities inside it.
+
+    Parameters
+    ----------
+    manifold : Manifold
+    smallest_volume : float
+        Shells that enclose no more than this, in m³, are left out, unless there is only one.
+    name : str
+        What the user calls the solid.
 
     Raises
     ------
@@ -131,15 +147,14 @@ def bodies(manifold: Manifold, name: str = "The solid") -> list[Manifold]:
     """
     shells = manifold.decompose()
     if len(shells) <= 1:
-        return shells
-    volumes = [shell.volume() for shell in shells]
-    outer = [index for index, volume in enumerate(volumes) if volume >= 0]
+        return [shells] if shells else []
+    volumes = np.array([shell.volume() for shell in shells])
+    outer = np.flatnonzero(volumes > smallest_volume)
     outer_meshes = [from_manifold(shells[index]) for index in outer]
-    members = [[shells[index]] for index in outer]
-    for shell, volume in zip(shells, volumes, strict=True):
-        if volume < 0:
-            members[_enclosing(shell, outer_meshes, name)].append(shell)
-    return [Manifold.compose(shells) if len(shells) > 1 else shells[0] for shells in members]
+    found = [[shells[index]] for index in outer]
+    for cavity in np.flatnonzero(volumes < -smallest_volume):
+        found[_enclosing(shells[cavity], outer_meshes, volumes[outer], name)].append(shells[cavity])
+    return found
 
 
 def contains(mesh: Trimesh, points: np.ndarray) -> np.ndarray:
@@ -225,21 +240,22 @@ def _check_volume(vertices: np.ndarray, volume: float, name: str) -> None:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
 
 
-def _check_bodies(found: list[Manifold], name: str) -> None:
+def _check_bodies(found: list[list[Manifold]], name: str) -> None:
     if len(found) < 2:
         return
-    total = sum(body.volume() for body in found)
-    if Manifold.batch_boolean(found, OpType.Add).volume() < total * (1 - OVERLAP_TOLERANCE):
+    separate = [to_manifold(from_manifold(*shells), name) for shells in found]
+    total = sum(body.volume() for body in separate)
+    if Manifold.batch_boolean(separate, OpType.Add).volume() < total * (1 - OVERLAP_TOLERANCE):
         raise GeometryError(f"{name}: its {len(found)} separate bodies overlap; unite them into one first.")
 
 
-def _enclosing(cavity: Manifold, outer_meshes: list[Trimesh], name: str) -> int:
+def _enclosing(cavity: Manifold, outer_meshes: list[Trimesh], volumes: np.ndarray, name: str) -> int:
     """Index of the smallest of the meshes that the cavity lies in."""
     corner = cavity.to_mesh64().vert_properties[:1, :3]
     around = [index for index, mesh in enumerate(outer_meshes) if contains(mesh, corner)[0]]
     if not around:
         raise GeometryError(f"{name}: one of its bodies is inside out; recalculate the normals to the outside.")
-    return min(around, key=lambda index: outer_meshes[index].volume)
+    return min(around, key=lambda index: volumes[index])
 
 
 def _winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:

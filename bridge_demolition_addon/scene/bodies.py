@@ -9,7 +9,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.fracture import ShardMesh
+from ..core.fracture import Shard
 from ..core.scenario import Ball, Ground, ShardSettings
 
 _KIND = "bda_kind"
@@ -59,7 +59,7 @@ def create_shard_template(world: bpy.types.RigidBodyWorld, settings: ShardSettin
 def create_shards(
     collection: bpy.types.Collection,
     template: bpy.types.Object,
-    shards: Iterable[ShardMesh],
+    shards: Iterable[Shard],
     centres_m: np.ndarray,
     masses_kg: np.ndarray,
 ) -> list[bpy.types.Object]:

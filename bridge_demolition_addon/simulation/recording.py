@@ -8,6 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from ..bullet.held_time import hold_time, release_time, time_is_held
 from ..bullet.world import BulletWorld, WorldState
 from ..core import forces
 from ..core.errors import SimulationError
@@ -46,7 +47,6 @@ class Recording:
         self._bodies = bodies_of(scene)
         self._connections = connections_of(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)
-        self._held_time_scale: float | None = None
         self._logs: tuple[BodyLog, BodyLog] | None = None
         self._steps: list[dict[str, np.ndarray | float]] = []
 
@@ -56,8 +56,7 @@ class Recording:
         The world's first step otherwise happens in the same breath as its making, before anything can be asked of it.
         """
         if self.scene.frame_current == self._start_frame + 1:
-            self._held_time_scale = self.scene.rigidbody_world.time_scale
-            self.scene.rigidbody_world.time_scale = 0.0
+            hold_time(self.scene)
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take down what the frame's last sub-step left behind.
@@ -70,9 +69,9 @@ class Recording:
         began = time.perf_counter()
         try:
             if self.scene.frame_current > self._start_frame:
-                self._record(self._bound_state(depsgraph))
+                self._record(self._bound_state(depsgraph), time_is_held(depsgraph))
         finally:
-            self._release_time()
+            release_time(self.scene)
             self.seconds += time.perf_counter() - began
 
     def fail(self, error: Exception) -> None:
@@ -82,7 +81,6 @@ class Recording:
 
     def close(self) -> None:
         """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
-        self._release_time()
         self._world.release()
         if self._logs:
             self._write_debris(self._steps[-1])
@@ -125,23 +123,23 @@ class Recording:
         return self.scene.rigidbody_world.point_cache.frame_start
 
     def _bound_state(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
-        world = self.scene.rigidbody_world
+        if self.scene.rigidbody_world is None:
+            raise SimulationError("the rigid-body world was removed while it was recorded")
         if len(bodies_of(self.scene)) != len(self._bodies) or len(connections_of(self.scene)) != len(self._connections):
             raise SimulationError("bodies or connections were added or removed: go to the start frame and record anew")
-        if world is None:
-            raise SimulationError("the rigid-body world was removed while it was recorded")
         return self._world.bind(depsgraph)
 
-    def _record(self, state: WorldState) -> None:
+    def _record(self, state: WorldState, held: bool) -> None:
         if state is WorldState.ABSENT:
             return
         substep = self._world.take_substep()
         if state is WorldState.NEW:
             self._begin()
-            substep = 0.0 if self._held_time_scale is not None else substep
-        elif substep == 0.0:
-            return  # played back from Blender's cache: Bullet stands where it stood
-        self._record_step(substep)
+            # The solver of a new world names a default step before it has taken any.
+            self._record_step(0.0 if held else substep, forces_known=held)
+        elif substep > 0.0:
+            self._record_step(substep, forces_known=True)
+        # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin(self) -> None:
         """Note what stays the same throughout, and start the logs."""
@@ -177,10 +175,12 @@ class Recording:
         first = self._pairs[:, 0]
         return np.einsum("mji,mj->mi", rotations[first], points - centres[first])
 
-    def _record_step(self, substep_s: float) -> None:
+    def _record_step(self, substep_s: float, forces_known: bool) -> None:
         self._elapsed += substep_s * self.scene.rigidbody_world.substeps_per_frame
         places, rotations = self._world.places()
         force, moment = self._connection_loads(places, rotations)
+        if not forces_known:  # a step was taken before we could ask for its forces
+            force, moment = np.full_like(force, np.nan), np.full_like(moment, np.nan)
         step = {
             "frames": self.scene.frame_current,
             "times_s": self._elapsed,
@@ -218,8 +218,3 @@ class Recording:
         self._logs[1].write(
             step["frames"], step["times_s"], np.column_stack((last, travel(first, last), throw(first, last)))
         )
-
-    def _release_time(self) -> None:
-        if self._held_time_scale is not None:
-            self.scene.rigidbody_world.time_scale = self._held_time_scale
-            self._held_time_scale = None

@@ -1,0 +1,78 @@
+"""Closed meshes that touch along plane patches, sewn to one closed mesh.
+
+Uniting them by a boolean operation does not do: where two patches are the same but for rounding, it finds a gap as often
+as a contact, and the result falls apart. Here the patches are taken out and the rims of the holes joined, corner to corner.
+"""
+
+import numpy as np
+
+
+def sewn(
+    vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarray, tolerance_m: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Meshes without the patches they touch along, closed again across the rims.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float
+        Of all meshes together.
+    triangles : (t, 3) int
+        Of all meshes together, closed.
+    patch : (t,) bool
+        The triangles to take out. They come in two layers, one of either mesh, that cover each other.
+    tolerance_m : float
+        Corners of the rims that are no further apart are one.
+
+    Returns
+    -------
+    vertices : (v, 3) float
+        As they came; those of the patches are no longer used.
+    triangles : (s, 3) int
+        Closed. Where a corner of one rim lies on an edge of the other, a triangle without area joins them.
+    """
+    triangles = triangles[~patch]
+    rim = _open_edges(triangles)
+    triangles = _welded(vertices, np.unique(rim), tolerance_m)[triangles]
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    return vertices, np.concatenate([triangles, *(_fan(loop) for loop in _loops(_open_edges(triangles)))])
+
+
+def _open_edges(triangles: np.ndarray) -> np.ndarray:
+    """Directed edges (e, 2) that no triangle walks the other way, as often as they are open."""
+    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    lower, upper = edges.min(axis=1), edges.max(axis=1)
+    unique, edge = np.unique(np.column_stack([lower, upper]), axis=0, return_inverse=True)
+    forwards = np.where(edges[:, 0] == lower, 1, -1)
+    surplus = np.bincount(edge.ravel(), weights=forwards, minlength=len(unique)).astype(np.int64)
+    directed = np.where(surplus[:, None] > 0, unique, unique[:, ::-1])
+    return np.repeat(directed, np.abs(surplus), axis=0)
+
+
+def _welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.ndarray:
+    """For every vertex (v,) the one that stands for it: of these corners that lie together the first, else itself."""
+    representative = np.arange(len(vertices))
+    apart = np.linalg.norm(vertices[corners, None] - vertices[None, corners], axis=2)
+    representative[corners] = corners[np.argmax(apart <= tolerance, axis=1)]
+    return representative
+
+
+def _loops(edges: np.ndarray) -> list[list[int]]:
+    """Closed walks along all edges (e, 2), each edge once."""
+    onwards: dict[int, list[int]] = {}
+    for start, end in edges.tolist():
+        onwards.setdefault(start, []).append(end)
+    loops = []
+    while onwards:
+        walk = [next(iter(onwards))]
+        while walk[-1] in onwards:
+            here = walk[-1]
+            walk.append(onwards[here].pop())
+            if not onwards[here]:
+                del onwards[here]
+        loops.append(walk[:-1])
+    return loops
+
+
+def _fan(loop: list[int]) -> np.ndarray:
+    """Triangles that walk the edges of a loop backwards, so closing the hole in it."""
+    return np.array([[loop[0], after, before] for before, after in zip(loop[1:-1], loop[2:], strict=True)]).reshape(-1, 3)

@@ -1,0 +1,48 @@
+"""Chart of the forces and of the breaking over a run's time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ..core.results import Results
+
+
+def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
+    """Draw the largest force on any shard, and the connections that still hold, over time.
+
+    Parameters
+    ----------
+    results
+        What was recorded.
+    path
+        Picture to write; its ending chooses the format.
+    title
+        Heading.
+    impact_s
+        When the ball hit, marked by a line; None for no mark.
+    """
+    # A figure of its own: pyplot would set up a window system inside Blender and keep every figure alive.
+    figure = Figure(figsize=(9.0, 5.0), dpi=120, layout="constrained")
+    FigureCanvasAgg(figure)
+    force_axes = figure.add_subplot()
+    shards = results.of_kind("shard")
+    sums = results.magnitude_sums()[:, shards].max(axis=1)
+    resultants = np.linalg.norm(results.resultants()[:, shards], axis=2).max(axis=1)
+    times = results.times_s
+    lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
+    lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
+    force_axes.set(title=title, xlabel="time (s)", ylabel="connection force (kN)", xlim=(times[0], times[-1]))
+    force_axes.set_ylim(bottom=0.0)
+    force_axes.grid(alpha=0.3)
+    count_axes = force_axes.twinx()
+    intact = results.intact.sum(axis=1)
+    lines += count_axes.plot(times, intact, color="#4d4d4d", linestyle="--", label="connections intact")
+    count_axes.set(ylabel="connections intact", ylim=(0.0, 1.05 * max(1, intact.max())))
+    if impact_s is not None:
+        lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
+    figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
+    figure.savefig(path)

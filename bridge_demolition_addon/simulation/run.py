@@ -1,0 +1,183 @@
+"""A run from beginning to end: scenario, model, scene, simulation, results in a folder."""
+
+from __future__ import annotations
+
+import json
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Protocol
+
+import bpy
+import numpy as np
+
+from ..core.bridge import deck_top
+from ..core.model import Model, build_model
+from ..core.results import Results
+from ..core.scenario import Scenario
+from ..core.summary import impact_step, summarise
+from ..report.force_plot import plot_forces
+from ..scene.demolition import build_demolition, last_frame
+from ..scene.rendering import prepare_pictures, render_picture
+from ..scene.world import START_FRAME, scene_time_step
+from . import handlers
+from .output import prepared_folder
+from .recording import Recording
+
+PICTURES = ("before", "impact", "after")
+
+
+class Progress(Protocol):
+    """Whoever wants to know how far a run is."""
+
+    def stage(self, text: str) -> None:
+        """Say what is done now."""
+
+    def frame(self, done: int, total: int, broken: int) -> None:
+        """Say how many frames are done and how many connections broken."""
+
+
+def run_scenario(
+    scenario: Scenario, output: Path, *, overwrite: bool, pictures: bool, progress: Progress
+) -> dict[str, Any]:
+    """Simulate a scenario in a new, otherwise empty Blender file and keep everything in a folder.
+
+    Parameters
+    ----------
+    scenario
+        What to simulate.
+    output
+        Folder for the results; made here.
+    overwrite
+        Whether results of an earlier run in that folder may be replaced.
+    pictures
+        Whether to render pictures.
+    progress
+        Told about every stage and frame.
+
+    Returns
+    -------
+    dict
+        The content of ``summary.json``.
+
+    Raises
+    ------
+    GeometryError
+        The bridge cannot be cut as asked.
+    OutputError
+        The folder is there already or cannot be written.
+    SimulationError, LayoutError
+        The simulation cannot be run or read.
+    KeyboardInterrupt
+        Interrupted by the user; the results so far are kept.
+    """
+    began = time.perf_counter()
+    progress.stage("building the bridge and its shards")
+    model = build_model(scenario)
+    folder = prepared_folder(output, overwrite=overwrite)
+    scene = _empty_scene(scenario.title)
+    build_demolition(scene, scenario, model)
+    _prepare_view(scene, scenario)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"), check_existing=False, compress=True)
+    built_s = time.perf_counter() - began
+    progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
+    recording, blender_s, interrupted = _simulate(scene, folder, progress)
+    results = recording.results()
+    results.save(folder / "results.npz")
+    summary = _summary(scenario, model, scene, results, interrupted)
+    summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
+    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    if interrupted:
+        raise KeyboardInterrupt
+    _show(results, summary, scene, folder, pictures, progress)
+    return summary
+
+
+def _empty_scene(title: str) -> bpy.types.Scene:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.name = title[:60]
+    return scene
+
+
+def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
+    bridge, settings = scenario.bridge, scenario.pictures
+    height = deck_top(bridge)
+    if scenario.ball:
+        height += scenario.ball.drop_height_m + scenario.ball.diameter_m
+    overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
+    low = np.array([-overhang, -half_width, 0.0])
+    high = np.array([bridge.spans_m + overhang, half_width, height])
+    prepare_pictures(scene, low, high, settings.width_px, settings.height_px)
+
+
+def _simulate(scene: bpy.types.Scene, folder: Path, progress: Progress) -> tuple[Recording, float, bool]:
+    """Play the timeline once; gives the recording, the wall time of Blender's own steps, and whether it was cut short."""
+    recording = Recording(scene, folder)
+    frames = range(scene.frame_start, scene.frame_end + 1)
+    handlers.start(recording)
+    began = time.perf_counter()
+    try:
+        with _interruptible() as interrupted:
+            for done, frame in enumerate(frames, start=1):
+                scene.frame_set(frame)
+                if recording.error:
+                    raise recording.error
+                progress.frame(done, len(frames), recording.broken)
+                if interrupted.is_set() and recording.recorded_frames:
+                    break
+    finally:
+        handlers.stop()
+    return recording, time.perf_counter() - began - recording.seconds, interrupted.is_set()
+
+
+@contextmanager
+def _interruptible() -> Iterator[threading.Event]:
+    """Note Ctrl-C instead of raising, so that it never cuts a frame or a line of a log in two."""
+    interrupted = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield interrupted
+        return
+    before = signal.signal(signal.SIGINT, lambda *_: interrupted.set())
+    try:
+        yield interrupted
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _summary(
+    scenario: Scenario, model: Model, scene: bpy.types.Scene, results: Results, interrupted: bool
+) -> dict[str, Any]:
+    return {
+        "title": scenario.title,
+        "completed": not interrupted,
+        "blender": bpy.app.version_string,
+        "seed": scenario.seed,
+        "substep_s": scene_time_step(scene).substep_s,
+        "density_kg_m3": model.density_kg_m3,
+        "members_kg": {member.name: member.volume_m3 * model.density_kg_m3 for member in model.members},
+        **summarise(results, np.array(scene.gravity)),
+    }
+
+
+def _show(
+    results: Results,
+    summary: dict[str, Any],
+    scene: bpy.types.Scene,
+    folder: Path,
+    pictures: bool,
+    progress: Progress,
+) -> None:
+    progress.stage("drawing the force chart")
+    impact = summary["impact"]
+    plot_forces(results, folder / "force_over_time.png", summary["title"], impact and impact["time_s"])
+    if not pictures:
+        return
+    progress.stage("rendering pictures")
+    step = impact_step(results, np.array(scene.gravity))
+    middle = int(results.frames[step]) if step is not None else summary["largest_force_sum"]["frame"]
+    for name, frame in zip(PICTURES, (START_FRAME, middle, int(results.frames[-1])), strict=True):
+        render_picture(scene, frame, folder / "frames" / f"{name}.png")
