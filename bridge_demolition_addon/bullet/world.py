@@ -144,7 +144,7 @@ class BulletWorld:
 
     def missing_connections(self) -> list[str]:
         """Names of connections that Bullet has not got, for want of a body or because they are switched off."""
-        return [connection.name for connection, exists in zip(self.connections, self._exists, strict=True) if not exists]
+        return [each.name for each, exists in zip(self.connections, self._exists, strict=True) if not exists]
 
     def release(self) -> None:
         """Take our buffers out of the world again, where it is still the one that was prepared."""
@@ -178,7 +178,9 @@ class BulletWorld:
         raise LayoutError("no Bullet world where Blender should keep it")
 
     def _is_marked(self, dynamics: int) -> bool:
-        return bool(dynamics and self._token) and read_value(dynamics + self._layout.world.user_info, "Q") == self._token
+        if not (dynamics and self._token):
+            return False
+        return read_value(dynamics + self._layout.world.user_info, "Q") == self._token
 
     def _adopt(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> None:
         """Check a new world from end to end, and only then write our token and our buffers into it."""
@@ -202,7 +204,7 @@ class BulletWorld:
             shared = read_pointer(body.rigid_body.as_pointer() + self._layout.blender.body_shared)
             holder = read_pointer(shared) if shared else 0
             if not holder:
-                raise SimulationError(f"body {body.name!r} is not part of the simulation: give it a mesh and a rigid body")
+                raise SimulationError(f"body {body.name!r} is not simulated: give it a mesh and a rigid body")
             holders.append(holder)
             addresses.append(read_pointer(holder))
         checks.check_bodies(self._layout, zip(self.bodies, holders, addresses, strict=True))
@@ -224,7 +226,7 @@ class BulletWorld:
 
 
 def _aligned_doubles(count: int) -> np.ndarray:
-    """Zeroed feedback blocks (count, 4, 4), 16-byte aligned as Bullet's vectors ask, that live as long as the process."""
+    """Zeroed feedback blocks (count, 4, 4), 16-byte aligned as Bullet's vectors ask, never to be freed."""
     raw = np.zeros(count * _FEEDBACK_DOUBLES + 1)
     _buffers_bullet_may_write.append(raw)
     start = (-raw.ctypes.data % 16) // 8

@@ -8,6 +8,7 @@ so one clip of thousands of cells is a handful of array operations.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,7 +22,7 @@ COINCIDENCE_TOLERANCE = 1e-9
 """Part of the box's longest edge below which two points have no plane between them that could be trusted."""
 
 _CELLS_PER_BLOCK = 512
-_FIRST_NEIGHBOURS = 16
+_NEIGHBOURS_PER_ROUND = 24
 
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 _SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -53,8 +54,8 @@ class _Polyhedra:
 def convex_cells(points: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> Iterator[ConvexCell]:
     """Voronoi cells of points in an axis-parallel box, in the order of the points.
 
-    A cell is clipped by its neighbours, nearest first, until the next is further away than twice the cell's radius: no
-    plane halfway to anything further can reach the cell.
+    A cell is clipped by its neighbours, nearest first, until no point is left whose plane would cut off a corner. Points
+    further away than twice the cell's radius need no look: a plane halfway to them cannot reach the cell.
 
     Parameters
     ----------
@@ -76,29 +77,40 @@ def convex_cells(points: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> It
 
 
 def _clipped_by_nearest(cells: _Polyhedra, points: np.ndarray, members: np.ndarray, extent: float) -> _Polyhedra:
-    """Cells clipped by as many neighbours as can reach them; cell k is that of point members[k]."""
-    distances = _distances(points[members], points)
+    """Cells clipped by all points that can reach them; cell k is that of point members[k]."""
+    own = points[members]
+    tolerance = PLANE_TOLERANCE * extent
+    # The neighbours still to come, by distance; infinitely far are those that are done with or cannot cut any more.
+    distances = _distances(own, points)
     distances[np.arange(len(members)), members] = np.inf
     _check_apart(distances, members, COINCIDENCE_TOLERANCE * extent)
-    finished = []
-    open_cells = np.arange(len(members))
-    count = _FIRST_NEIGHBOURS
-    while len(open_cells):
-        neighbours = np.repeat(members[:, None], min(count, len(points)), axis=1)
-        neighbours[open_cells] = _nearest(distances[open_cells], count)
-        reach = distances[np.arange(len(members)), neighbours[:, -1]]
-        for labels in neighbours.T:
-            usable = np.isfinite(distances[np.arange(len(members)), labels])
-            normals, offsets = _bisectors(points[members], points[labels], usable)
-            cells = _clipped(cells, normals, offsets, labels, PLANE_TOLERANCE * extent)
-        # What is exactly as far as the reach stays: there may be more points at that distance. It cuts nothing twice.
-        distances[distances < reach[:, None]] = np.inf
-        closed = 2 * _radii(cells, points[members]) <= reach
-        finished.append(_selected(cells, closed))
-        cells = _selected(cells, ~closed)
-        open_cells = open_cells[~closed[open_cells]]
-        count *= 2
-    return _joined(finished)
+    while np.isfinite(distances).any():
+        nearest = _nearest(distances, _NEIGHBOURS_PER_ROUND)
+        usable = np.isfinite(np.take_along_axis(distances, nearest, axis=1))
+        for neighbours, are_usable in zip(nearest.T, usable.T, strict=True):
+            normals, offsets = _bisectors(own, points[neighbours], are_usable)
+            cells = _clipped(cells, normals, offsets, neighbours, tolerance)
+        np.put_along_axis(distances, nearest, np.inf, axis=1)
+        _drop_what_cannot_cut(distances, cells, own, points, tolerance)
+    return _sorted_by_owner(cells)
+
+
+def _drop_what_cannot_cut(
+    distances: np.ndarray, cells: _Polyhedra, own: np.ndarray, points: np.ndarray, tolerance: float
+) -> None:
+    """Set to infinity the distance of every point whose plane lies beyond all corners of a cell."""
+    corners = _sorted_by_owner(cells)
+    bounds = np.searchsorted(corners.owner, np.arange(len(own) + 1))
+    for cell, (first, last) in enumerate(pairwise(bounds)):
+        arms = corners.corners[first:last] - own[cell]
+        reach = 2 * np.sqrt(np.einsum("ij,ij->i", arms, arms).max())
+        within = np.flatnonzero(distances[cell] < reach)
+        towards = points[within] - own[cell]
+        heights = (towards @ arms.T).max(axis=1) / distances[cell, within] - distances[cell, within] / 2
+        cutting = within[heights > tolerance]
+        still = distances[cell, cutting]
+        distances[cell] = np.inf
+        distances[cell, cutting] = still
 
 
 def _distances(from_points: np.ndarray, to_points: np.ndarray) -> np.ndarray:
@@ -186,33 +198,11 @@ def _compacted(cells: _Polyhedra, used: np.ndarray) -> _Polyhedra:
     )
 
 
-def _radii(cells: _Polyhedra, points: np.ndarray) -> np.ndarray:
-    """Distance (n,) of each point from the furthest corner of its cell."""
-    radii = np.zeros(len(points))
-    np.maximum.at(radii, cells.owner, np.linalg.norm(cells.corners - points[cells.owner], axis=1))
-    return radii
-
-
-def _selected(cells: _Polyhedra, wanted: np.ndarray) -> _Polyhedra:
-    """Only the cells whose owner is wanted (n,)."""
-    corner_wanted = wanted[cells.owner]
-    edge_wanted = corner_wanted[cells.start]
-    edges = _Polyhedra(
-        cells.corners, cells.owner, cells.start[edge_wanted], cells.end[edge_wanted], cells.label[edge_wanted]
-    )
-    return _compacted(edges, corner_wanted)
-
-
-def _joined(parts: list[_Polyhedra]) -> _Polyhedra:
-    """All parts as one, sorted by owner."""
-    shifts = np.cumsum([0] + [len(part.corners) for part in parts[:-1]])
-    corners, owner, label = (np.concatenate([getattr(part, name) for part in parts]) for name in ("corners", "owner", "label"))
-    start = np.concatenate([part.start + shift for part, shift in zip(parts, shifts, strict=True)])
-    end = np.concatenate([part.end + shift for part, shift in zip(parts, shifts, strict=True)])
-    by_owner = np.argsort(owner, kind="stable")
-    position = np.empty_like(by_owner)
-    position[by_owner] = np.arange(len(by_owner))
-    return _Polyhedra(corners[by_owner], owner[by_owner], position[start], position[end], label)
+def _sorted_by_owner(cells: _Polyhedra) -> _Polyhedra:
+    order = np.argsort(cells.owner, kind="stable")
+    position = np.empty_like(order)
+    position[order] = np.arange(len(order))
+    return _Polyhedra(cells.corners[order], cells.owner[order], position[cells.start], position[cells.end], cells.label)
 
 
 def _triangulated(cells: _Polyhedra, count: int) -> Iterator[ConvexCell]:

@@ -40,4 +40,3 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
     except OSError as error:
         raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
     return folder
-

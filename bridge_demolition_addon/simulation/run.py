@@ -20,7 +20,7 @@ from ..core.results import Results
 from ..core.scenario import Scenario
 from ..core.summary import impact_step, summarise
 from ..report.force_plot import plot_forces
-from ..scene.demolition import build_demolition, last_frame
+from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, scene_time_step
 from . import handlers
@@ -115,7 +115,7 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
 
 
 def _simulate(scene: bpy.types.Scene, folder: Path, progress: Progress) -> tuple[Recording, float, bool]:
-    """Play the timeline once; gives the recording, the wall time of Blender's own steps, and whether it was cut short."""
+    """Play the timeline once: the recording, the wall time of Blender's own steps, and whether it was cut short."""
     recording = Recording(scene, folder)
     frames = range(scene.frame_start, scene.frame_end + 1)
     handlers.start(recording)
