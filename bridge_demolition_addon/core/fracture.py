@@ -173,7 +173,11 @@ def random_points(solid: Trimesh, count: int, generator: np.random.Generator) ->
             f"The solid consists of {len(separate)} separate bodies and cannot be cut into {count} shards; ask for at "
             f"least {len(separate)} or unite the bodies."
         )
-    firsts = [_uniform(to_manifold(from_manifold(*shells)), 1, generator) for shells in separate] if len(separate) > 1 else []
+    firsts = (
+        [_uniform(to_manifold(from_manifold(*shells)), 1, generator) for shells in separate]
+        if len(separate) > 1
+        else []
+    )
     return np.concatenate([*firsts, _uniform(whole, count - len(firsts), generator)])
 
 
@@ -211,7 +215,7 @@ def _fractured(solid: Trimesh, points: np.ndarray) -> Fracture:
     faces = _faces_between(pieces, len(points))
     shard_of_piece = _joined_to_neighbours(pieces, points, faces)
     extent = float(np.max(np.ptp(np.asarray(solid.vertices), axis=0)))
-    shards = _shards(pieces, shard_of_piece, len(points), SMALLEST_PIECE*_volume(solid), 1e-9*extent)
+    shards = _shards(pieces, shard_of_piece, len(points), SMALLEST_PIECE * _volume(solid), 1e-9 * extent)
     volumes, centres = volumes_and_centres([s.vertices for s in shards], [s.triangles for s in shards])
     volume = _volume(solid)
     if abs(volumes.sum() - volume) > VOLUME_TOLERANCE * volume:
@@ -250,7 +254,9 @@ def _manifold_of(cell: ConvexCell, cut: int) -> Manifold:
         )
     )
     if manifold.status() != Error.NoError:
-        raise GeometryError(f"A Voronoi cell is not closed ({manifold.status().name}); its points lie too close together.")
+        raise GeometryError(
+            f"A Voronoi cell is not closed ({manifold.status().name}); its points lie too close together."
+        )
     return manifold
 
 
@@ -294,9 +300,7 @@ def _faces_between(pieces: Sequence[_Piece], cell_count: int) -> SharedFaces:
     )
 
 
-def _laid_over(
-    triangles: _Triangles, candidates: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _laid_over(triangles: _Triangles, candidates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Which two of the candidates lie on either side of the same cut, and area and centre of what they have in common."""
     candidates = candidates[triangles.areas[candidates] > 0]
     near = candidates[triangles.facing[candidates] > triangles.cell[candidates]]
@@ -362,7 +366,9 @@ def _sewn(parts: Sequence[_Piece], crumb: float, tolerance_m: float) -> Shard:
     triangles = np.concatenate([part.shard.triangles + first for part, first in zip(parts, firsts, strict=True)])
     found = bodies(to_manifold(mesh_of(*sewn(vertices, triangles, patch, tolerance_m))), smallest_volume=crumb)
     if len(found) != 1:
-        raise GeometryError(f"Pieces of a shard could not be joined ({len(found)} remain); try another seed or shard count.")
+        raise GeometryError(
+            f"Pieces of a shard could not be joined ({len(found)} remain); try another seed or shard count."
+        )
     return _shard(found[0])
 
 

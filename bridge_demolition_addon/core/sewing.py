@@ -75,4 +75,6 @@ def _loops(edges: np.ndarray) -> list[list[int]]:
 
 def _fan(loop: list[int]) -> np.ndarray:
     """Triangles that walk the edges of a loop backwards, so closing the hole in it."""
-    return np.array([[loop[0], after, before] for before, after in zip(loop[1:-1], loop[2:], strict=True)]).reshape(-1, 3)
+    return np.array([[loop[0], after, before] for before, after in zip(loop[1:-1], loop[2:], strict=True)]).reshape(
+        -1, 3
+    )

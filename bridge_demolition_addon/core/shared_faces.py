@@ -85,9 +85,7 @@ def shared_faces(
     )
 
 
-def touching_faces(
-    meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None
-) -> SharedFaces:
+def touching_faces(meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None) -> SharedFaces:
     """Where meshes stand on or against each other with plane faces that look at each other.
 
     Only faces in the same plane count; two bodies that overlap in space or meet along an edge do not touch in this sense.

@@ -231,7 +231,9 @@ def _check_surface(vertices: np.ndarray, triangles: np.ndarray, name: str) -> No
     code = np.where(edges[:, 0] < edges[:, 1], 1, -1)
     _, edge = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
     if np.bincount(edge.ravel(), weights=code).any():
-        raise GeometryError(f"{name}: some faces look inwards and some outwards; recalculate the normals to the outside.")
+        raise GeometryError(
+            f"{name}: some faces look inwards and some outwards; recalculate the normals to the outside."
+        )
 
 
 def _check_volume(vertices: np.ndarray, volume: float, name: str) -> None:

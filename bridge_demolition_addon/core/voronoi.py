@@ -15,14 +15,17 @@ import numpy as np
 from .errors import GeometryError
 
 PLANE_TOLERANCE = 1e-12
-"""Part of the box's longest edge that a corner must lie beyond a plane to be cut off. Above rounding, so that a plane
-that only touches a corner, as in a regular grid of points, does not cut; far below what a volume can show."""
+"""Part of the box's largest coordinate that a corner must lie beyond a plane to be cut off. Above rounding, so that a
+plane that only touches a corner, as in a regular grid of points, does not cut; far below what a volume can show."""
 
 COINCIDENCE_TOLERANCE = 1e-9
-"""Part of the box's longest edge below which two points have no plane between them that could be trusted."""
+"""Part of the box's largest coordinate below which two points have no plane between them that could be trusted."""
 
 _CELLS_PER_BLOCK = 512
-_NEIGHBOURS_PER_ROUND = 24
+"""Cells clipped together: enough to make the cost of an array operation small, few enough for its data to stay in cache."""
+
+_NEIGHBOURS_PER_ROUND = 16
+"""Neighbours clipped by between two looks at which others can still cut: about as many as a cell has faces."""
 
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 _SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -30,8 +33,16 @@ _SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ConvexCell:
-    """The Voronoi cell of one point: `vertices` (v, 3) in m, `triangles` (t, 3), and the `neighbours` (t,) that each
-    triangle faces: the index of another point, or from the number of points upwards one of the six sides of the box.
+    """The Voronoi cell of one point.
+
+    Attributes
+    ----------
+    vertices : (v, 3) float
+        In m.
+    triangles : (t, 3) int
+        Counter-clockwise seen from outside.
+    neighbours : (t,) int
+        What each triangle faces: the index of another point or, from the number of points upwards, a side of the box.
     """
 
     vertices: np.ndarray
@@ -41,8 +52,8 @@ class ConvexCell:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Polyhedra:
-    """Many convex polyhedra: corners (v, 3) and the polyhedron each belongs to (v,); half-edges from corner `start` (h,)
-    to corner `end` (h,) around face `label` (h,)."""
+    """Many convex polyhedra: `corners` (v, 3) and the polyhedron that is the `owner` (v,) of each; half-edges from corner
+    `start` (h,) to corner `end` (h,) around the face with that `label` (h,)."""
 
     corners: np.ndarray
     owner: np.ndarray
@@ -69,21 +80,21 @@ def convex_cells(points: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> It
     GeometryError
         When two points coincide.
     """
-    extent = float(np.max(upper - lower))
+    scale = float(np.max(np.abs([lower, upper])))
     for first in range(0, len(points), _CELLS_PER_BLOCK):
         members = np.arange(first, min(first + _CELLS_PER_BLOCK, len(points)))
-        cells = _clipped_by_nearest(_boxes(lower, upper, len(members), len(points)), points, members, extent)
+        cells = _clipped_by_nearest(_boxes(lower, upper, len(members), len(points)), points, members, scale)
         yield from _triangulated(cells, len(members))
 
 
-def _clipped_by_nearest(cells: _Polyhedra, points: np.ndarray, members: np.ndarray, extent: float) -> _Polyhedra:
+def _clipped_by_nearest(cells: _Polyhedra, points: np.ndarray, members: np.ndarray, scale: float) -> _Polyhedra:
     """Cells clipped by all points that can reach them; cell k is that of point members[k]."""
     own = points[members]
-    tolerance = PLANE_TOLERANCE * extent
+    tolerance = PLANE_TOLERANCE * scale
     # The neighbours still to come, by distance; infinitely far are those that are done with or cannot cut any more.
     distances = _distances(own, points)
     distances[np.arange(len(members)), members] = np.inf
-    _check_apart(distances, members, COINCIDENCE_TOLERANCE * extent)
+    _check_apart(distances, members, COINCIDENCE_TOLERANCE * scale)
     while np.isfinite(distances).any():
         nearest = _nearest(distances, _NEIGHBOURS_PER_ROUND)
         usable = np.isfinite(np.take_along_axis(distances, nearest, axis=1))
@@ -184,7 +195,9 @@ def _clipped(
             owner=np.concatenate([cells.owner, cells.owner[kept]]),
             start=np.concatenate([start[remains], new[by_exit], new[by_entry]]),
             end=np.concatenate([end[remains], new[by_entry], new[by_exit]]),
-            label=np.concatenate([cells.label[remains], cells.label[leaving[by_exit]], labels[cells.owner[kept[by_exit]]]]),
+            label=np.concatenate(
+                [cells.label[remains], cells.label[leaving[by_exit]], labels[cells.owner[kept[by_exit]]]]
+            ),
         ),
         np.concatenate([~removed, np.ones(len(new), dtype=bool)]),
     )

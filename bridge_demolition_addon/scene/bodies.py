@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import Enum
 
-import bmesh
 import bpy
 import numpy as np
+import trimesh
 
 from ..core.fracture import Shard
 from ..core.scenario import Ball, Ground, ShardSettings
+from ..core.solids import box
 
 _KIND = "bda_kind"
 _GROUND_THICKNESS_M = 2.0
-_BALL_SEGMENTS = 32
+_BALL_SEGMENTS = (32, 64)
 
 _CONCRETE = (0.62, 0.60, 0.56)
 _STEEL = (0.08, 0.09, 0.10, 1.0)
@@ -87,11 +88,8 @@ def create_shards(
 
 def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
     """Passive block with its top at height 0, `half_size_m` to every side of the origin."""
-    shape = bmesh.new()
-    bmesh.ops.create_cube(shape, size=1.0)
-    size = (2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M)
-    bmesh.ops.scale(shape, vec=size, verts=shape.verts)
-    ground = _rigid_body(world, _mesh("Ground", shape), Kind.GROUND, "BOX")
+    solid = box((2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M), (0.0, 0.0, 0.0))
+    ground = _rigid_body(world, _mesh("Ground", solid), Kind.GROUND, "BOX")
     ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
     ground.color = _SOIL
     ground.rigid_body.type = "PASSIVE"
@@ -107,9 +105,8 @@ def create_ball(
     In the release frame it is free for the first time, so that it falls in the step towards that frame.
     """
     radius = settings.diameter_m / 2.0
-    shape = bmesh.new()
-    bmesh.ops.create_uvsphere(shape, u_segments=_BALL_SEGMENTS, v_segments=_BALL_SEGMENTS // 2, radius=radius)
-    ball = _rigid_body(world, _mesh("Wrecking ball", shape), Kind.BALL, "SPHERE")
+    solid = trimesh.creation.uv_sphere(radius, count=_BALL_SEGMENTS)
+    ball = _rigid_body(world, _mesh("Wrecking ball", solid), Kind.BALL, "SPHERE")
     ball.location = (*settings.target_m, deck_top_m + settings.drop_height_m + radius)
     ball.color = _STEEL
     rigid = ball.rigid_body
@@ -141,8 +138,7 @@ def _set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution:
     rigid.use_margin, rigid.collision_margin = True, margin_m
 
 
-def _mesh(name: str, shape: bmesh.types.BMesh) -> bpy.types.Mesh:
+def _mesh(name: str, solid: trimesh.Trimesh) -> bpy.types.Mesh:
     mesh = bpy.data.meshes.new(name)
-    shape.to_mesh(mesh)
-    shape.free()
+    mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
     return mesh
