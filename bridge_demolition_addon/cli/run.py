@@ -2,16 +2,14 @@
 
 import argparse
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import SimulationError
 from ..core.scenario_file import read_scenario
+from ..simulation.output import RESULT_FILES
 from .progress import Progress, progress_on
-
-RESULTS = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "scene.blend", "frames")
-"""What a run may leave in its folder, in the order in which a reader wants to see it."""
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -55,10 +53,19 @@ def _run_scenario(arguments: argparse.Namespace, progress: Progress) -> Mapping[
 
 def _print_results(summary: Mapping[str, Any], output: Path) -> None:
     print()
-    for name, value in summary.items():
-        if isinstance(value, int | float | str):
-            print(f"{name.replace('_', ' ')}: {value}")
+    for name, value in _result_facts(summary):
+        print(f"{name:<24}{value}")
     print()
-    for path in (output / name for name in RESULTS):
+    for path in (output / name for name in RESULT_FILES):
         if path.exists():
             print(path)
+
+
+def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    connections, force = summary["connections"], summary["largest_force_sum"]
+    yield "broken connections", f"{connections['broken']} of {connections['count']}"
+    yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN on {force['body']} at {force['time_s']:.3f} s"
+    if impact := summary["impact"]:
+        yield "impact of the ball", f"{impact['time_s']:.3f} s, frame {impact['frame']}"
+    if throw := summary["largest_throw"]:
+        yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}"

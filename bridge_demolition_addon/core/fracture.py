@@ -1,22 +1,22 @@
 """Voronoi fracture of a solid into shards, with the faces the shards share.
 
-The Voronoi cells of points in the solid are worked out for all points together (`core.voronoi`); the boolean engine then
-cuts each out of the solid. In a concave or holed solid a cell can come out in several pieces. The piece that holds the
-cell's own point is the shard; every other piece goes to the neighbour it shares most area with, the largest common area
-first. So there are exactly as many shards as points, each is connected, and nothing is lost. (Counting every piece as a
-shard of its own would not give the number asked for, and would leave slivers that no longer hang on anything.)
+The Voronoi cells of points in the solid are worked out for all points together (`core.voronoi`); the boolean engine
+then cuts each out of the solid. In a concave or holed solid a cell can come out in several pieces. The piece that holds
+the cell's own point is the shard; every other piece goes to the neighbour it shares most area with, the largest common
+area first, and is sewn on (`core.sewing`). So there are exactly as many shards as points, each is connected, and
+nothing is lost. Counting every piece as a shard of its own would not give the number asked for, and many slivers.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from manifold3d import Error, Manifold, Mesh64, OpType
+from manifold3d import Error, Manifold, Mesh64
 from trimesh import Trimesh
 
 from .errors import GeometryError
-from .shared_faces import SharedFaces, overlaps, ranges, shared_faces, touching_faces, triangle_areas_and_normals
 from .sewing import sewn
+from .shared_faces import SharedFaces, overlaps, ranges, shared_faces, touching_faces, triangle_areas_and_normals
 from .solids import arrays_of, bodies, contains, from_manifold, mesh_of, to_manifold, volumes_and_centres
 from .voronoi import ConvexCell, convex_cells
 
@@ -31,11 +31,15 @@ SMALLEST_FACE = 1e-10
 SMALLEST_PIECE = 1e-14
 """Part of the solid's volume below which a loose piece of a cell is rounding and is dropped."""
 
-_DICING_DEPTH = 10
-_FILLED_ENOUGH = 0.3
+RIM_TOLERANCE = 1e-9
+"""Part of the solid's longest extent within which corners of two pieces are the same corner, cut twice."""
 
 _BOX_MARGIN = 1e-3
-"""The box that bounds the cells is larger than the solid by this part of its longest edge, so that its sides cut nothing."""
+"""The box around the cells is larger than the solid by this part of its longest extent: its sides must cut nothing."""
+
+_FILLED_ENOUGH = 0.3
+_DICING_DEPTH = 10
+"""To draw points, a solid is halved until its parts fill this much of their boxes, or this often."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -76,7 +80,7 @@ class Fracture:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Piece:
-    """A connected part of a cell within the solid; `facing` (t,) is the point beyond each triangle, -1 at the surface."""
+    """A connected part of a cell within the solid; each triangle is `facing` (t,) another cell, or -1, the outside."""
 
     cell: int
     shard: Shard
@@ -85,8 +89,8 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Triangles:
-    """All triangles of some pieces: the piece and the cell each belongs to and the cell it faces (t,), corners (t, 3, 3),
-    areas (t,) and normals (t, 3)."""
+    """All triangles of some pieces: the piece and cell each is of and the cell it faces (t,), its corners (t, 3, 3), area
+    (t,) and normal (t, 3)."""
 
     piece: np.ndarray
     cell: np.ndarray
@@ -125,7 +129,7 @@ def fracture(solid: Trimesh, shard_count: int, seed: int = 0) -> Fracture:
     --------
     >>> from bridge_demolition_addon.core.solids import box
     >>> deck = fracture(box([30.0, 12.0, 1.0]), 200, seed=1)
-    >>> len(deck), round(deck.volumes.sum(), 9)
+    >>> len(deck), round(float(deck.volumes.sum()), 9)
     (200, 360.0)
     """
     return _fractured(solid, random_points(solid, shard_count, np.random.default_rng(seed)))
@@ -144,8 +148,8 @@ def voronoi_cells(solid: Trimesh, points: np.ndarray) -> Fracture:
     Raises
     ------
     GeometryError
-        When there are no points, when one lies outside or two coincide, when a body has none, or when the solid cannot be
-        cut.
+        When there are no points, when one lies outside or two coincide, when a body has none, or when the solid cannot
+        be cut.
     """
     points = np.array(points, dtype=float).reshape(-1, 3)
     if not len(points):
@@ -173,16 +177,13 @@ def random_points(solid: Trimesh, count: int, generator: np.random.Generator) ->
             f"The solid consists of {len(separate)} separate bodies and cannot be cut into {count} shards; ask for at "
             f"least {len(separate)} or unite the bodies."
         )
-    firsts = (
-        [_uniform(to_manifold(from_manifold(*shells)), 1, generator) for shells in separate]
-        if len(separate) > 1
-        else []
-    )
+    parts = [to_manifold(from_manifold(*shells)) for shells in separate] if len(separate) > 1 else []
+    firsts = [_uniform(part, 1, generator) for part in parts]
     return np.concatenate([*firsts, _uniform(whole, count - len(firsts), generator)])
 
 
 def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
-    """Points (count, 3) in the solid, which is diced first, so that its parts nearly fill the boxes they are tried in."""
+    """Points (count, 3) in the solid, which is diced first, so that few of the points tried fall beside it."""
     dice = _diced(solid, _DICING_DEPTH)
     volumes = np.array([part.volume() for part in dice])
     counts = generator.multinomial(count, volumes / volumes.sum())
@@ -201,11 +202,11 @@ def _diced(solid: Manifold, depth: int) -> list[Manifold]:
 
 def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
     lower, upper = np.reshape(solid.bounding_box(), (2, 3))
-    filled = solid.volume() / np.prod(upper - lower)
     mesh = from_manifold(solid)
     points = np.zeros((0, 3))
     while len(points) < count:
-        candidates = lower + generator.random((int((count - len(points)) / filled) + 1, 3)) * (upper - lower)
+        tries = int((count - len(points)) * np.prod(upper - lower) / solid.volume()) + 1
+        candidates = lower + generator.random((tries, 3)) * (upper - lower)
         points = np.concatenate([points, candidates[contains(mesh, candidates)]])
     return points[:count]
 
@@ -214,14 +215,13 @@ def _fractured(solid: Trimesh, points: np.ndarray) -> Fracture:
     pieces = _pieces(solid, points)
     faces = _faces_between(pieces, len(points))
     shard_of_piece = _joined_to_neighbours(pieces, points, faces)
-    extent = float(np.max(np.ptp(np.asarray(solid.vertices), axis=0)))
-    shards = _shards(pieces, shard_of_piece, len(points), SMALLEST_PIECE * _volume(solid), 1e-9 * extent)
+    shards = tuple(_sewn(parts, solid) for parts in _grouped(pieces, shard_of_piece, len(points)))
     volumes, centres = volumes_and_centres([s.vertices for s in shards], [s.triangles for s in shards])
     volume = _volume(solid)
     if abs(volumes.sum() - volume) > VOLUME_TOLERANCE * volume:
         raise GeometryError(
-            f"The {len(shards)} shards hold {volumes.sum():.12g} m³ of the solid's {volume:.12g} m³; it crosses itself or is "
-            "too fine to be cut so often."
+            f"The {len(shards)} shards hold {volumes.sum():.12g} m³ of the solid's {volume:.12g} m³; it crosses "
+            "itself or is too fine to be cut so often."
         )
     smallest = SMALLEST_FACE * (volume / len(points)) ** (2 / 3)
     between_shards = shared_faces(shard_of_piece[faces.pairs], faces.areas, faces.centres, faces.normals, smallest)
@@ -283,7 +283,7 @@ def _faces_between(pieces: Sequence[_Piece], cell_count: int) -> SharedFaces:
     cell = np.array([piece.cell for piece in pieces])
     whole = np.bincount(cell, minlength=cell_count) == 1
     one_to_one = whole[triangles.cell] & whole[triangles.facing]
-    # Between two cells in one piece each, all that faces the other is common; else the two sides are laid over each other.
+    # Between two cells of one piece each, all that faces the other is common; else the two sides are laid over another.
     simple = np.flatnonzero(one_to_one & (triangles.facing > triangles.cell))
     opposite = np.searchsorted(cell, triangles.facing[simple])
     first, second, common, centres = _laid_over(triangles, np.flatnonzero(~one_to_one))
@@ -301,7 +301,7 @@ def _faces_between(pieces: Sequence[_Piece], cell_count: int) -> SharedFaces:
 
 
 def _laid_over(triangles: _Triangles, candidates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Which two of the candidates lie on either side of the same cut, and area and centre of what they have in common."""
+    """Which two of the candidates lie on either side of one cut, and area and centre of what they have in common."""
     candidates = candidates[triangles.areas[candidates] > 0]
     near = candidates[triangles.facing[candidates] > triangles.cell[candidates]]
     far = candidates[(triangles.facing[candidates] >= 0) & (triangles.facing[candidates] < triangles.cell[candidates])]
@@ -338,6 +338,11 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: np.ndarray, faces: S
         row = int(np.argmax(np.where(one_sided, faces.areas, -1.0)))
         shard = max(shard_of_piece[first[row]], shard_of_piece[second[row]])
         shard_of_piece[[first[row], second[row]]] = shard
+    empty = np.setdiff1d(np.arange(len(points)), shard_of_piece)
+    if len(empty):
+        raise GeometryError(
+            f"Nothing is left of the cell of point {empty[0]}; it lies on the surface or on another point."
+        )
     return shard_of_piece
 
 
@@ -345,30 +350,30 @@ def _holds(piece: _Piece, point: np.ndarray) -> bool:
     return bool(contains(mesh_of(piece.shard.vertices, piece.shard.triangles), point)[0])
 
 
-def _shards(
-    pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int, crumb: float, tolerance_m: float
-) -> tuple[Shard, ...]:
+def _grouped(pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int) -> list[list[_Piece]]:
     members: list[list[_Piece]] = [[] for _ in range(count)]
     for piece, shard in zip(pieces, shard_of_piece, strict=True):
         members[shard].append(piece)
-    return tuple(parts[0].shard if len(parts) == 1 else _sewn(parts, crumb, tolerance_m) for parts in members)
+    return members
 
 
-def _sewn(parts: Sequence[_Piece], crumb: float, tolerance_m: float) -> Shard:
-    """Pieces that touch as one shard."""
-    all_triangles = _Triangles.of(parts)
+def _sewn(pieces: Sequence[_Piece], solid: Trimesh) -> Shard:
+    """Pieces that touch, as one shard."""
+    if len(pieces) == 1:
+        return pieces[0].shard
+    all_triangles = _Triangles.of(pieces)
     first, second, common, _ = _laid_over(all_triangles, np.arange(len(all_triangles.areas)))
     covered = np.bincount(np.concatenate([first, second]), np.tile(common, 2), minlength=len(all_triangles.areas))
-    # A patch between two pieces is covered wholly; half is only the mark furthest from rounding.
+    # Between two pieces a triangle is covered wholly or not at all; half is only the mark furthest from rounding.
     patch = covered > all_triangles.areas / 2
-    vertices = np.concatenate([part.shard.vertices for part in parts])
-    firsts = np.cumsum([0] + [len(part.shard.vertices) for part in parts[:-1]])
-    triangles = np.concatenate([part.shard.triangles + first for part, first in zip(parts, firsts, strict=True)])
-    found = bodies(to_manifold(mesh_of(*sewn(vertices, triangles, patch, tolerance_m))), smallest_volume=crumb)
+    vertices = np.concatenate([piece.shard.vertices for piece in pieces])
+    firsts = np.cumsum([0] + [len(piece.shard.vertices) for piece in pieces[:-1]])
+    triangles = np.concatenate([piece.shard.triangles + first for piece, first in zip(pieces, firsts, strict=True)])
+    tolerance = RIM_TOLERANCE * float(np.max(np.subtract(*_extent(solid)[::-1])))
+    whole = to_manifold(mesh_of(*sewn(vertices, triangles, patch, tolerance)), "A shard sewn from pieces")
+    found = bodies(whole, smallest_volume=SMALLEST_PIECE * _volume(solid))
     if len(found) != 1:
-        raise GeometryError(
-            f"Pieces of a shard could not be joined ({len(found)} remain); try another seed or shard count."
-        )
+        raise GeometryError("The pieces of a shard could not be joined; try another seed or number of shards.")
     return _shard(found[0])
 
 

@@ -1,8 +1,11 @@
 """Closed meshes that touch along plane patches, sewn to one closed mesh.
 
-Uniting them by a boolean operation does not do: where two patches are the same but for rounding, it finds a gap as often
-as a contact, and the result falls apart. Here the patches are taken out and the rims of the holes joined, corner to corner.
+Uniting them by a boolean operation does not do: where two patches are the same but for rounding, it finds a gap as
+often as a contact, and the result falls apart. Here the patches are taken out and the rims of the holes joined, corner
+to corner.
 """
+
+from itertools import pairwise
 
 import numpy as np
 
@@ -75,6 +78,4 @@ def _loops(edges: np.ndarray) -> list[list[int]]:
 
 def _fan(loop: list[int]) -> np.ndarray:
     """Triangles that walk the edges of a loop backwards, so closing the hole in it."""
-    return np.array([[loop[0], after, before] for before, after in zip(loop[1:-1], loop[2:], strict=True)]).reshape(
-        -1, 3
-    )
+    return np.array([[loop[0], after, before] for before, after in pairwise(loop[1:])]).reshape(-1, 3)

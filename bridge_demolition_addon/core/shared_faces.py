@@ -1,6 +1,6 @@
-"""Faces that two shards have in common: where they were cut apart, or where separately made bodies stand on each other."""
+"""Faces that two shards have in common: where they were cut apart, or where separately made bodies touch."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -10,7 +10,7 @@ OPPOSITE_COSINE = -1 + 1e-6
 """Two faces look at each other when the cosine between their normals is below this: they lean by less than 0.08°."""
 
 SMALLEST_AREA = 1e-12
-"""Part of the larger triangle's area below which an overlap is rounding; and of a mesh's box below which a triangle is."""
+"""Part of the larger of two triangles' areas below which what they have in common is rounding."""
 
 _PAIRS_PER_BLOCK = 20_000
 """Pairs of meshes whose triangles are compared in one go; bounds the memory of `touching_faces`."""
@@ -88,7 +88,7 @@ def shared_faces(
 def touching_faces(meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None) -> SharedFaces:
     """Where meshes stand on or against each other with plane faces that look at each other.
 
-    Only faces in the same plane count; two bodies that overlap in space or meet along an edge do not touch in this sense.
+    Only faces in the same plane count: bodies that overlap in space or meet along an edge do not touch in this sense.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def overlaps(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndar
     Parameters
     ----------
     first, second : (m, 3, 3) float
-        Corners, counter-clockwise seen from outside; the two of a pair lie in nearly the same plane with nearly opposite
+        Corners, counter-clockwise seen from outside; both have an area, nearly the same plane and nearly opposite
         normals.
 
     Returns
@@ -166,7 +166,7 @@ def ranges(starts: np.ndarray, counts: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Surface:
-    """All triangles of all meshes: corners (t, 3, 3), normals (t, 3), boxes (t, 3) and where each mesh's begin (n + 1,)."""
+    """All triangles of all meshes with their boxes, and where those of each mesh begin: `bounds` (n + 1,)."""
 
     corners: np.ndarray
     areas: np.ndarray

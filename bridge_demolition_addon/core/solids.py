@@ -42,7 +42,7 @@ def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) ->
     size, centre = np.asarray(size_m, dtype=float), np.asarray(centre_m, dtype=float)
     if not (np.isfinite(size).all() and np.isfinite(centre).all() and (size > 0).all()):
         raise GeometryError(
-            f"A box needs three positive edge lengths and a finite centre, not {size.tolist()} m at {centre.tolist()} m."
+            f"A box needs three positive edge lengths and a finite centre, not {size.tolist()} at {centre.tolist()}."
         )
     return mesh_of(_BOX_CORNERS * size + centre, _BOX_TRIANGLES)
 

@@ -1,7 +1,7 @@
 """Voronoi cells of points in a box, as convex polyhedra: all cells are clipped together, one neighbour each at a time.
 
-A polyhedron is kept as half-edges: every face is a loop of directed edges that runs counter-clockwise seen from outside,
-and every edge is walked once in each direction. A plane cuts off corners; each face that loses some is closed along
+A polyhedron is kept as half-edges: every face is a loop of directed edges, counter-clockwise seen from outside, and
+every edge is walked once in each direction. A plane cuts off corners; each face that loses some is closed along
 the plane, and these closing edges, walked the other way, are the new face. Nothing depends on the order of the loops,
 so one clip of thousands of cells is a handful of array operations.
 """
@@ -22,7 +22,7 @@ COINCIDENCE_TOLERANCE = 1e-9
 """Part of the box's largest coordinate below which two points have no plane between them that could be trusted."""
 
 _CELLS_PER_BLOCK = 512
-"""Cells clipped together: enough to make the cost of an array operation small, few enough for its data to stay in cache."""
+"""Cells clipped together: enough to make an array operation worth its call, few enough for the data to stay in cache."""
 
 _NEIGHBOURS_PER_ROUND = 16
 """Neighbours clipped by between two looks at which others can still cut: about as many as a cell has faces."""
@@ -52,8 +52,8 @@ class ConvexCell:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Polyhedra:
-    """Many convex polyhedra: `corners` (v, 3) and the polyhedron that is the `owner` (v,) of each; half-edges from corner
-    `start` (h,) to corner `end` (h,) around the face with that `label` (h,)."""
+    """Many convex polyhedra: `corners` (v, 3) and the polyhedron that is the `owner` (v,) of each; half-edges from
+    corner `start` (h,) to corner `end` (h,) around the face with that `label` (h,)."""
 
     corners: np.ndarray
     owner: np.ndarray
@@ -65,8 +65,8 @@ class _Polyhedra:
 def convex_cells(points: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> Iterator[ConvexCell]:
     """Voronoi cells of points in an axis-parallel box, in the order of the points.
 
-    A cell is clipped by its neighbours, nearest first, until no point is left whose plane would cut off a corner. Points
-    further away than twice the cell's radius need no look: a plane halfway to them cannot reach the cell.
+    A cell is clipped by its neighbours, nearest first, until no point is left whose plane would cut off a corner.
+    Points further away than twice the cell's radius need no look: a plane halfway to them cannot reach the cell.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def _clipped(
 
     start, end = cells.start.copy(), cells.end.copy()
     end[leaving], start[returning] = new, new
-    # A face is left and entered equally often; sorted by face, each exit stands opposite the entry that closes its loop.
+    # A face is left and entered equally often: sorted by face, each exit stands opposite the entry that closes it.
     by_exit = np.lexsort((cells.label[leaving], cells.owner[kept]))
     by_entry = np.lexsort((cells.label[returning], cells.owner[kept]))
     remains = ~(starts_removed & ends_removed)

@@ -39,7 +39,7 @@ class BodyLog:
 
     def write(self, frame: int, time_s: float, values: np.ndarray) -> None:
         """Add one line per body with its values (n, columns)."""
-        self._write((self._lines % tuple(values.ravel().tolist())).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
+        self._write((self._lines % tuple((values + 0.0).ravel().tolist())).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
 
     def close(self) -> None:
         """Close the file."""

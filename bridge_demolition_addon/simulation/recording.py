@@ -151,8 +151,10 @@ class Recording:
         self._masses = np.where(active, [body.rigid_body.mass for body in self._bodies], 0.0)
         self._connection_names = [connection.name for connection in self._connections]
         self._pairs = self._paired_bodies()
-        self._first_is_a = self._world.first_is_body_a()
-        self._local_points = self._points_in_first_bodies()
+        self._measured_side = np.where(self._masses[self._pairs[:, 0]] > 0.0, 0, 1)
+        self._feedback_side = np.where(self._world.first_is_body_a(), self._measured_side, 1 - self._measured_side)
+        self._measured_bodies = np.take_along_axis(self._pairs, self._measured_side[:, None], axis=1)[:, 0]
+        self._local_points = self._points_in_measured_bodies()
         self._logs = (
             BodyLog(self._folder / "force_log.csv", FORCE_COLUMNS, self._names),
             BodyLog(self._folder / "debris_log.csv", DEBRIS_COLUMNS, self._names),
@@ -168,12 +170,12 @@ class Recording:
             pairs.append((index[constraint.object1], index[constraint.object2]))
         return np.array(pairs, int).reshape(-1, 2)
 
-    def _points_in_first_bodies(self) -> np.ndarray:
-        """Points of the connections (m, 3) in the axes of their first bodies."""
+    def _points_in_measured_bodies(self) -> np.ndarray:
+        """Points of the connections (m, 3) in the axes of the bodies their loads are measured on."""
         points = np.array([connection.matrix_world.translation for connection in self._connections]).reshape(-1, 3)
         centres, rotations = self._world.places()
-        first = self._pairs[:, 0]
-        return np.einsum("mji,mj->mi", rotations[first], points - centres[first])
+        bodies = self._measured_bodies
+        return np.einsum("mji,mj->mi", rotations[bodies], points - centres[bodies])
 
     def _record_step(self, substep_s: float, forces_known: bool) -> None:
         self._elapsed += substep_s * self.scene.rigidbody_world.substeps_per_frame
@@ -198,13 +200,18 @@ class Recording:
             self._write_debris(step)
 
     def _connection_loads(self, places: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Force (m, 3) on the first body of each connection, and moment (m, 3) about the connection's point."""
-        feedback = self._world.joint_feedback()
-        on_first = np.where(self._first_is_a[:, None, None], feedback[:, :2], feedback[:, 2:])
-        force, torque = on_first[:, 0], on_first[:, 1]
-        first = self._pairs[:, 0]
-        points = forces.carried_points(self._local_points, first, places, rotations)
-        return force, forces.moments_at(points, force, torque, places[first])
+        """Force (m, 3) on the first body of each connection, and moment (m, 3) about the connection's point.
+
+        They are measured on a body that can move: for a hinge on a fixed body, Bullet leaves a part of the torque out of
+        what it gives for that body.
+        """
+        bodies, rows = self._measured_bodies, np.arange(len(self._pairs))
+        feedback = self._world.joint_feedback().reshape(-1, 2, 2, 3)[rows, self._feedback_side]
+        force, torque = feedback[:, 0], feedback[:, 1]
+        points = forces.carried_points(self._local_points, bodies, places, rotations)
+        moment = forces.moments_at(points, force, torque, places[bodies])
+        on_first = np.where(self._measured_side == 0, 1.0, -1.0)[:, None]
+        return on_first * force, on_first * moment
 
     def _write_forces(self, step: dict) -> None:
         force, count = step["connection_forces_n"], len(self._bodies)
