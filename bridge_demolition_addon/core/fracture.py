@@ -4,7 +4,7 @@ The Voronoi cells of points in the solid are worked out for all points together 
 then cuts each out of the solid. In a concave or holed solid a cell can come out in several pieces. The piece that holds
 the cell's own point is the shard; every other piece goes to the neighbour it shares most area with, the largest common
 area first, and is sewn on (`core.sewing`). So there are exactly as many shards as points, each is connected, and
-nothing is lost. Counting every piece as a shard of its own would not give the number asked for, and many slivers.
+nothing is lost. Counting every piece as a shard of its own would not give the number asked for, and would give slivers.
 """
 
 from collections.abc import Sequence
@@ -38,8 +38,7 @@ _BOX_MARGIN = 1e-3
 """The box around the cells is larger than the solid by this part of its longest extent: its sides must cut nothing."""
 
 _FILLED_ENOUGH = 0.3
-_DICING_DEPTH = 10
-"""To draw points, a solid is halved until its parts fill this much of their boxes, or this often."""
+"""Part of its box that a part of the solid must fill before points are tried in the box without dicing it further."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -89,8 +88,8 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Triangles:
-    """All triangles of some pieces: the piece and cell each is of and the cell it faces (t,), its corners (t, 3, 3), area
-    (t,) and normal (t, 3)."""
+    """All triangles of some pieces: the piece and cell each is of and the cell it faces (t,), its corners (t, 3, 3),
+    its area (t,) and normal (t, 3)."""
 
     piece: np.ndarray
     cell: np.ndarray
@@ -184,7 +183,8 @@ def random_points(solid: Trimesh, count: int, generator: np.random.Generator) ->
 
 def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
     """Points (count, 3) in the solid, which is diced first, so that few of the points tried fall beside it."""
-    dice = _diced(solid, _DICING_DEPTH)
+    # Halved so often at most, there are not many more dice than points.
+    dice = _diced(solid, int(count).bit_length())
     volumes = np.array([part.volume() for part in dice])
     counts = generator.multinomial(count, volumes / volumes.sum())
     return np.concatenate([_uniform_by_trial(part, some, generator) for part, some in zip(dice, counts, strict=True)])

@@ -22,7 +22,7 @@ COINCIDENCE_TOLERANCE = 1e-9
 """Part of the box's largest coordinate below which two points have no plane between them that could be trusted."""
 
 _CELLS_PER_BLOCK = 512
-"""Cells clipped together: enough to make an array operation worth its call, few enough for the data to stay in cache."""
+"""Cells clipped together: enough to make an array operation worth its call, few enough for the cache."""
 
 _NEIGHBOURS_PER_ROUND = 16
 """Neighbours clipped by between two looks at which others can still cut: about as many as a cell has faces."""
