@@ -1,12 +1,15 @@
 """``bda run``: run a scenario and keep its results in a folder."""
 
 import argparse
+import os
 import sys
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import SimulationError
+from ..core.scenario import Scenario
 from ..core.scenario_file import read_scenario
 from ..simulation.output import RESULT_FILES
 from .progress import Progress, progress_on
@@ -25,17 +28,18 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Run the scenario, say how far it is, and then where the results are."""
+    scenario = read_scenario(arguments.scenario)
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
-        summary = _run_scenario(arguments, progress)
+        with _blender_silenced() if arguments.quiet else nullcontext():
+            summary = _run_scenario(scenario, arguments, progress)
     finally:
         progress.finish()
     if not arguments.quiet:
         _print_results(summary, arguments.output)
 
 
-def _run_scenario(arguments: argparse.Namespace, progress: Progress) -> Mapping[str, Any]:
-    scenario = read_scenario(arguments.scenario)
+def _run_scenario(scenario: Scenario, arguments: argparse.Namespace, progress: Progress) -> Mapping[str, Any]:
     try:
         from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
     except ModuleNotFoundError as error:
@@ -49,6 +53,20 @@ def _run_scenario(arguments: argparse.Namespace, progress: Progress) -> Mapping[
         pictures=not arguments.no_pictures,
         progress=progress,
     )
+
+
+@contextmanager
+def _blender_silenced() -> Iterator[None]:
+    """Drop what is written to standard output, also past Python: Blender tells of each file it saves."""
+    sys.stdout.flush()
+    standard_output = os.dup(1)
+    with open(os.devnull, "wb") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
+    try:
+        yield
+    finally:
+        os.dup2(standard_output, 1)
+        os.close(standard_output)
 
 
 def _print_results(summary: Mapping[str, Any], output: Path) -> None:

@@ -23,6 +23,9 @@ from .scenario_key import (
     subtable_fields,
 )
 
+LIKENESS = 0.68
+"""How much alike an unknown name and a suggestion are at least: radius_m is search_radius_m, but title is not time."""
+
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
 
@@ -134,7 +137,7 @@ def _refuse_unknown(table: str, values: dict[str, Any], known: Iterable[str]) ->
 
 def _suggestion(table: str, name: str, known: list[str]) -> str:
     """What was meant by an unknown name: one like it in its table, the same elsewhere, or any of its table."""
-    alike = [_dotted(table, match) for match in get_close_matches(name, known, n=1)]
+    alike = [_dotted(table, match) for match in get_close_matches(name, known, n=1, cutoff=LIKENESS)]
     elsewhere = [full for full in _full_names(Scenario) if full.rpartition(".")[2] == name]
     if alike or elsewhere:
         return f"did you mean {(alike + elsewhere)[0]}?"

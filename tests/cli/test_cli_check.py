@@ -1,0 +1,123 @@
+"""``bda check`` says what follows from a scenario, and needs no Blender for it."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from bridge_demolition_addon.cli.check import scenario_facts
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
+I235 = read_scenario(EXAMPLE)
+
+CHECK_WITHOUT_BLENDER = """
+import sys
+for name in ("bpy", "mathutils", "bmesh", "gpu"):
+    sys.modules[name] = None
+from bridge_demolition_addon.cli.main import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def facts(scenario):
+    """What is said of a scenario, by name."""
+    lines = [line for line in scenario_facts(scenario) if line.startswith("  ")]
+    return {line[2:26].strip(): " ".join(line[26:].split()) for line in lines}
+
+
+def test_facts_of_the_i235_span(capsys):
+    assert main(["check", str(EXAMPLE)]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert printed.out.splitlines() == list(scenario_facts(I235))
+    assert printed.out.startswith("I-235 bridge, one span, wrecking ball\n")
+    assert facts(I235) == {
+        "length": "14.00 m",
+        "spans": "13.00 m",
+        "deck top above ground": "5.55 m",
+        "deck": "29.750 m³ 71.064 t",
+        "pier 1 cap": "2.720 m³ 6.497 t",
+        "pier 1 column 1": "2.401 m³ 5.735 t",
+        "pier 1 column 2": "2.401 m³ 5.735 t",
+        "pier 2 cap": "2.720 m³ 6.497 t",
+        "pier 2 column 1": "2.401 m³ 5.735 t",
+        "pier 2 column 2": "2.401 m³ 5.735 t",
+        "all": "44.794 m³ 107.000 t",
+        "density": "2389 kg/m³",
+        "duration": "5 s",
+        "frames": "120 of 0.0416667 s",
+        "sub-step": "0.00416667 s, 10 in a frame",
+        "shards": "200",
+        "connections": "HINGE, nearest vertices within 1 m, at most 50 per shard",
+        "breaking force": "98066.5 N = 98.07 kN",
+        "breaking impulse": "408.6 N·s in a sub-step",  # 98 066.5 N / 240 Hz
+        "mass": "10.000 t",
+        "diameter": "1.34 m, so 7938 kg/m³",
+        "clear drop height": "5.00 m",
+        "fall time": "1.010 s, so it hits the deck at 1.510 s",
+        "impact speed": "9.90 m/s",
+        "impact energy": "490.3 kJ",  # m g h
+    }
+
+
+def test_a_ball_that_comes_too_late_is_said():
+    brief = replace(I235, time=replace(I235.time, duration_s=1.0))
+    assert facts(brief)["fall time"].endswith("at 1.510 s, after the end of the run")
+
+
+def test_without_ball_and_caps():
+    bare = replace(I235, ball=None, bridge=replace(I235.bridge, pier_caps=None))
+    assert "impact speed" not in facts(bare)
+    assert facts(bare)["deck top above ground"] == "5.15 m"
+
+
+@pytest.mark.parametrize(
+    "method, radius, text",
+    [
+        ("vertex", 0.5, "nearest vertices within 0.5 m"),
+        ("centre", 2, "centres of mass within 2 m"),
+        ("face", None, "shards that share a face"),
+    ],
+)
+def test_methods_of_connecting(method, radius, text):
+    connections = replace(I235.connections, method=method, search_radius_m=radius)
+    assert facts(replace(I235, connections=connections))["connections"] == f"HINGE, {text}, at most 50 per shard"
+
+
+def test_checking_needs_no_blender():
+    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "check", str(EXAMPLE)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "impact speed" in done.stdout
+
+
+def test_running_without_blender_says_what_is_missing(tmp_path):
+    output = tmp_path / "results"
+    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "run", str(EXAMPLE), "--output", str(output)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "bda: error: Blender is not there: install the bpy package or run inside Blender\n"
+    assert not output.exists()
+
+
+def test_a_title_that_the_console_cannot_show(tmp_path):
+    path = tmp_path / "bridge.toml"
+    path.write_text(scenario_text(replace(I235, title="다리")), encoding="utf-8")
+    command = [sys.executable, "-m", "bridge_demolition_addon", "check", str(path)]
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=environment)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith(r"\ub2e4\ub9ac")
+
+
+def test_help_is_no_failure(capsys):
+    assert main(["--help"]) == 0
+    assert "check" in capsys.readouterr().out
+    assert main(["run", "--help"]) == 0
+    assert "--no-pictures" in capsys.readouterr().out

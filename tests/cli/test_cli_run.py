@@ -1,0 +1,116 @@
+"""``bda run`` runs a scenario, says how far it is, and ends with a status that tells what happened."""
+
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+
+ROOT = Path(__file__).parents[2]
+I235 = read_scenario(ROOT / "examples" / "i235_one_span.toml")
+LOGS = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "scene.blend")
+
+
+def bda(*arguments, **options):
+    """Start the command line in a process of its own, as Blender may not survive two runs in one."""
+    command = [sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    return subprocess.Popen(command, cwd=ROOT, text=True, encoding="utf-8", **pipes, **options)
+
+
+def outcome(process):
+    printed, complained = process.communicate(timeout=300)
+    return process.returncode, printed, complained
+
+
+@pytest.fixture(scope="module")
+def scenario_path(tmp_path_factory):
+    """A few large shards for a few frames, hit at once."""
+    path = tmp_path_factory.mktemp("scenario") / "small.toml"
+    small = replace(
+        I235,
+        time=replace(I235.time, duration_s=0.5),
+        fracture=replace(I235.fracture, shards=10),
+        connections=replace(I235.connections, search_radius_m=3.0),
+        ball=replace(I235.ball, drop_height_m=0.1, release_time_s=0.0),
+    )
+    path.write_text(scenario_text(small), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def finished(scenario_path, tmp_path_factory):
+    """The output folder of a finished run, and what it printed."""
+    output = tmp_path_factory.mktemp("run") / "results"
+    return output, outcome(bda("run", scenario_path, "--output", output, "--no-pictures"))
+
+
+def test_a_run_says_how_far_it_is_and_where_the_results_are(finished):
+    output, (status, printed, complained) = finished
+    assert (status, complained) == (0, "")
+    lines = printed.splitlines()
+    assert sum(line.startswith("frame ") for line in lines) == 10
+    for name in LOGS:
+        assert str(output / name) in lines
+        assert (output / name).stat().st_size > 0
+    assert any(line.startswith("broken connections") for line in lines)
+    assert "\r" not in printed
+
+
+def test_no_pictures_are_rendered_when_none_are_wanted(finished):
+    output, _ = finished
+    assert not list(output.glob("frames/*.png"))
+
+
+def test_results_are_not_overwritten_unasked(finished, scenario_path):
+    output, _ = finished
+    before = {path: path.stat().st_mtime_ns for path in output.rglob("*")}
+    status, _, complained = outcome(bda("run", scenario_path, "--output", output, "--no-pictures", "--quiet"))
+    assert status == 2
+    assert complained.startswith(f"bda: error: {output}: ")
+    assert len(complained.splitlines()) == 1
+    assert {path: path.stat().st_mtime_ns for path in output.rglob("*")} == before
+
+
+def test_results_are_overwritten_when_asked(scenario_path, tmp_path):
+    output = tmp_path / "results"
+    output.mkdir()
+    (output / "summary.json").write_text("old")
+    (output / "notes.txt").write_text("mine")
+    arguments = ("run", scenario_path, "--output", output, "--no-pictures", "--overwrite", "--quiet")
+    status, printed, complained = outcome(bda(*arguments))
+    assert (status, complained) == (0, "")
+    assert printed == ""
+    assert (output / "summary.json").read_text() != "old"
+    assert (output / "notes.txt").read_text() == "mine"
+
+
+def test_a_file_is_no_folder_for_results(scenario_path, tmp_path):
+    output = tmp_path / "results"
+    output.write_text("mine")
+    status, _, complained = outcome(bda("run", scenario_path, "--output", output, "--overwrite"))
+    assert status == 2
+    assert complained.startswith(f"bda: error: {output}: ")
+    assert len(complained.splitlines()) == 1
+    assert output.read_text() == "mine"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows interrupts a whole console, this test with it")
+def test_an_interrupted_run_says_so_and_keeps_its_logs(scenario_path, tmp_path):
+    long = tmp_path / "long.toml"
+    scenario = read_scenario(scenario_path)
+    long.write_text(scenario_text(replace(scenario, time=replace(scenario.time, duration_s=2000))), encoding="utf-8")
+    log = tmp_path / "results" / "force_log.csv"
+    process = bda("run", long, "--output", log.parent, "--no-pictures")
+    while not (log.exists() and log.stat().st_size):
+        assert process.poll() is None
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    status, _, complained = outcome(process)
+    assert (status, complained) == (130, "bda: interrupted\n")
+    assert len(log.read_text().splitlines()) > 1

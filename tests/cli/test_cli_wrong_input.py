@@ -1,0 +1,313 @@
+"""Wrong input ends with status 2 and one line that names the file, the key and what was expected."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+
+ROOT = Path(__file__).parents[2]
+RIGHT = scenario_text(read_scenario(ROOT / "examples" / "i235_one_span.toml"))
+
+
+def with_line(key, line):
+    """The right scenario with another line for one key, such as ``bridge.deck.width_m``; an empty line removes it."""
+    table, _, name = key.rpartition(".")
+    lines = RIGHT.splitlines()
+    start = lines.index(f"[{table}]")
+    place = next(place for place in range(start, len(lines)) if lines[place].startswith(f"{name} = "))
+    return "\n".join([*lines[:place], line, *lines[place + 1 :]])
+
+
+def with_value(key, value):
+    return with_line(key, f"{key.rpartition('.')[2]} = {value}")
+
+
+def without(key):
+    return with_line(key, "")
+
+
+def without_table(table):
+    start = RIGHT.index(f"[{table}]\n")
+    return RIGHT[:start] + RIGHT[RIGHT.index("\n\n", start) :]
+
+
+def with_more_in(table, line):
+    return RIGHT.replace(f"[{table}]\n", f"[{table}]\n{line}\n")
+
+
+WRONG_FILES = {
+    "empty": ("", ["scenario.title is missing", "expected a text on one line"]),
+    "no TOML": ("width = = 3", ["not a TOML file", "line 1, column 9"]),
+    "key given twice": (with_more_in("scenario", "seed = 1"), ["not a TOML file", "line 4"]),
+    "table given twice": (RIGHT + "\n[ball]\n", ["not a TOML file", "line"]),
+    "number of too many digits": (with_value("scenario.seed", "9" * 5000), ["not a TOML file", "4300 digits"]),
+    "too deep": (f"a = {'[' * 5000}{']' * 5000}", ["not a TOML file"]),
+    "not UTF-8": (RIGHT.replace("I-235", "Br\xfccke").encode("latin-1"), ["not a text in UTF-8, at byte"]),
+    "UTF-16": (RIGHT.encode("utf-16"), ["not a text in UTF-8, at byte 0"]),
+    "unknown table": (
+        RIGHT.replace("[connections]", "[conections]"),
+        ["conections is unknown", "did you mean connections?"],
+    ),
+    "unknown inner table": (
+        RIGHT.replace("[bridge.deck]", "[bridge.decks]"),
+        ["bridge.decks is unknown", "did you mean bridge.deck?"],
+    ),
+    "unknown key": (
+        with_line("bridge.deck.width_m", "widht_m = 8.5"),
+        ["bridge.deck.widht_m is unknown", "did you mean bridge.deck.width_m?"],
+    ),
+    "key without its unit": (
+        with_line("ball.mass_kg", "mass = 10000"),
+        ["ball.mass is unknown", "did you mean ball.mass_kg?"],
+    ),
+    "part of a key": (
+        with_line("connections.search_radius_m", "radius_m = 1.0"),
+        ["connections.radius_m is unknown", "did you mean connections.search_radius_m?"],
+    ),
+    "key of another table": (
+        with_more_in("fracture", "density_kg_m3 = 2400"),
+        ["fracture.density_kg_m3 is unknown", "did you mean bridge.density_kg_m3?"],
+    ),
+    "key outside of tables": ('title = "x"\n' + RIGHT, ["title is unknown", "did you mean scenario.title?"]),
+    "key like no other": (
+        with_more_in("fracture", "xyz = 1"),
+        ["fracture.xyz is unknown", "expected one of shards"],
+    ),
+    "key of several lines": (
+        with_more_in("fracture", r'"a\nb" = 1'),
+        [r'fracture."a\nb" is unknown', "expected one of shards"],
+    ),
+    "missing key": (
+        without("bridge.deck.width_m"),
+        ["bridge.deck.width_m is missing", "expected a number of at least"],
+    ),
+    "missing title": (without("scenario.title"), ["scenario.title is missing", "expected a text on one line"]),
+    "missing heading": (without_table("scenario"), ["scenario.title is missing", "expected a text on one line"]),
+    "missing table": (without_table("time"), ["time is missing", "expected a table"]),
+    "missing inner table": (without_table("bridge.piers"), ["bridge.piers is missing", "expected a table"]),
+    "number for a table": ("ball = 5\n" + without_table("ball"), ["ball is 5", "expected a table"]),
+    "list for a table": (RIGHT.replace("[ball]", "[[ball]]"), ["ball is a list of length 1", "expected a table"]),
+    "number for the heading": (
+        "scenario = 5\n" + without_table("scenario"),
+        ["scenario is 5", "expected a table"],
+    ),
+    "number for an inner table": (
+        without_table("bridge.deck").replace("[bridge]\n", "[bridge]\ndeck = 5\n"),
+        ["bridge.deck is 5", "expected a table"],
+    ),
+    "text for a number": (
+        with_value("ball.mass_kg", '"10 t"'),
+        ['ball.mass_kg is "10 t"', "expected a number above 0 (kg)"],
+    ),
+    "switch for a number": (with_value("ball.mass_kg", "true"), ["ball.mass_kg is true", "expected a number above 0"]),
+    "table for a number": (with_value("ball.mass_kg", "{}"), ["ball.mass_kg is a table", "expected a number above 0"]),
+    "date for a number": (
+        with_value("ball.mass_kg", "2019-01-01"),
+        ["ball.mass_kg is 2019-01-01", "expected a number"],
+    ),
+    "list for a number": (
+        with_value("ball.mass_kg", "[1, 2]"),
+        ["ball.mass_kg is a list of length 2", "expected a number above 0 (kg)"],
+    ),
+    "fraction for a whole number": (
+        with_value("fracture.shards", "200.0"),
+        ["fracture.shards is 200.0", "expected a whole number from 1 to 1000000"],
+    ),
+    "switch for a whole number": (
+        with_value("fracture.shards", "true"),
+        ["fracture.shards is true", "expected a whole number from 1 to 1000000"],
+    ),
+    "number for a switch": (
+        with_value("connections.foundation", "1"),
+        ["connections.foundation is 1", "expected true or false"],
+    ),
+    "number for a text": (
+        with_value("scenario.title", "235"),
+        ["scenario.title is 235", "expected a text on one line"],
+    ),
+    "number for a list": (
+        with_value("bridge.span_lengths_m", "13.0"),
+        ["bridge.span_lengths_m is 13.0", "expected a list of one or more numbers of at least 0.001 (m)"],
+    ),
+    "negative": (with_value("ball.mass_kg", "-5"), ["ball.mass_kg is -5", "expected a number above 0 (kg)"]),
+    "zero": (with_value("time.duration_s", "0"), ["time.duration_s is 0", "expected a number above 0 (s)"]),
+    "not a number": (with_value("ball.mass_kg", "nan"), ["ball.mass_kg is nan", "expected a number above 0 (kg)"]),
+    "infinite": (with_value("ball.mass_kg", "inf"), ["ball.mass_kg is inf", "expected a number above 0 (kg)"]),
+    "too large to store": (
+        with_value("ball.mass_kg", "1e300"),
+        ["ball.mass_kg is 1e+300", "expected a number that single precision can hold"],
+    ),
+    "hexadecimal of any length": (
+        with_value("ball.mass_kg", "0x" + "f" * 5000),
+        ["ball.mass_kg is a whole number of more than 64 bits", "expected a number above 0 (kg)"],
+    ),
+    "no spans": (
+        with_value("bridge.span_lengths_m", "[]"),
+        ["bridge.span_lengths_m is a list of length 0", "expected a list of one or more numbers"],
+    ),
+    "negative span": (
+        with_value("bridge.span_lengths_m", "[13.0, -13.0]"),
+        ["bridge.span_lengths_m[1] is -13.0", "expected a list of one or more numbers"],
+    ),
+    "target of three numbers": (
+        with_value("ball.target_m", "[6.5, 0.0, 5.0]"),
+        ["ball.target_m is a list of length 3", "expected a list of 2 numbers (m)"],
+    ),
+    "unknown choice": (
+        with_value("connections.type", '"WELD"'),
+        ['connections.type is "WELD"', 'expected one of "FIXED", "POINT", "HINGE"'],
+    ),
+    "blank title": (with_value("scenario.title", '" "'), ['scenario.title is " "', "expected a text on one line"]),
+    "title of two lines": (
+        with_value("scenario.title", r'"a\nb"'),
+        [r'scenario.title is "a\nb"', "expected a text on one line"],
+    ),
+    "density and mass": (
+        with_more_in("bridge", "density_kg_m3 = 2400"),
+        ["bridge.density_kg_m3 and bridge.mass_kg are both given", "expected exactly one of them"],
+    ),
+    "neither density nor mass": (
+        without("bridge.mass_kg"),
+        ["bridge.density_kg_m3 and bridge.mass_kg are both missing", "expected exactly one of them"],
+    ),
+    "two breaking forces": (
+        with_more_in("connections", "breaking_force_n = 1"),
+        ["connections.breaking_force_n and connections.breaking_force_kgf are both given", "expected exactly one"],
+    ),
+    "no breaking force": (
+        without("connections.breaking_force_kgf"),
+        ["connections.breaking_force_n and connections.breaking_force_kgf are both missing", "expected exactly one"],
+    ),
+    "no search radius": (
+        without("connections.search_radius_m"),
+        ["connections.search_radius_m is missing", 'expected a number above 0 (m) with method "vertex"'],
+    ),
+    "search radius for faces": (
+        with_value("connections.method", '"face"'),
+        ["connections.search_radius_m is 1.0", 'expected none with method "face"'],
+    ),
+    "asleep without falling asleep": (
+        with_value("shards.use_deactivation", "false"),
+        ["shards.start_deactivated is true", "expected false where shards.use_deactivation is false"],
+    ),
+    "pier cap as long as the span": (
+        with_value("bridge.pier_caps.length_m", "13.0"),
+        ["bridge.pier_caps.length_m is 13.0", "expected less than the shortest span, 13.0 (m)"],
+    ),
+    "column longer than the span": (
+        with_value("bridge.piers.column_length_m", "14"),
+        ["bridge.piers.column_length_m is 14.0", "expected less than the shortest span, 13.0 (m)"],
+    ),
+    "columns wider than the cap": (
+        with_value("bridge.piers.columns", "13"),
+        ["bridge.piers.column_width_m is 0.7", "expected at most 0.653846 (m)", "bridge.pier_caps.width_m"],
+    ),
+    "columns wider than the deck": (
+        without_table("bridge.pier_caps").replace("columns = 2", "columns = 13"),
+        ["bridge.piers.column_width_m is 0.7", "expected at most 0.653846 (m)", "bridge.deck.width_m"],
+    ),
+    "ball beside the deck": (
+        with_value("ball.target_m", "[6.5, 4.3]"),
+        ["ball.target_m[1] is 4.3", "expected a place on the deck, from -4.25 to 4.25 (m)"],
+    ),
+    "ball beyond the deck": (
+        with_value("ball.target_m", "[13.6, 0.0]"),
+        ["ball.target_m[0] is 13.6", "expected a place on the deck, from -0.5 to 13.5 (m)"],
+    ),
+    "ball let go too late": (
+        with_value("ball.release_time_s", "5"),
+        ["ball.release_time_s is 5.0", "expected less than time.duration_s, 5.0 (s)"],
+    ),
+    "too many frames": (
+        with_value("time.duration_s", "1e6"),
+        ["time.duration_s is 1000000.0", "expected 1 to 1048574"],
+    ),
+    "no frame": (with_value("time.duration_s", "1e-9"), ["time.duration_s is 1e-09", "expected 1 to 1048574 frames"]),
+}
+
+
+def only_error_line(capsys):
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("bda: error: ")
+    assert printed.err.endswith("\n")
+    assert len(printed.err.splitlines()) == 1
+    return printed.err
+
+
+@pytest.mark.parametrize("content, words", WRONG_FILES.values(), ids=WRONG_FILES)
+def test_wrong_files_are_refused(content, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("wrong.toml").write_bytes(content if isinstance(content, bytes) else content.encode())
+    for command in (["check", "wrong.toml"], ["run", "wrong.toml", "--output", "results", "--overwrite"]):
+        assert main(command) == 2
+        line = only_error_line(capsys)
+        assert line.startswith("bda: error: wrong.toml: ")
+        for word in words:
+            assert word in line
+    assert [path.name for path in tmp_path.iterdir()] == ["wrong.toml"]
+
+
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        ("missing.toml", "missing.toml: no such file: expected a scenario in TOML"),
+        ("folder", "folder: is a directory: expected a scenario in TOML"),
+        ("file/scenario.toml", "file/scenario.toml: cannot be read: Not a directory"),
+        ("x" * 5000, "cannot be read: File name too long"),
+        ("two\nlines.toml", "two lines.toml: no such file"),
+    ],
+    ids=["missing", "folder", "in a file", "long name", "name of two lines"],
+)
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows says it in other words")
+def test_files_that_cannot_be_read_are_refused(name, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("folder").mkdir()
+    Path("file").touch()
+    for command in (["check", name], ["run", name, "--output", "results"]):
+        assert main(command) == 2
+        assert words in only_error_line(capsys)
+    assert not Path("results").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        ([], "COMMAND"),
+        (["chek"], "invalid choice: 'chek'"),
+        (["check"], "SCENARIO.toml"),
+        (["check", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
+        (["check", "a.toml", "--output", "results"], "unrecognized arguments: --output results"),
+        (["run", "a.toml"], "--output"),
+        (["run", "a.toml", "--output"], "--output: expected one argument"),
+        (["run", "a.toml", "--out", "results"], "required: --output"),
+        (["run", "a.toml", "--output", "results", "--no-picture"], "unrecognized arguments: --no-picture"),
+    ],
+)
+def test_wrong_command_lines_are_refused(arguments, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    line = only_error_line(capsys)
+    assert words in line
+    assert "--help" in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_process_ends_with_the_status_too(tmp_path):
+    command = [
+        sys.executable,
+        "-m",
+        "bridge_demolition_addon",
+        "run",
+        "missing.toml",
+        "--output",
+        str(tmp_path / "new"),
+    ]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "bda: error: missing.toml: no such file: expected a scenario in TOML\n"
+    assert not (tmp_path / "new").exists()
