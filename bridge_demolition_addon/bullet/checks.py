@@ -9,13 +9,24 @@ import struct
 from collections.abc import Iterable
 
 import bpy
+import numpy as np
 
 from ..core.errors import LayoutError
-from .layout import ACTIVATION_STATES, CONSTRAINT_TYPES, RIGID_BODY, WARM_STARTING, Layout
+from .layout import (
+    CONSTRAINT_TYPES,
+    DRAWING_SIZE,
+    FIRST_STEP_S,
+    RIGID_BODY,
+    WARM_STARTING,
+    Layout,
+)
 from .memory import read, read_pointer, read_value
 
 _FLOAT32 = 1e-6
 """Relative spacing of the 32-bit values in Blender, with room for one rounding more."""
+
+_ROTATION = 1e-4
+"""How far elements of two rotation matrices in single precision may differ."""
 
 
 def check_settings(layout: Layout, world: bpy.types.RigidBodyWorld) -> None:
@@ -42,25 +53,30 @@ def is_physics_world(layout: Layout, address: int) -> bool:
     return all(here == there != 0 for here, there in pairs)
 
 
-def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld) -> None:
-    """Bullet's solver settings are where they are expected."""
+def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld, substep_s: float) -> None:
+    """Bullet's solver settings are where they are expected, and no one else uses the field that takes our token."""
     _expect("solver iterations", read_value(dynamics + layout.world.iterations, "i"), world.solver_iterations)
     _expect("warm starting", read_value(dynamics + layout.world.warm_starting, "d"), WARM_STARTING)
     step = read_value(dynamics + layout.world.step, "d")
-    if not 0.0 <= step <= 1e3:
-        raise LayoutError(f"solver step is {step:g} s")
+    if not any(abs(step - known) <= _FLOAT32 * known for known in (FIRST_STEP_S, substep_s, 0.0)):
+        raise LayoutError(f"solver step is {step:g} s, not {substep_s:g} s")
 
 
-def check_bodies(layout: Layout, bodies: Iterable[tuple[bpy.types.Object, int, int]]) -> None:
+def check_bodies(
+    layout: Layout, bodies: Iterable[tuple[bpy.types.Object, int, int]], depsgraph: bpy.types.Depsgraph
+) -> None:
     """Each body's Bullet values are those that Python shows.
 
     Parameters
     ----------
     bodies
         Object, address of Blender's rbRigidBody and of Bullet's btRigidBody.
+    depsgraph
+        Evaluated for the present frame: it knows where the bodies are.
     """
     for body, holder, address in bodies:
         _check_body(layout, body, holder, address)
+        _check_place(layout, body.evaluated_get(depsgraph), address)
 
 
 def check_connections(layout: Layout, connections: Iterable[tuple[bpy.types.Object, int]], bodies: dict) -> None:
@@ -88,11 +104,9 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
 
     _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)
     _expect(f"internal type {name}", value("i", offsets.internal_type), RIGID_BODY)
-    _expect_member(f"activation state {name}", value("i", offsets.activation), ACTIVATION_STATES)
     _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
     _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)
     _check_inverse_mass(name, value("d", offsets.inverse_mass), settings)
-    _check_place(name, body, struct.unpack_from("<3d", raw, offsets.origin))
 
 
 def _check_inverse_mass(name: str, inverse_mass: float, settings: bpy.types.RigidBodyObject) -> None:
@@ -109,10 +123,20 @@ def _is_animated(settings: bpy.types.RigidBodyObject) -> bool:
     return settings.id_data.animation_data is not None
 
 
-def _check_place(name: str, body: bpy.types.Object, origin: tuple[float, float, float]) -> None:
-    """Bullet's origin is a place near the scene, not noise; it moves within a frame, so it is not compared exactly."""
-    if not all(abs(coordinate) < 1e7 for coordinate in origin):
-        raise LayoutError(f"place {name} is {origin}")
+def _check_place(layout: Layout, body: bpy.types.Object, address: int) -> None:
+    """Bullet's transform, three rows of four doubles and an origin, is the body's place without its scale."""
+    raw = read(address + layout.body.transform, 15 * 8)
+    if raw is None:
+        raise LayoutError(f"transform of body {body.name!r} cannot be read")
+    transform = np.frombuffer(raw)
+    place, rotation, _ = body.matrix_world.decompose()
+    expected = np.column_stack((np.array(rotation.to_matrix()), np.zeros(3)))
+    size = 1.0 + np.abs(place).max()
+    _expect_close(f"place of body {body.name!r}", abs(transform[12:] - place).max() / size, 0.0)
+    # Rotations pass through single-precision quaternions, which costs some digits.
+    turned = abs(np.delete(transform[:12].reshape(3, 4) - expected, 3, axis=1)).max()
+    if not turned <= _ROTATION:
+        raise LayoutError(f"rotation of body {body.name!r} is off by {turned:g}")
 
 
 def _check_connection(layout: Layout, connection: bpy.types.Object, address: int, bodies: dict) -> None:
@@ -126,6 +150,7 @@ def _check_connection(layout: Layout, connection: bpy.types.Object, address: int
         threshold = read_value(address + offsets.breaking_threshold, "d")
         _expect_close(f"breaking threshold {name}", threshold, settings.breaking_threshold)
     _expect_member(f"enabled flag {name}", read_value(address + offsets.enabled, "B"), {0, 1})
+    _expect_close(f"drawing size {name}", read_value(address + offsets.drawing_size, "d"), DRAWING_SIZE)
 
 
 def _expect(what: str, found: object, expected: object) -> None:

@@ -30,47 +30,81 @@ class BlenderLayout:
 
 @dataclass(frozen=True, slots=True)
 class BodyLayout:
-    """btRigidBody. The transform is three rows of four doubles, then the origin."""
+    """btRigidBody.
+
+    Velocities have no counterpart in Blender to be checked against, and are placed by their checked neighbour.
+    """
 
     transform: int
-    activation: int
     friction: int
     internal_type: int
     user_pointer: int
-    linear_velocity: int
-    angular_velocity: int
     inverse_mass: int
     linear_damping: int
 
     @property
-    def origin(self) -> int:
-        """The origin of the transform, behind its 3 × 4 matrix."""
-        return self.transform + 96
+    def linear_velocity(self) -> int:
+        """Two vectors before the inverse mass."""
+        return self.inverse_mass - 64
 
 
 @dataclass(frozen=True, slots=True)
 class ConstraintLayout:
-    """btTypedConstraint."""
+    """btTypedConstraint. Its fields follow one another without gaps from the bodies on."""
 
     type: int = 8
     breaking_threshold: int = 24
-    enabled: int = 32
     body_a: int = 40
-    body_b: int = 48
-    joint_feedback: int = 72
+
+    @property
+    def enabled(self) -> int:
+        """Set until the constraint breaks."""
+        return self.body_a - 8
+
+    @property
+    def body_b(self) -> int:
+        """The other body."""
+        return self.body_a + 8
+
+    @property
+    def drawing_size(self) -> int:
+        """Size for debug drawings, which Blender leaves at its default."""
+        return self.body_a + 24
+
+    @property
+    def joint_feedback(self) -> int:
+        """Where Bullet writes the constraint's loads, when set."""
+        return self.body_a + 32
 
 
 @dataclass(frozen=True, slots=True)
 class WorldLayout:
-    """btDiscreteDynamicsWorld, with the solver's settings inside it."""
+    """btDiscreteDynamicsWorld, with the solver's settings (btContactSolverInfo) inside it."""
 
     dispatcher: int = 40
     broadphase: int = 128
-    user_info: int = 168
-    step: int = 200
-    iterations: int = 216
-    warm_starting: int = 336
+    solver_settings: int = 176
     solver: int = 456
+
+    @property
+    def user_info(self) -> int:
+        """Field for the user of the library, just before the solver's settings; Blender does not use it."""
+        return self.solver_settings - 8
+
+    @property
+    def step(self) -> int:
+        """Length of the last sub-step."""
+        return self.solver_settings + 24
+
+    @property
+    def iterations(self) -> int:
+        """Iterations of the solver."""
+        return self.solver_settings + 40
+
+    @property
+    def warm_starting(self) -> int:
+        """Share of the last impulses that the solver starts with."""
+        return self.solver_settings + 160
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,12 +122,9 @@ SYSTEM_V = Layout(
     name="System V",
     body=BodyLayout(
         transform=8,
-        activation=424,
         friction=440,
         internal_type=488,
         user_pointer=496,
-        linear_velocity=720,
-        angular_velocity=752,
         inverse_mass=784,
         linear_damping=984,
     ),
@@ -104,12 +135,9 @@ MICROSOFT = replace(
     name="Microsoft",
     body=BodyLayout(
         transform=16,
-        activation=432,
         friction=448,
         internal_type=496,
         user_pointer=504,
-        linear_velocity=736,
-        angular_velocity=768,
         inverse_mass=800,
         linear_damping=1008,
     ),
@@ -130,11 +158,14 @@ CONSTRAINT_TYPES = {
 }
 """Bullet's number (btTypedConstraintType) for each kind of constraint that Blender makes."""
 
-ACTIVATION_STATES = frozenset({1, 2, 3, 4, 5})
-"""Active, sleeping, wants to sleep, never sleeps, disabled."""
-
 WARM_STARTING = 0.85
 """Bullet's default warm-starting factor, which Blender leaves alone: a mark to know the solver's settings by."""
+
+DRAWING_SIZE = 0.05
+"""Bullet's default size for debug drawings of constraints, in single precision: a mark to know a constraint by."""
+
+FIRST_STEP_S = 1.0 / 60.0
+"""What the solver of a new world names as its step, in single precision, before it has taken any."""
 
 
 def platform_layout() -> Layout:

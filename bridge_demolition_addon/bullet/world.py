@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import LayoutError, SimulationError
+from ..scene.world import scene_time_step
 from . import checks
 from .layout import Layout, platform_layout
 from .memory import (
@@ -142,10 +143,6 @@ class BulletWorld:
         first[self._exists] = [a == e for a, e in zip(body_a.tolist(), expected, strict=True)]
         return first
 
-    def missing_connections(self) -> list[str]:
-        """Names of connections that Bullet has not got, for want of a body or because they are switched off."""
-        return [each.name for each, exists in zip(self.connections, self._exists, strict=True) if not exists]
-
     def release(self) -> None:
         """Take our buffers out of the world again, where it is still the one that was prepared."""
         try:
@@ -184,8 +181,9 @@ class BulletWorld:
 
     def _adopt(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> None:
         """Check a new world from end to end, and only then write our token and our buffers into it."""
-        checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world)
-        body_addresses = self._find_bodies()
+        substep_s = scene_time_step(self.scene).substep_s
+        checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world, substep_s)
+        body_addresses = self._find_bodies(depsgraph)
         connection_addresses = self._find_connections(depsgraph, body_addresses)
         if read_value(dynamics + self._layout.world.user_info, "Q") not in (0, self._token):
             raise LayoutError("the world's user information is in use")
@@ -198,7 +196,7 @@ class BulletWorld:
         self._token = next(_tokens)
         write_pointers(dynamics + self._layout.world.user_info, self._token)
 
-    def _find_bodies(self) -> list[int]:
+    def _find_bodies(self, depsgraph: bpy.types.Depsgraph) -> list[int]:
         holders, addresses = [], []
         for body in self.bodies:
             shared = read_pointer(body.rigid_body.as_pointer() + self._layout.blender.body_shared)
@@ -207,15 +205,20 @@ class BulletWorld:
                 raise SimulationError(f"body {body.name!r} is not simulated: give it a mesh and a rigid body")
             holders.append(holder)
             addresses.append(read_pointer(holder))
-        checks.check_bodies(self._layout, zip(self.bodies, holders, addresses, strict=True))
+        checks.check_bodies(self._layout, zip(self.bodies, holders, addresses, strict=True), depsgraph)
         return addresses
 
     def _find_connections(self, depsgraph: bpy.types.Depsgraph, body_addresses: list[int]) -> list[int]:
-        """Bullet's constraints, 0 where there is none. Only evaluated objects know theirs."""
+        """Bullet's constraints, 0 for one that is switched off. Only evaluated objects know theirs."""
         offset = self._layout.blender.connection_physics
         evaluated = [connection.evaluated_get(depsgraph) for connection in self.connections]
         addresses = [read_pointer(each.rigid_body_constraint.as_pointer() + offset) for each in evaluated]
         existing = [pair for pair in zip(self.connections, addresses, strict=True) if pair[1]]
+        for connection, address in zip(self.connections, addresses, strict=True):
+            if not address and connection.rigid_body_constraint.enabled:
+                raise SimulationError(
+                    f"connection {connection.name!r} is not simulated: give it two bodies and show it"
+                )
         by_object = dict(zip(self.bodies, body_addresses, strict=True))
         checks.check_connections(self._layout, existing, by_object)
         return addresses

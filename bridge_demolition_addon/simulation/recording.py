@@ -202,8 +202,8 @@ class Recording:
     def _connection_loads(self, places: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Force (m, 3) on the first body of each connection, and moment (m, 3) about the connection's point.
 
-        They are measured on a body that can move: for a hinge on a fixed body, Bullet leaves a part of the torque out of
-        what it gives for that body.
+        They are measured on a body that can move: of a hinge on a fixed body, Bullet leaves out a part of the torque
+        on that body.
         """
         bodies, rows = self._measured_bodies, np.arange(len(self._pairs))
         feedback = self._world.joint_feedback().reshape(-1, 2, 2, 3)[rows, self._feedback_side]

@@ -1,0 +1,70 @@
+"""A wrong byte offset ends in a clear error: never in a crash, and never in a wrong force."""
+
+from dataclasses import fields, replace
+
+import pytest
+from blocks import Blocks
+
+from bridge_demolition_addon.bullet.layout import platform_layout
+from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
+from bridge_demolition_addon.core.errors import DemolitionError
+
+GROUPS = ("blender", "body", "constraint", "world")
+
+
+def offsets():
+    """Every offset that stands in the tables on its own."""
+    layout = platform_layout()
+    return [(group, field.name) for group in GROUPS for field in fields(getattr(layout, group))]
+
+
+@pytest.fixture
+def stepped(blender):
+    """A chain that has taken a step, and the graph that knows its constraints."""
+    blocks = Blocks()
+    bodies = [blocks.block((0, 0, 10)), blocks.block((0, 0, 9), 10.0), blocks.block((0, 0, 8), 25.0)]
+    bodies[2].rigid_body.friction, bodies[2].rigid_body.linear_damping = 0.25, 0.04
+    for kind, pair in (("FIXED", bodies[:2]), ("HINGE", bodies[1:])):
+        blocks.connect(kind, pair[1].location, *pair, breaking_force_newton=1e6)
+    blocks.scene.frame_set(1)
+    blocks.scene.frame_set(2)
+    return blocks, bodies, blender.context.view_layer.depsgraph
+
+
+def bound(stepped, layout):
+    blocks, bodies, graph = stepped
+    world = BulletWorld(blocks.scene, bodies, list(blocks.world.constraints.objects), layout)
+    return world, world.bind(graph)
+
+
+def trusted(stepped, layout):
+    """Whether a layout leads to a world; one that is not there is a clear answer too."""
+    try:
+        return bound(stepped, layout)[1] is not WorldState.ABSENT
+    except DemolitionError:
+        return False
+
+
+def test_right_layout_is_trusted(stepped):
+    world, state = bound(stepped, platform_layout())
+    assert state is WorldState.NEW
+    assert world.intact().all()
+    world.release()
+
+
+@pytest.mark.parametrize("shift", (-8, 8, -16, 16, 64))
+@pytest.mark.parametrize(("group", "name"), offsets(), ids=lambda value: str(value))
+def test_every_shifted_offset_is_refused(stepped, group, name, shift):
+    layout = platform_layout()
+    part = getattr(layout, group)
+    shifted = replace(part, **{name: getattr(part, name) + shift})
+    assert not trusted(stepped, replace(layout, **{group: shifted}))
+    # Nothing was written: the right layout still finds the world as Blender made it, and it goes on.
+    world, state = bound(stepped, layout)
+    assert state is WorldState.NEW
+    blocks, bodies, graph = stepped
+    for frame in range(3, 9):
+        blocks.scene.frame_set(frame)
+    assert world.bind(graph) is WorldState.KNOWN
+    assert world.joint_feedback()[0, 0, 2] == pytest.approx(-35.0 * 9.80665, rel=1e-3)
+    world.release()
