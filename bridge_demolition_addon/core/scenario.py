@@ -15,8 +15,8 @@ from .time_step import TimeStep
 STANDARD_GRAVITY_M_S2 = 9.80665
 """Standard acceleration of free fall, exact; 1 kgf is the weight of 1 kg under it."""
 
-MOST_FRAMES = 1_048_574
-"""Last frame that Blender can show."""
+MOST_FRAMES = 1_000_000
+"""Blender's timeline ends at frame 1 048 574; a run needs a few frames of it before time begins."""
 
 SHORTEST_LENGTH_M = 0.001
 """Least size of anything solid: Bullet cannot tell contacts apart on bodies that are smaller still."""
@@ -111,7 +111,9 @@ class Bridge(Table):
     table: ClassVar[str] = "bridge"
 
     span_lengths_m: tuple[float, ...] = key(
-        "Lengths of the spans, in their order along the road, each from pier axis to pier axis.", unit="m", at_least=SHORTEST_LENGTH_M
+        "Lengths of the spans, in their order along the road, each from pier axis to pier axis.",
+        unit="m",
+        at_least=SHORTEST_LENGTH_M,
     )
     density_kg_m3: float | None = key(
         "Density of the whole bridge. Give this or `mass_kg`.", default=None, unit="kg/m³", above=0

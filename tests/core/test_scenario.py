@@ -249,9 +249,9 @@ def test_values_outside_their_limits_are_refused(table, values, text):
             {"ball": replace(BALL, target_m=(0, 4.3))},
             "ball.target_m[1] is 4.3: expected a place on the deck, from -4.25 to 4.25 (m)",
         ),
-        (SCENARIO.time, {"duration_s": 1e6}, "time.duration_s is 1000000.0: expected 1 to 1048574 frames"),
-        (SCENARIO.time, {"duration_s": 1e-9}, "time.duration_s is 1e-09: expected 1 to 1048574 frames"),
-        (SCENARIO.time, {"duration_s": 1e38, "time_scale": 1e-37}, "expected 1 to 1048574 frames"),
+        (SCENARIO.time, {"duration_s": 1e6}, "time.duration_s is 1000000.0: expected 1 to 1000000 frames"),
+        (SCENARIO.time, {"duration_s": 1e-9}, "time.duration_s is 1e-09: expected 1 to 1000000 frames"),
+        (SCENARIO.time, {"duration_s": 1e38, "time_scale": 1e-37}, "expected 1 to 1000000 frames"),
     ],
 )
 def test_values_that_contradict_each_other_are_refused(table, values, text):
