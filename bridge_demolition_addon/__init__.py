@@ -1,2 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bridge Demolition Add-on: plan the demolition of a bridge with Blender's rigid bodies."""
+
+
+def register() -> None:
+    """Called by Blender when the extension is switched on."""
+    for module in _interface():
+        module.register()
+
+
+def unregister() -> None:
+    """Called by Blender when the extension is switched off: takes back all that `register` and the buttons did."""
+    for module in reversed(_interface()):
+        module.unregister()
+
+
+def _interface() -> tuple:
+    # The engineering in `core` and the checks of the command line work where there is no Blender to import.
+    from .ui import operators, panels, properties
+
+    return properties, operators, panels

@@ -6,7 +6,6 @@ x runs along the road from the axis of the first pier, y across it from its midd
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import accumulate
 
 import numpy as np
 import trimesh
@@ -31,7 +30,7 @@ class Member:
 
 def pier_axes(bridge: Bridge) -> np.ndarray:
     """Positions of the pier axes along the road, (spans + 1,) in m."""
-    return np.array(list(accumulate(bridge.span_lengths_m, initial=0.0)))
+    return np.concatenate(([0.0], np.cumsum(bridge.span_lengths_m)))
 
 
 def deck_underside(bridge: Bridge) -> float:
@@ -64,9 +63,8 @@ def bridge_density(bridge: Bridge, members: tuple[Member, ...]) -> float:
 
 def _deck(bridge: Bridge) -> Member:
     deck = bridge.deck
-    length = sum(bridge.span_lengths_m) + 2.0 * deck.overhang_m
-    middle = (sum(bridge.span_lengths_m) / 2.0, 0.0, deck_underside(bridge) + deck.thickness_m / 2.0)
-    return Member("deck", "deck", box((length, deck.width_m, deck.thickness_m), middle))
+    middle = (bridge.spans_m / 2.0, 0.0, deck_underside(bridge) + deck.thickness_m / 2.0)
+    return Member("deck", "deck", box((bridge.length_m, deck.width_m, deck.thickness_m), middle))
 
 
 def _pier_cap(bridge: Bridge, number: int, axis: float) -> Member:
@@ -78,11 +76,11 @@ def _pier_cap(bridge: Bridge, number: int, axis: float) -> Member:
 def _columns(bridge: Bridge, number: int, axis: float) -> list[Member]:
     """Columns of one pier, each in the middle of its share of the width that they carry."""
     piers = bridge.piers
-    carried_width = bridge.pier_caps.width_m if bridge.pier_caps else bridge.deck.width_m
+    carried = bridge.pier_caps or bridge.deck
     size = (piers.column_length_m, piers.column_width_m, piers.height_m)
     members = []
     for column in range(piers.columns):
-        across = carried_width * ((column + 0.5) / piers.columns - 0.5)
+        across = carried.width_m * ((column + 0.5) / piers.columns - 0.5)
         name = f"pier {number}" if piers.columns == 1 else f"pier {number} column {column + 1}"
         members.append(Member(name, "pier", box(size, (axis, across, piers.height_m / 2.0))))
     return members

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .fracture import SharedFaces, Shard
+from .fracture import Shard, SharedFaces
 
 GROUND = -1
 """Stands for the ground where a connection names its second body."""
@@ -16,7 +16,7 @@ _LEVEL_TOLERANCE_M = 1e-6
 """How far a face may lie off the ground and still stand on it: rounding of coordinates of some hundred metres."""
 
 _DISTANCES_AT_ONCE = 4_000_000
-"""Distances computed in one array operation, to bound memory to some 100 MB."""
+"""Distances computed in one array operation: their differences in three axes take 100 MB."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,9 +117,9 @@ def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shar
     return pairs[kept]
 
 
-def foundations(shards: Sequence[Shard], level_m: float = 0.0) -> Connections:
+def foundations(shards: Sequence[Shard]) -> Connections:
     """Connections to the ground of all shards that stand on it, in the middle of the face they stand on."""
-    standing = [(index, *_standing_face(shard, level_m)) for index, shard in enumerate(shards)]
+    standing = [(index, *_standing_face(shard)) for index, shard in enumerate(shards)]
     standing = [(index, area, centre) for index, area, centre in standing if area > 0.0]
     count = len(standing)
     return Connections(
@@ -132,15 +132,13 @@ def foundations(shards: Sequence[Shard], level_m: float = 0.0) -> Connections:
 
 def joined(parts: Sequence[Connections]) -> Connections:
     """Several sets of connections as one."""
-    return Connections(
-        *(np.concatenate([getattr(part, name) for part in parts]) for name in ("pairs", "points", "areas", "normals"))
-    )
+    return Connections(*(np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(Connections)))
 
 
-def _standing_face(shard: Shard, level_m: float) -> tuple[float, np.ndarray]:
-    """Area and centre of what of a shard lies flat on a level."""
+def _standing_face(shard: Shard) -> tuple[float, np.ndarray]:
+    """Area and centre of what of a shard lies flat on the ground."""
     corners = shard.vertices[shard.triangles]
-    flat = corners[(abs(corners[:, :, 2] - level_m) <= _LEVEL_TOLERANCE_M).all(axis=1)]
+    flat = corners[(abs(corners[:, :, 2]) <= _LEVEL_TOLERANCE_M).all(axis=1)]
     areas = np.linalg.norm(np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]), axis=1) / 2.0
     total = float(areas.sum())
     centre = areas @ flat.mean(axis=1) / total if total > 0.0 else np.zeros(3)

@@ -60,19 +60,20 @@ def _welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.n
 
 
 def _loops(edges: np.ndarray) -> list[list[int]]:
-    """Closed walks along all edges (e, 2), each edge once."""
+    """Closed walks along all edges (e, 2), each edge once, none through the same corner twice."""
     onwards: dict[int, list[int]] = {}
     for start, end in edges.tolist():
         onwards.setdefault(start, []).append(end)
     loops = []
-    while onwards:
-        walk = [next(iter(onwards))]
-        while walk[-1] in onwards:
-            here = walk[-1]
-            walk.append(onwards[here].pop())
-            if not onwards[here]:
-                del onwards[here]
-        loops.append(walk[:-1])
+    for start in onwards:
+        walk = [start]
+        while onwards[walk[-1]]:
+            there = onwards[walk[-1]].pop()
+            if there in walk:
+                loops.append(walk[walk.index(there) :])
+                del walk[walk.index(there) + 1 :]
+            else:
+                walk.append(there)
     return loops
 
 

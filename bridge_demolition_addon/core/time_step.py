@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+
+_FRAME_NOISE = 1e-6
+"""Part of a frame that rounding may add to a duration without a frame being added for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +44,5 @@ class TimeStep:
         return force_newton * self.substep_s
 
     def frames(self, duration_s: float) -> int:
-        """Whole frames that cover a simulated duration; rounding noise does not add a frame."""
-        frames = duration_s / self.frame_s
-        nearest = round(frames)
-        return nearest if abs(frames - nearest) < 1e-6 else int(frames) + 1
+        """Whole frames that cover a simulated duration."""
+        return math.ceil(duration_s / self.frame_s - _FRAME_NOISE)

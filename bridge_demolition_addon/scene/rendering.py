@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 import bpy
@@ -12,13 +11,16 @@ from mathutils import Vector
 _LENS_MM = 40.0
 _SENSOR_MM = 36.0
 _VIEW_FROM = Vector((-0.55, -1.0, 0.42)).normalized()
-_ROOM = 1.25
-_SKY = (0.80, 0.86, 0.92)
+_ROOM = 1.1
+_FARTHEST_M = 1e4
+_SKY = (0.36, 0.45, 0.55)
+_EXPOSURE = 1.0
 
 
-def prepare_pictures(scene: bpy.types.Scene, low: np.ndarray, high: np.ndarray, width_px: int, height_px: int) -> None:
-    """Aim a camera at the box from `low` to `high`, (3,) each in m, and set up the renderer."""
-    scene.camera = _camera(scene, low, high, width_px / height_px)
+
+def prepare_pictures(scene: bpy.types.Scene, points: np.ndarray, width_px: int, height_px: int) -> None:
+    """Aim a camera at points (n, 3) in m that are to be seen, and set up the renderer."""
+    scene.camera = _camera(scene, points, width_px / height_px)
     render = scene.render
     render.engine = "BLENDER_WORKBENCH"
     render.resolution_x, render.resolution_y, render.resolution_percentage = width_px, height_px, 100
@@ -33,6 +35,7 @@ def prepare_pictures(scene: bpy.types.Scene, low: np.ndarray, high: np.ndarray, 
     scene.world = scene.world or bpy.data.worlds.new("Sky")
     scene.world.color = _SKY
     scene.view_settings.view_transform = "Standard"
+    scene.view_settings.exposure = _EXPOSURE
 
 
 def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
@@ -43,22 +46,24 @@ def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
         bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
-def _camera(scene: bpy.types.Scene, low: np.ndarray, high: np.ndarray, aspect: float) -> bpy.types.Object:
-    """Camera beside the road that sees the whole box."""
+def _camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:
+    """Camera beside the road that sees all points."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    camera.data.lens, camera.data.sensor_width, camera.data.clip_end = _LENS_MM, _SENSOR_MM, 1e4
-    middle = Vector((low + high) / 2.0)
+    camera.data.lens, camera.data.sensor_width, camera.data.clip_end = _LENS_MM, _SENSOR_MM, _FARTHEST_M
     camera.rotation_euler = _VIEW_FROM.to_track_quat("Z", "Y").to_euler()
-    camera.location = middle + _VIEW_FROM * _distance(low, high, camera.rotation_euler.to_matrix(), aspect)
+    camera.location = _viewpoint(points, np.array(camera.rotation_euler.to_matrix()), aspect)
     scene.collection.objects.link(camera)
     return camera
 
 
-def _distance(low: np.ndarray, high: np.ndarray, rotation, aspect: float) -> float:
-    """How far the camera has to be from the middle of the box for all corners to be in the picture."""
-    corners = np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    seen = (corners - (low + high) / 2.0) @ np.array(rotation)
-    half_width = math.tan(math.atan(_SENSOR_MM / 2.0 / _LENS_MM))
-    half_height = half_width / aspect
-    needed = np.maximum(abs(seen[:, 0]) / half_width, abs(seen[:, 1]) / half_height) + seen[:, 2]
-    return _ROOM * float(needed.max())
+def _viewpoint(points: np.ndarray, axes: np.ndarray, aspect: float) -> np.ndarray:
+    """Where a camera with the given axes (3, 3: right, up, back, as columns) has all points (n, 3) in its picture."""
+    middle = axes @ _middle(points @ axes)
+    seen = (points - middle) @ axes
+    half_width = _SENSOR_MM / 2.0 / _LENS_MM
+    needed = np.maximum(abs(seen[:, 0]), abs(seen[:, 1]) * aspect) / half_width + seen[:, 2]
+    return middle + axes[:, 2] * _ROOM * needed.max()
+
+
+def _middle(points: np.ndarray) -> np.ndarray:
+    return (points.min(axis=0) + points.max(axis=0)) / 2.0

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from typing import Any
 
 from ..core.errors import OutputError
+from ..core.results import Results
+from ..report.force_plot import plot_forces
 
 RESULT_FILES = (
     "summary.json",
@@ -40,3 +44,11 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
     except OSError as error:
         raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
     return folder
+
+
+def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:
+    """Write arrays, summary and force chart of a recording beside its logs."""
+    results.save(folder / "results.npz")
+    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    impact = summary["impact"]
+    plot_forces(results, folder / "force_over_time.png", summary["title"], impact and impact["time_s"])

@@ -31,6 +31,8 @@ class Recording:
 
     Attributes
     ----------
+    scene, folder
+        As given.
     error
         Why the recording ended before its time, or None.
     seconds
@@ -43,7 +45,7 @@ class Recording:
         self.scene = scene
         self.error: Exception | None = None
         self.seconds = 0.0
-        self._folder = folder
+        self.folder = folder
         self._bodies = bodies_of(scene)
         self._connections = connections_of(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)
@@ -156,8 +158,8 @@ class Recording:
         self._measured_bodies = np.take_along_axis(self._pairs, self._measured_side[:, None], axis=1)[:, 0]
         self._local_points = self._points_in_measured_bodies()
         self._logs = (
-            BodyLog(self._folder / "force_log.csv", FORCE_COLUMNS, self._names),
-            BodyLog(self._folder / "debris_log.csv", DEBRIS_COLUMNS, self._names),
+            BodyLog(self.folder / "force_log.csv", FORCE_COLUMNS, self._names),
+            BodyLog(self.folder / "debris_log.csv", DEBRIS_COLUMNS, self._names),
         )
 
     def _paired_bodies(self) -> np.ndarray:

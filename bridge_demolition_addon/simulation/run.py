@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import signal
 import threading
 import time
@@ -18,13 +17,12 @@ from ..core.bridge import deck_top
 from ..core.model import Model, build_model
 from ..core.results import Results
 from ..core.scenario import Scenario
-from ..core.summary import impact_step, summarise
-from ..report.force_plot import plot_forces
+from ..core.summary import summarise
 from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, scene_time_step
 from . import handlers
-from .output import prepared_folder
+from .output import PICTURE_FOLDER, keep_results, prepared_folder
 from .recording import Recording
 
 PICTURES = ("before", "impact", "after")
@@ -86,13 +84,15 @@ def run_scenario(
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
     recording, blender_s, interrupted = _simulate(scene, folder, progress)
     results = recording.results()
-    results.save(folder / "results.npz")
     summary = _summary(scenario, model, scene, results, interrupted)
     summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    progress.stage("writing the results")
+    keep_results(folder, results, summary)
     if interrupted:
         raise KeyboardInterrupt
-    _show(results, summary, scene, folder, pictures, progress)
+    if pictures:
+        progress.stage("rendering pictures")
+        _render(scene, folder, summary)
     return summary
 
 
@@ -104,14 +104,13 @@ def _empty_scene(title: str) -> bpy.types.Scene:
 
 
 def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
-    bridge, settings = scenario.bridge, scenario.pictures
-    height = deck_top(bridge)
-    if scenario.ball:
-        height += scenario.ball.drop_height_m + scenario.ball.diameter_m
-    overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
-    low = np.array([-overhang, -half_width, 0.0])
-    high = np.array([bridge.spans_m + overhang, half_width, height])
-    prepare_pictures(scene, low, high, settings.width_px, settings.height_px)
+    bridge, ball, settings = scenario.bridge, scenario.ball, scenario.pictures
+    ends = (-bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m)
+    sides = (-bridge.deck.width_m / 2.0, bridge.deck.width_m / 2.0)
+    seen = [(x, y, z) for x in ends for y in sides for z in (0.0, deck_top(bridge))]
+    if ball:
+        seen.append((*ball.target_m, deck_top(bridge) + ball.drop_height_m + ball.diameter_m))
+    prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
 
 
 def _simulate(scene: bpy.types.Scene, folder: Path, progress: Progress) -> tuple[Recording, float, bool]:
@@ -122,11 +121,12 @@ def _simulate(scene: bpy.types.Scene, folder: Path, progress: Progress) -> tuple
     began = time.perf_counter()
     try:
         with _interruptible() as interrupted:
-            for done, frame in enumerate(frames, start=1):
+            for frame in frames:
                 scene.frame_set(frame)
                 if recording.error:
                     raise recording.error
-                progress.frame(done, len(frames), recording.broken)
+                if recording.recorded_frames > 1:
+                    progress.frame(recording.recorded_frames - 1, len(frames) - 2, recording.broken)
                 if interrupted.is_set() and recording.recorded_frames:
                     break
     finally:
@@ -163,21 +163,8 @@ def _summary(
     }
 
 
-def _show(
-    results: Results,
-    summary: dict[str, Any],
-    scene: bpy.types.Scene,
-    folder: Path,
-    pictures: bool,
-    progress: Progress,
-) -> None:
-    progress.stage("drawing the force chart")
-    impact = summary["impact"]
-    plot_forces(results, folder / "force_over_time.png", summary["title"], impact and impact["time_s"])
-    if not pictures:
-        return
-    progress.stage("rendering pictures")
-    step = impact_step(results, np.array(scene.gravity))
-    middle = int(results.frames[step]) if step is not None else summary["largest_force_sum"]["frame"]
-    for name, frame in zip(PICTURES, (START_FRAME, middle, int(results.frames[-1])), strict=True):
-        render_picture(scene, frame, folder / "frames" / f"{name}.png")
+def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
+    """Pictures at the start, at the impact (or else at the largest force) and at the end."""
+    middle = summary["impact"] or summary["largest_force_sum"]
+    for name, frame in zip(PICTURES, (START_FRAME, middle["frame"], scene.frame_current), strict=True):
+        render_picture(scene, frame, folder / PICTURE_FOLDER / f"{name}.png")

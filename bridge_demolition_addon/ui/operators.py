@@ -1,0 +1,134 @@
+"""What the buttons of the sidebar do."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..core.errors import DemolitionError, OutputError
+from ..core.model import build_model
+from ..core.scenario_file import read_scenario
+from ..core.summary import summarise
+from ..scene.demolition import build_demolition
+from ..simulation import handlers
+from ..simulation.output import keep_results, prepared_folder
+from ..simulation.recording import Recording
+
+
+class BDA_OT_build_scenario(bpy.types.Operator):
+    """Build the bridge of a scenario file, its shards, connections, ground and ball in this scene"""
+
+    bl_idname = "bda.build_scenario"
+    bl_label = "Build Scenario"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.scene.rigidbody_world:
+            cls.poll_message_set("This scene has a rigid-body world already: use a new scene")
+            return False
+        if not context.scene.bda.scenario_path:
+            cls.poll_message_set("Choose a scenario file first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            scenario = read_scenario(_absolute(context.scene.bda.scenario_path))
+            model = build_model(scenario)
+        except DemolitionError as error:
+            return _refused(self, error)
+        build_demolition(context.scene, scenario, model)
+        self.report({"INFO"}, f"{len(model.shards)} shards, {len(model.connections)} connections")
+        return {"FINISHED"}
+
+
+class BDA_OT_register_handler(bpy.types.Operator):
+    """Record forces and debris while the timeline plays from its start frame"""
+
+    bl_idname = "bda.register_handler"
+    bl_label = "Register Handler"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not context.scene.rigidbody_world:
+            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
+            return False
+        if handlers.current():
+            cls.poll_message_set("The handler is registered already")
+            return False
+        if not context.scene.bda.output_directory:
+            cls.poll_message_set("Choose a folder for the results first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = context.scene.bda
+        try:
+            folder = prepared_folder(_absolute(settings.output_directory), overwrite=settings.overwrite)
+            handlers.start(Recording(context.scene, folder))
+        except DemolitionError as error:
+            return _refused(self, error)
+        self.report({"INFO"}, f"Recording to {folder}: play the timeline from its start frame")
+        return {"FINISHED"}
+
+
+class BDA_OT_unregister_handler(bpy.types.Operator):
+    """End the recording and write its results"""
+
+    bl_idname = "bda.unregister_handler"
+    bl_label = "Unregister Handler"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not handlers.current():
+            cls.poll_message_set("No handler is registered")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        recording = handlers.stop()
+        try:
+            results = recording.results()
+            summary = {"title": recording.scene.name, **summarise(results, np.array(recording.scene.gravity))}
+            keep_results(recording.folder, results, summary)
+        except (DemolitionError, ReferenceError) as error:
+            return _refused(self, recording.error or error)
+        if recording.error:
+            self.report({"WARNING"}, f"The recording ended early: {recording.error}")
+        self.report({"INFO"}, f"Results are in {recording.folder}")
+        return {"FINISHED"}
+
+
+CLASSES = (BDA_OT_build_scenario, BDA_OT_register_handler, BDA_OT_unregister_handler)
+
+
+def register() -> None:
+    """Make the operators known to Blender."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    """End a recording that runs, and take the operators away."""
+    handlers.stop()
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
+
+
+def _absolute(path: str) -> Path:
+    """A path as the user gave it, where ``//`` is the folder of the saved file.
+
+    Raises
+    ------
+    OutputError
+        The path is relative to a file that has not been saved yet.
+    """
+    if path.startswith("//") and not bpy.data.filepath:
+        raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
+    return Path(bpy.path.abspath(path))
+
+
+def _refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
+    operator.report({"ERROR"}, str(error))
+    return {"CANCELLED"}
