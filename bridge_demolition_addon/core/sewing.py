@@ -37,7 +37,8 @@ def sewn(
     rim = _open_edges(triangles)
     triangles = _welded(vertices, np.unique(rim), tolerance_m)[triangles]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
-    return vertices, np.concatenate([triangles, *(_fan(loop) for loop in _loops(_open_edges(triangles)))])
+    loops = _loops(_open_edges(triangles), vertices)
+    return vertices, np.concatenate([triangles, *(_fan(loop) for loop in loops)])
 
 
 def _open_edges(triangles: np.ndarray) -> np.ndarray:
@@ -59,8 +60,12 @@ def _welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.n
     return representative
 
 
-def _loops(edges: np.ndarray) -> list[list[int]]:
-    """Closed walks along all edges (e, 2), each edge once, none through the same corner twice."""
+def _loops(edges: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
+    """Closed walks along all edges (e, 2), each edge once, none through the same corner twice.
+
+    Where there is a choice the walk turns back most sharply. What is open lies between an edge of one rim and shorter
+    edges of the other along it: this closes the gap between two rims instead of following either all around.
+    """
     onwards: dict[int, list[int]] = {}
     for start, end in edges.tolist():
         onwards.setdefault(start, []).append(end)
@@ -68,13 +73,22 @@ def _loops(edges: np.ndarray) -> list[list[int]]:
     for start in onwards:
         walk = [start]
         while onwards[walk[-1]]:
-            there = onwards[walk[-1]].pop()
+            there = _sharpest_turn(walk, onwards[walk[-1]], vertices)
+            onwards[walk[-1]].remove(there)
             if there in walk:
                 loops.append(walk[walk.index(there) :])
                 del walk[walk.index(there) + 1 :]
             else:
                 walk.append(there)
     return loops
+
+
+def _sharpest_turn(walk: list[int], choices: list[int], vertices: np.ndarray) -> int:
+    if len(walk) == 1 or len(choices) == 1:
+        return choices[0]
+    ahead = vertices[choices] - vertices[walk[-1]]
+    cosines = ahead @ (vertices[walk[-1]] - vertices[walk[-2]]) / np.linalg.norm(ahead, axis=1)
+    return choices[int(np.argmin(cosines))]
 
 
 def _fan(loop: list[int]) -> np.ndarray:
