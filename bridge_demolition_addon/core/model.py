@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -58,7 +58,8 @@ def build_model(scenario: Scenario) -> Model:
     counts = shards_per_member(np.array([member.volume_m3 for member in members]), scenario.fracture.shards)
     seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
     parts = [
-        fracture(member.solid, int(count), int(seed)) for member, count, seed in zip(members, counts, seeds, strict=True)
+        fracture(member.solid, int(count), int(seed))
+        for member, count, seed in zip(members, counts, seeds, strict=True)
     ]
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), counts)
@@ -98,23 +99,21 @@ def _all_faces(
     within: list[SharedFaces], shards: tuple[Shard, ...], member_of_shard: np.ndarray, counts: np.ndarray
 ) -> SharedFaces:
     """Faces shared within each member, and those where two members touch."""
-    first_shards = np.concatenate(([0], np.cumsum(counts)[:-1]))
-    between = touching_faces(shards, member=member_of_shard)
-    return SharedFaces(
-        pairs=np.concatenate([f.pairs + first for f, first in zip(within, first_shards, strict=True)] + [between.pairs]),
-        areas=np.concatenate([f.areas for f in within] + [between.areas]),
-        centres=np.concatenate([f.centres for f in within] + [between.centres]),
-        normals=np.concatenate([f.normals for f in within] + [between.normals]),
-    )
+    first_shards = np.cumsum(counts) - counts
+    numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]
+    parts = [*numbered, touching_faces(shards, member=member_of_shard)]
+    return SharedFaces(*(np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(SharedFaces)))
 
 
 def _connections(
     settings: ConnectionSettings, shards: tuple[Shard, ...], centres: np.ndarray, faces: SharedFaces
 ) -> Connections:
-    neighbours = {
-        "face": lambda: connecting.neighbours_by_face(faces),
-        "centre": lambda: connecting.neighbours_by_centre(centres, settings.search_radius_m),
-        "vertex": lambda: connecting.neighbours_by_vertex(shards, settings.search_radius_m),
-    }
-    between = connecting.connect(centres, faces, *neighbours[settings.method](), settings.limit_per_shard)
+    match settings.method:
+        case "face":
+            pairs, distances = connecting.neighbours_by_face(faces)
+        case "centre":
+            pairs, distances = connecting.neighbours_by_centre(centres, settings.search_radius_m)
+        case "vertex":
+            pairs, distances = connecting.neighbours_by_vertex(shards, settings.search_radius_m)
+    between = connecting.connect(centres, faces, pairs, distances, settings.limit_per_shard)
     return connecting.joined([between, connecting.foundations(shards)]) if settings.foundation else between

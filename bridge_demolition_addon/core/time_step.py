@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-
 _FRAME_NOISE = 1e-6
 """Part of a frame that rounding may add to a duration without a frame being added for it."""
 
