@@ -24,9 +24,9 @@ def first_hit(velocities: np.ndarray, times: np.ndarray, gravity: np.ndarray) ->
     Parameters
     ----------
     velocities
-        (k, 3) velocity of the body after each step since its release, m/s.
+        (k, 3) velocity of the body at its release and after each step since then, m/s.
     times
-        (k,) simulated time after each step, s.
+        (k,) simulated time of each, s.
     gravity
         (3,) acceleration of gravity, m/s².
 

@@ -38,9 +38,9 @@ def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
     for ball in results.of_kind("ball"):
         moving = np.flatnonzero(results.velocities_m_s[:, ball].any(axis=1))
         if len(moving):
-            falling = slice(moving[0], None)
-            hit = first_hit(results.velocities_m_s[falling, ball], results.times_s[falling], gravity_m_s2)
-            return None if hit is None else int(moving[0]) + hit
+            released = max(0, moving[0] - 1)  # a ball that falls a few centimetres is hit in its very first step
+            hit = first_hit(results.velocities_m_s[released:, ball], results.times_s[released:], gravity_m_s2)
+            return None if hit is None else int(released) + hit
     return None
 
 
@@ -64,10 +64,13 @@ def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
     return {"frame": int(results.frames[step]), "time_s": float(results.times_s[step])}
 
 
-def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any]:
-    """Largest of the magnitudes (k, n), on any body that is not the ground."""
+def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] | None:
+    """Largest of the magnitudes (k, n), on any body that is not the ground, in any frame whose forces are known."""
     movable = np.flatnonzero(results.body_kinds != "ground")
-    step, column = np.unravel_index(magnitudes[:, movable].argmax(), (len(magnitudes), len(movable)))
+    known = np.nan_to_num(magnitudes[:, movable], nan=-1.0)
+    if known.max(initial=-1.0) < 0.0:
+        return None
+    step, column = np.unravel_index(known.argmax(), known.shape)
     body = movable[column]
     return {
         "force_N": float(magnitudes[step, body]),
