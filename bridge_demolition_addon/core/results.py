@@ -80,5 +80,5 @@ def load_results(path: Path) -> Results:
     try:
         with np.load(path, allow_pickle=False) as stored:
             return Results(**{field.name: stored[field.name] for field in fields(Results)})
-    except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+    except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile) as error:
         raise OutputError(f"{path}: expected the results of a run ({error})") from error
