@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from enum import Enum
+from enum import StrEnum
 
 import bpy
 import numpy as np
@@ -23,7 +23,7 @@ _SOIL = (0.33, 0.30, 0.24, 1.0)
 _SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
 
 
-class Kind(str, Enum):
+class Kind(StrEnum):
     """What a rigid body stands for."""
 
     SHARD = "shard"

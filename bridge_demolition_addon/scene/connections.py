@@ -46,9 +46,9 @@ def create_connections(
 ) -> list[bpy.types.Object]:
     """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical."""
     objects = []
-    for number, ((first, second), point) in enumerate(zip(connections.pairs, connections.points, strict=True)):
-        connection = template.copy()
-        connection.name, connection.location = f"Connection {number:06d}", point
+    for (first, second), point in zip(connections.pairs, connections.points, strict=True):
+        connection = template.copy()  # keeps the name that Blender gives it: each renaming searches all names
+        connection.location = point
         constraint = connection.rigid_body_constraint
         constraint.object1 = shards[first]
         constraint.object2 = ground if second == GROUND else shards[second]

@@ -32,8 +32,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, shard_template, model.shards, model.centres_m, model.masses_kg)
         create_connections(connections, connection_template, model.connections, shards, ground)
-    for template in (shard_template, connection_template):
-        bpy.data.objects.remove(template)
+    bpy.data.batch_remove((shard_template, shard_template.data, connection_template))
 
 
 def last_frame(scenario: Scenario) -> int:
