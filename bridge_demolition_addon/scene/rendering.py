@@ -17,7 +17,6 @@ _SKY = (0.36, 0.45, 0.55)
 _EXPOSURE = 1.0
 
 
-
 def prepare_pictures(scene: bpy.types.Scene, points: np.ndarray, width_px: int, height_px: int) -> None:
     """Aim a camera at points (n, 3) in m that are to be seen, and set up the renderer."""
     scene.camera = _camera(scene, points, width_px / height_px)
@@ -42,14 +41,14 @@ def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
     """Render one frame that was simulated already; Blender plays it back from its cache."""
     scene.frame_set(frame)
     scene.render.filepath = str(path)
-    with bpy.context.temp_override(scene=scene):
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+    bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 def _camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:
     """Camera beside the road that sees all points."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.data.lens, camera.data.sensor_width, camera.data.clip_end = _LENS_MM, _SENSOR_MM, _FARTHEST_M
+    camera.data.sensor_fit = "HORIZONTAL"  # by default a picture that is higher than wide turns the sensor
     camera.rotation_euler = _VIEW_FROM.to_track_quat("Z", "Y").to_euler()
     camera.location = _viewpoint(points, np.array(camera.rotation_euler.to_matrix()), aspect)
     scene.collection.objects.link(camera)
