@@ -47,6 +47,16 @@ class BodyLayout:
         """Two vectors before the inverse mass."""
         return self.inverse_mass - 64
 
+    @property
+    def ignored_bodies_count(self) -> int:
+        """Length of the list of bodies that this one does not collide with."""
+        return self.user_pointer + 60
+
+    @property
+    def ignored_bodies_data(self) -> int:
+        """First entry of that list."""
+        return self.user_pointer + 72
+
 
 @dataclass(frozen=True, slots=True)
 class ConstraintLayout:

@@ -16,6 +16,7 @@ import numpy as np
 from ..core.errors import LayoutError, SimulationError
 from ..scene.world import scene_time_step
 from . import checks
+from .ignored_collisions import IgnoredCollisions
 from .layout import Layout, platform_layout
 from .memory import (
     gather_doubles,
@@ -124,6 +125,13 @@ class BulletWorld:
         intact[self._exists] = (gather_integers(addresses) & 0xFF) != 0
         return intact
 
+    def let_broken_collide(self) -> None:
+        """Let the bodies of connections that broke since the last call collide again."""
+        broken = self._forbids_collision & ~self.intact()
+        if broken.any():
+            self._ignored.restore(self._ignored_rows[broken])
+            self._forbids_collision &= ~broken
+
     def joint_feedback(self) -> np.ndarray:
         """Loads that each connection put on its bodies in the last sub-step, (m, 4, 3).
 
@@ -187,16 +195,21 @@ class BulletWorld:
         connection_addresses = self._find_connections(depsgraph, body_addresses)
         if read_value(dynamics + self._layout.world.user_info, "Q") not in (0, self._token):
             raise LayoutError("the world's user information is in use")
-        self._body_addresses = np.array(body_addresses, np.uint64)
-        self._connection_addresses = np.array(connection_addresses, np.uint64)
+        forbidding = [each.rigid_body_constraint.disable_collisions for each in self.connections]
+        forbids_collision = np.array(forbidding, bool) & (connection_addresses != 0)
+        ignored = IgnoredCollisions(self._layout, connection_addresses[forbids_collision], body_addresses)
+        self._body_addresses, self._connection_addresses = body_addresses, connection_addresses
         self._exists = self._connection_addresses != 0
+        self._forbids_collision, self._ignored = forbids_collision, ignored
+        self._ignored_rows = np.cumsum(forbids_collision) - 1
         self._feedback[:] = 0.0
         starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)
         self._point_feedback_at(starts[self._exists])
         self._token = next(_tokens)
         write_pointers(dynamics + self._layout.world.user_info, self._token)
 
-    def _find_bodies(self, depsgraph: bpy.types.Depsgraph) -> list[int]:
+    def _find_bodies(self, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
+        """Bullet's bodies (n,)."""
         holders, addresses = [], []
         for body in self.bodies:
             shared = read_pointer(body.rigid_body.as_pointer() + self._layout.blender.body_shared)
@@ -206,10 +219,10 @@ class BulletWorld:
             holders.append(holder)
             addresses.append(read_pointer(holder))
         checks.check_bodies(self._layout, zip(self.bodies, holders, addresses, strict=True), depsgraph)
-        return addresses
+        return np.array(addresses, np.uint64)
 
-    def _find_connections(self, depsgraph: bpy.types.Depsgraph, body_addresses: list[int]) -> list[int]:
-        """Bullet's constraints, 0 for one that is switched off. Only evaluated objects know theirs."""
+    def _find_connections(self, depsgraph: bpy.types.Depsgraph, body_addresses: np.ndarray) -> np.ndarray:
+        """Bullet's constraints (m,), 0 for one that is switched off. Only evaluated objects know theirs."""
         offset = self._layout.blender.connection_physics
         evaluated = [connection.evaluated_get(depsgraph) for connection in self.connections]
         addresses = [read_pointer(each.rigid_body_constraint.as_pointer() + offset) for each in evaluated]
@@ -219,9 +232,9 @@ class BulletWorld:
                 raise SimulationError(
                     f"connection {connection.name!r} is not simulated: give it two bodies and show it"
                 )
-        by_object = dict(zip(self.bodies, body_addresses, strict=True))
+        by_object = dict(zip(self.bodies, body_addresses.tolist(), strict=True))
         checks.check_connections(self._layout, existing, by_object)
-        return addresses
+        return np.array(addresses, np.uint64)
 
     def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
         fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.joint_feedback)

@@ -141,6 +141,7 @@ class Recording:
             self._record_step(0.0 if held else substep, forces_known=held)
         elif substep > 0.0:
             self._record_step(substep, forces_known=True)
+            self._world.let_broken_collide()
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin(self) -> None:

@@ -1,0 +1,83 @@
+"""Letting the two bodies of a broken connection collide again.
+
+A connection can keep its two bodies from colliding, so that it alone carries the load between them. Bullet 3 notes
+that in a list that each body has of bodies it ignores, and leaves it there when the connection breaks: former
+neighbours, and shards broken off their foundation, would pass through each other for good. Here the entries of a
+broken connection are replaced by the body itself, which it never meets. Bullet looks for entries by their value, so it
+neither misses them nor frees anything twice when it takes the constraint apart later.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import numpy as np
+
+from ..core.errors import LayoutError
+from .layout import Layout
+from .memory import gather_pointers, read, read_pointer, read_value, write_pointers
+
+_MOST_IGNORED = 1_000_000
+
+
+class IgnoredCollisions:
+    """The entries that connections have in the lists of their bodies.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    connections
+        (m,) addresses of connections that keep their bodies from colliding.
+    bodies
+        (n,) addresses of all bodies.
+
+    Raises
+    ------
+    LayoutError
+        A list does not hold just what the connections put there.
+    """
+
+    def __init__(self, layout: Layout, connections: np.ndarray, bodies: np.ndarray):
+        self._list_offset = np.uint64(layout.body.ignored_bodies_data)
+        fields = (layout.constraint.body_a, layout.constraint.body_b)
+        pairs = [[read_pointer(int(address) + field) for field in fields] for address in connections]
+        self._pairs = np.array(pairs, np.uint64).reshape(-1, 2)
+        lists = {body: _ignored_bodies(layout, body) for body in bodies.tolist()}
+        self._slots = _slots(self._pairs, lists)
+
+    def restore(self, rows: np.ndarray) -> None:
+        """Let the bodies of the given connections (k,) collide, as far as no other connection still forbids it."""
+        for side in (0, 1):
+            body, other = self._pairs[rows, side], self._pairs[rows, 1 - side]
+            entries = gather_pointers(body + self._list_offset) + 8 * self._slots[rows, side]
+            there = gather_pointers(entries) == other
+            write_pointers(entries[there], body[there])
+
+
+def _ignored_bodies(layout: Layout, body: int) -> list[int]:
+    """The list of bodies that a body ignores, read without trust."""
+    count = read_value(body + layout.body.ignored_bodies_count, "i")
+    if not 0 <= count <= _MOST_IGNORED:
+        raise LayoutError(f"a body ignores {count} others")
+    raw = read(read_pointer(body + layout.body.ignored_bodies_data), 8 * count) if count else b""
+    if raw is None:
+        raise LayoutError("the list of bodies that a body ignores cannot be read")
+    return np.frombuffer(raw, np.uint64).tolist()
+
+
+def _slots(pairs: np.ndarray, lists: dict[int, list[int]]) -> np.ndarray:
+    """Where in the lists of its two bodies each connection has its entry, (m, 2)."""
+    free: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for body, ignored in lists.items():
+        for slot, other in enumerate(ignored):
+            free[body, other].append(slot)
+    slots = np.zeros(pairs.shape, np.uint64)
+    for row, (a, b) in enumerate(pairs.tolist()):
+        for side, key in enumerate(((a, b), (b, a))):
+            if not free[key]:
+                raise LayoutError("a connection is missing in the list of bodies that its body ignores")
+            slots[row, side] = free[key].pop()
+    if any(free.values()):
+        raise LayoutError("a body ignores another without a connection between them")
+    return slots
