@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""scripts/run_scenario.py is ``bda run`` for a Blender; the bpy module stands in where there is none."""
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "scripts" / "run_scenario.py"
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def blender_command() -> list[str]:
+    """A Blender that can run the checkout: one whose Python has the packages it needs."""
+    blender = shutil.which("blender")
+    if not blender:
+        pytest.skip("there is no blender on the path")
+    imports = "import trimesh, manifold3d, matplotlib"
+    probe = [blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", imports]
+    if subprocess.run(probe, capture_output=True).returncode:
+        pytest.skip(f"{blender} does not find trimesh, manifold3d or matplotlib")
+    return [blender, "-b", "--factory-startup", "--python"]
+
+
+@pytest.fixture(params=["bpy", "blender"])
+def run(request: pytest.FixtureRequest, tmp_path: Path) -> Run:
+    """Run the script with arguments, somewhere else than in the checkout."""
+    python = [sys.executable] if request.param == "bpy" else blender_command()
+
+    def started(*arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [*python, str(SCRIPT), "--", *arguments]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+
+    return started
+
+
+def test_it_runs_a_scenario_where_the_shell_is(run: Run, tmp_path: Path) -> None:
+    whole = read_scenario(ROOT / "examples" / "i235_one_span.toml")
+    short = replace(
+        whole,
+        time=replace(whole.time, duration_s=0.25),
+        fracture=replace(whole.fracture, shards=10),
+        connections=replace(whole.connections, search_radius_m=3.0),
+        ball=replace(whole.ball, drop_height_m=0.1, release_time_s=0.0),
+    )
+    (tmp_path / "short.toml").write_text(scenario_text(short), encoding="utf-8")
+    outcome = run("short.toml", "--output", "results", "--no-pictures")
+    assert outcome.returncode == 0, outcome.stderr
+    assert (tmp_path / "results" / "summary.json").is_file()
+
+
+def test_wrong_input_gives_its_status(run: Run) -> None:
+    outcome = run("no_such.toml", "--output", "results")
+    assert outcome.returncode == 2
+    assert "no_such.toml" in outcome.stderr
+
+
+def test_no_arguments_are_a_wrong_input(run: Run) -> None:
+    assert run().returncode == 2
