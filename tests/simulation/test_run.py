@@ -1,0 +1,176 @@
+"""Whole runs: the span of the example falls as it should, and what is written down is what happened."""
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.bridge import deck_top, deck_underside
+from bridge_demolition_addon.core.results import load_results
+from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.scenario_file import read_scenario
+
+SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
+
+
+def run(scenario, folder, pictures=False):
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    summary = run_scenario(scenario, folder, overwrite=False, pictures=pictures, progress=Silence())
+    return summary, load_results(folder / "results.npz")
+
+
+@pytest.fixture(scope="module")
+def span(tmp_path_factory):
+    """The example as it is, once for all tests that look at it."""
+    folder = tmp_path_factory.mktemp("span") / "run"
+    return folder, *run(SPAN, folder)
+
+
+def rows(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_shards_weigh_what_the_bridge_weighs(span):
+    _, summary, results = span
+    # Blender keeps each mass in single precision; the errors of 200 roundings mostly cancel.
+    assert summary["mass_kg"]["shard"] == pytest.approx(107_000.0, rel=1e-6)
+    assert len(results.of_kind("shard")) == 200
+
+
+def test_deck_stands_until_the_ball_hits(span):
+    _, summary, results = span
+    hit = int(np.flatnonzero(results.frames == summary["impact"]["frame"])[0])
+    shards = results.of_kind("shard")
+    np.testing.assert_array_equal(
+        results.places_m[:hit, shards], np.broadcast_to(results.places_m[0, shards], (hit, 200, 3))
+    )
+    assert results.intact[:hit].all()
+    assert not results.intact[hit].all()
+
+
+def test_ball_falls_freely_until_it_hits(span):
+    """Bullet adds gravity to the velocity once a sub-step, so velocity is exact and distance a half sub-step ahead."""
+    _, summary, results = span
+    ball = results.of_kind("ball")[0]
+    time = results.times_s - SPAN.ball.release_time_s
+    falling = (time > 0.0) & (results.times_s < summary["impact"]["time_s"] - 1e-9)
+    np.testing.assert_allclose(
+        results.velocities_m_s[falling, ball, 2], -STANDARD_GRAVITY_M_S2 * time[falling], rtol=1e-5
+    )
+    hit = summary["impact"]["time_s"]
+    frame = SPAN.time.step.frame_s
+    assert hit - frame <= SPAN.ball.release_time_s + SPAN.ball.fall_time_s <= hit + 1e-6
+
+
+def test_deck_falls_and_ball_goes_through(span):
+    _, summary, results = span
+    ball = results.of_kind("ball")[0]
+    assert results.places_m[-1, ball, 2] < deck_underside(SPAN.bridge)
+    on_deck = results.of_kind("shard")[results.places_m[0, results.of_kind("shard"), 2] > deck_underside(SPAN.bridge)]
+    assert len(on_deck) > 100
+    assert results.places_m[-1, on_deck, 2].max() < deck_top(SPAN.bridge) / 2
+    assert summary["connections"]["broken"] > summary["connections"]["count"] / 2
+
+
+def test_no_shard_falls_through_the_ground(span):
+    """Shards lose their foundation and their neighbours, and meet both again."""
+    _, _, results = span
+    assert results.places_m[-1, results.of_kind("shard"), 2].min() > 0.0
+
+
+def test_logs_hold_what_was_recorded(span):
+    folder, summary, results = span
+    forces = rows(folder / "force_log.csv")
+    assert len(forces) == len(results.frames) * len(results.body_names)
+    logged = np.array([[float(row[f"force_{axis}_N"]) for axis in ("x", "y", "z", "sum")] for row in forces])
+    expected = np.dstack((results.resultants(), results.magnitude_sums()))
+    # Nine digits are written.
+    np.testing.assert_allclose(logged, expected.reshape(-1, 4), rtol=1e-8, atol=1e-8)
+    debris = rows(folder / "debris_log.csv")
+    count = len(results.body_names)
+    assert [row["body"] for row in debris] == 2 * results.body_names.tolist()
+    assert {int(row["frame"]) for row in debris[:count]} == {int(results.frames[0])}
+    assert {int(row["frame"]) for row in debris[count:]} == {int(results.frames[-1])}
+    places = np.array([[float(row[f"{axis}_m"]) for axis in "xyz"] for row in debris]).reshape(2, count, 3)
+    np.testing.assert_allclose(places, results.places_m[[0, -1]], rtol=1e-8, atol=1e-8)
+    throws = [float(row["throw_m"]) for row in debris[count:] if row["body"].startswith("Shard")]
+    assert max(throws) == pytest.approx(summary["largest_throw"]["throw_m"], rel=1e-8)
+
+
+def test_summary_is_what_was_returned(span):
+    folder, summary, results = span
+    assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == summary
+    over_time = summary["connections"]["over_time"]
+    assert over_time["time_s"] == results.times_s.tolist()
+    assert all(
+        a + b == summary["connections"]["count"] for a, b in zip(over_time["intact"], over_time["broken"], strict=True)
+    )
+    assert np.all(np.diff(over_time["broken"]) >= 0)
+    # Bullet's own sub-steps are in single precision.
+    assert summary["simulated_s"] == pytest.approx(SPAN.time.duration_s, rel=1e-6)
+
+
+def test_saved_scene_plays_what_was_recorded(span, blender):
+    folder, _, results = span
+    blender.ops.wm.open_mainfile(filepath=str(folder / "scene.blend"))
+    scene = blender.context.scene
+    for step in (5, len(results.frames) - 1, 40):
+        scene.frame_set(int(results.frames[step]))
+        graph = blender.context.evaluated_depsgraph_get()
+        for body in (1, 50, 150):
+            name = str(results.body_names[body])
+            place = blender.data.objects[name].evaluated_get(graph).matrix_world.translation
+            # The cache keeps single precision.
+            np.testing.assert_allclose(place, results.places_m[step, body], atol=1e-5)
+
+
+def test_same_scenario_gives_the_same_logs(tmp_path):
+    short = replace(
+        SPAN, time=replace(SPAN.time, duration_s=1.0), ball=replace(SPAN.ball, drop_height_m=0.5, release_time_s=0.1)
+    )
+    for name in ("first", "second"):
+        summary, _ = run(short, tmp_path / name)
+        assert summary["connections"]["broken"] > 0
+    for log in ("force_log.csv", "debris_log.csv"):
+        assert (tmp_path / "first" / log).read_bytes() == (tmp_path / "second" / log).read_bytes()
+
+
+def test_awake_bridge_stands_where_its_strength_suffices_and_hands_its_weight_to_the_ground(tmp_path):
+    awake = replace(
+        SPAN,
+        ball=None,
+        time=replace(SPAN.time, duration_s=3.0),
+        shards=replace(SPAN.shards, start_deactivated=False, use_deactivation=False),
+        connections=replace(SPAN.connections, breaking_force_kgf=50_000),
+    )
+    summary, results = run(awake, tmp_path / "run")
+    assert summary["connections"]["broken"] == 0
+    assert summary["impact"] is None
+    sag = (results.places_m[0] - results.places_m[-1])[:, 2].max()
+    assert sag < 0.05
+    ground = results.of_kind("ground")[0]
+    weight = 107_000.0 * STANDARD_GRAVITY_M_S2
+    # The last swaying of the deck, damped by 4 % a second, is still in it.
+    assert results.resultants()[-1, ground, 2] == pytest.approx(-weight, rel=1e-3)
+
+
+def test_pictures_show_before_impact_and_after(tmp_path):
+    from matplotlib.image import imread
+
+    small = replace(
+        SPAN,
+        time=replace(SPAN.time, duration_s=1.0),
+        ball=replace(SPAN.ball, drop_height_m=0.5, release_time_s=0.1),
+        pictures=replace(SPAN.pictures, width_px=160, height_px=90),
+    )
+    run(small, tmp_path / "run", pictures=True)
+    pictures = [imread(tmp_path / "run" / "frames" / f"{name}.png") for name in ("before", "impact", "after")]
+    assert all(picture.shape[:2] == (90, 160) and picture.std() > 0.02 for picture in pictures)
+    assert abs(pictures[0] - pictures[1]).max() > 0.1
+    assert abs(pictures[1] - pictures[2]).max() > 0.1
