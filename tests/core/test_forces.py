@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
 """Forces on bodies against statics and Newton's third law."""
 
 import numpy as np
