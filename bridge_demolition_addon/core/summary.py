@@ -66,16 +66,16 @@ def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
 
 def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] | None:
     """Largest of the magnitudes (k, n), on any body that is not the ground, in any frame whose forces are known."""
+    known = np.flatnonzero(np.isfinite(magnitudes).all(axis=1))
     movable = np.flatnonzero(results.body_kinds != "ground")
-    known = np.nan_to_num(magnitudes[:, movable], nan=-1.0)
-    if known.max(initial=-1.0) < 0.0:
+    candidates = magnitudes[np.ix_(known, movable)]
+    if not candidates.size:
         return None
-    step, column = np.unravel_index(known.argmax(), known.shape)
-    body = movable[column]
+    step, body = np.unravel_index(candidates.argmax(), candidates.shape)
     return {
-        "force_N": float(magnitudes[step, body]),
-        "body": str(results.body_names[body]),
-        **_moment(results, int(step)),
+        "force_N": float(candidates[step, body]),
+        "body": str(results.body_names[movable[body]]),
+        **_moment(results, int(known[step])),
     }
 
 

@@ -24,7 +24,7 @@ from bridge_demolition_addon.core.solids import box
 ROUNDING = 1e-12
 
 GRID = np.array(list(product(range(3), repeat=3)), float)
-"""Centres of 27 unit cubes: 3 x 2 x 9 = 54 pairs share a face, 3 x 24 = 72 an edge only and 4 x 8 = 32 a corner only."""
+"""Centres of 27 unit cubes: 3 x 2 x 9 = 54 pairs share a face, 3 x 24 = 72 only an edge, 4 x 8 = 32 only a corner."""
 
 
 def shard(mesh):
@@ -141,7 +141,7 @@ def test_limit_holds_and_leaves_out_no_pair_without_need():
 
 
 def test_foundations_of_cubes_on_and_above_the_ground():
-    centres = GRID + (0.5, 0.5, 0.5)
+    centres = GRID + 0.5
     standing = foundations(cubes(centres))
     assert standing.pairs.tolist() == [
         [index, GROUND] for index in range(0, 27, 3)
@@ -187,11 +187,11 @@ def test_shards_without_neighbours_give_empty_arrays_of_the_right_shape(centres)
         between = connect(centres, faces, *neighbours, 5)
         assert shapes(between) == empty
         assert between.pairs.dtype.kind == "i"
-    assert shapes(foundations(cubes(centres + (0.0, 0.0, 5.0)))) == empty
+    assert shapes(foundations(cubes(centres + 5.0))) == empty
 
 
 def test_joined_keeps_order_and_rows_together():
-    first, second = connected_by_face(cubes(line(3)), line(3)), foundations(cubes(line(2) + (0.0, 0.0, 0.5)))
+    first, second = connected_by_face(cubes(line(3)), line(3)), foundations(cubes(line(2) + 0.5))
     both = joined([first, second])
     assert len(both) == 4
     assert both.pairs.tolist() == [[0, 1], [1, 2], [0, GROUND], [1, GROUND]]
