@@ -59,5 +59,5 @@ class BodyLog:
 def _csv_text(name: str) -> str:
     """A name as CSV writes it, safe inside a formatting template."""
     buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="").writerow([name])
-    return buffer.getvalue().replace("%", "%%")
+    csv.writer(buffer).writerow([name])
+    return buffer.getvalue().removesuffix("\r\n").replace("%", "%%")
