@@ -12,7 +12,6 @@ _LENS_MM = 40.0
 _SENSOR_MM = 36.0
 _VIEW_FROM = Vector((-0.55, -1.0, 0.42)).normalized()
 _ROOM = 1.1
-_FARTHEST_M = 1e4
 _SKY = (0.36, 0.45, 0.55)
 _EXPOSURE = 1.0
 
@@ -47,10 +46,12 @@ def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
 def _camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:
     """Camera beside the road that sees all points."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    camera.data.lens, camera.data.sensor_width, camera.data.clip_end = _LENS_MM, _SENSOR_MM, _FARTHEST_M
+    camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
     camera.data.sensor_fit = "HORIZONTAL"  # by default a picture that is higher than wide turns the sensor
     camera.rotation_euler = _VIEW_FROM.to_track_quat("Z", "Y").to_euler()
     camera.location = _viewpoint(points, np.array(camera.rotation_euler.to_matrix()), aspect)
+    farthest = float(np.linalg.norm(points - camera.location, axis=1).max())
+    camera.data.clip_start, camera.data.clip_end = farthest / 1000.0, farthest * 10.0
     scene.collection.objects.link(camera)
     return camera
 

@@ -23,7 +23,7 @@ def drawn(tmp_path, results, title="A bridge", impact_s=None):
 
 
 def curve(svg, colour):
-    """Corners (k, 2) of the curve of a colour, in points with y downwards; the first is the curve, the second its key."""
+    """Corners (k, 2) of the first curve of a colour, in points with y downwards."""
     path = re.search(rf'<path d="([^"]*)" clip-path="[^"]*" style="[^"]*stroke: {colour}', svg)
     return np.array(re.findall(r"[ML] (\S+) (\S+)", path[1]), float)
 
