@@ -42,6 +42,16 @@ def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
     return TimeStep(scene.render.fps, scene.render.fps_base, world.substeps_per_frame, world.time_scale)
 
 
+def keep_played_frames(scene: bpy.types.Scene) -> None:
+    """Turn the frames played so far into a bake, which is saved with the file and played back as it was.
+
+    Without it Blender simulates a loaded file anew, and then nothing lets the bodies of broken connections collide.
+    """
+    scene.frame_set(START_FRAME)
+    with bpy.context.temp_override(scene=scene, point_cache=scene.rigidbody_world.point_cache):
+        bpy.ops.ptcache.bake_from_cache()
+
+
 @contextmanager
 def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bpy.types.Collection]]:
     """The collections of bodies and of connections, taken off the scene while many objects are linked to them.

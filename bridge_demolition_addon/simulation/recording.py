@@ -48,6 +48,7 @@ class Recording:
         self.folder = folder
         self._bodies = bodies_of(scene)
         self._connections = connections_of(scene)
+        self._counts_at_start = self._object_counts()
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._logs: tuple[BodyLog, BodyLog] | None = None
         self._steps: list[dict[str, np.ndarray | float]] = []
@@ -127,9 +128,13 @@ class Recording:
     def _bound_state(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
         if self.scene.rigidbody_world is None:
             raise SimulationError("the rigid-body world was removed while it was recorded")
-        if len(bodies_of(self.scene)) != len(self._bodies) or len(connections_of(self.scene)) != len(self._connections):
+        if self._object_counts() != self._counts_at_start:
             raise SimulationError("bodies or connections were added or removed: go to the start frame and record anew")
         return self._world.bind(depsgraph)
+
+    def _object_counts(self) -> tuple[int, int]:
+        world = self.scene.rigidbody_world
+        return len(world.collection.all_objects), len(world.constraints.all_objects) if world.constraints else 0
 
     def _record(self, state: WorldState, held: bool) -> None:
         if state is WorldState.ABSENT:

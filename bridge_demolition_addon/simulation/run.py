@@ -20,7 +20,7 @@ from ..core.scenario import Scenario
 from ..core.summary import summarise
 from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
-from ..scene.world import START_FRAME, scene_time_step
+from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
 from . import handlers
 from .output import PICTURE_FOLDER, keep_results, prepared_folder
 from .recording import Recording
@@ -79,7 +79,6 @@ def run_scenario(
     scene = _empty_scene(scenario.title)
     build_demolition(scene, scenario, model)
     _prepare_view(scene, scenario)
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"), check_existing=False, compress=True)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
     recording, blender_s, interrupted = _simulate(scene, folder, progress)
@@ -88,6 +87,8 @@ def run_scenario(
     summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
     progress.stage("writing the results")
     keep_results(folder, results, summary)
+    keep_played_frames(scene)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"), check_existing=False, compress=True)
     if interrupted:
         raise KeyboardInterrupt
     if pictures:
@@ -166,5 +167,5 @@ def _summary(
 def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
     """Pictures at the start, at the impact (or else at the largest force) and at the end."""
     middle = summary["impact"] or summary["largest_force_sum"]
-    for name, frame in zip(PICTURES, (START_FRAME, middle["frame"], scene.frame_current), strict=True):
+    for name, frame in zip(PICTURES, (START_FRAME, middle["frame"], scene.frame_end), strict=True):
         render_picture(scene, frame, folder / PICTURE_FOLDER / f"{name}.png")

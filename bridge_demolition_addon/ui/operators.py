@@ -54,6 +54,9 @@ class BDA_OT_register_handler(bpy.types.Operator):
         if not context.scene.rigidbody_world:
             cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
             return False
+        if context.scene.rigidbody_world.point_cache.is_baked:
+            cls.poll_message_set("The simulation is baked and only played back: delete the bake of its cache first")
+            return False
         if handlers.current():
             cls.poll_message_set("The handler is registered already")
             return False

@@ -1,5 +1,7 @@
 """Forces of connections at rest, against statics."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from blocks import Blocks
@@ -55,15 +57,16 @@ def test_cantilever_carries_shear_and_moment(blender, tmp_path, kind, step):
 def test_beam_fixed_at_both_ends_carries_half_its_weight_and_the_full_moment(blender, tmp_path):
     """End moments and moment at mid-span add up to w·L²/8 in any beam under a uniform load, however stiff it is.
 
-    Twenty blocks need some 200 solver iterations at 240 sub-steps per second for that.
+    At 240 sub-steps a second, twenty blocks need 20 iterations of the solver for that (10 miss it by 10 %); with 50, as
+    here, it is met within 0.1 %.
     """
     count, length, mass = 20, 18.0, 9000.0
-    blocks = Blocks(solver_iterations=200, frames_per_second=24, substeps_per_frame=10)
+    blocks = Blocks(solver_iterations=50, frames_per_second=24, substeps_per_frame=10)
     size = length / count
     walls = [blocks.block((x, 0, 5)) for x in (-0.5, length + 0.5)]
     beam = [blocks.block((size * (i + 0.5), 0, 5), mass / count, (size, 1, 1)) for i in range(count)]
     chain = [walls[0], *beam, walls[1]]
-    for i, pair in enumerate(zip(chain[:-1], chain[1:], strict=True)):
+    for i, pair in enumerate(pairwise(chain)):
         blocks.connect("FIXED", (size * i, 0, 5), *pair)
     results = blocks.play(tmp_path, 72)
     forces, moments = results.connection_forces_n[-1], results.connection_moments_nm[-1]
