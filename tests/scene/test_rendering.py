@@ -70,5 +70,5 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 
     # The ball of steel is nearly black, the deck of concrete is light, and the soil in front of it lies between.
     ball, deck, soil = brightness((6.5, 0.0, 11.22)), brightness((6.5, 0.0, 5.55)), brightness((12.0, -8.0, 0.0))
-    assert ball < soil - 0.1 < soil + 0.1 < deck
+    assert ball < soil - 0.05 < soil + 0.05 < deck
     assert not (tmp_path / "before.png.png").exists()
