@@ -17,9 +17,9 @@ _KIND = "bda_kind"
 _GROUND_THICKNESS_M = 2.0
 _BALL_SEGMENTS = (32, 64)
 
-_CONCRETE = (0.62, 0.60, 0.56)
+_CONCRETE = (0.80, 0.78, 0.73)
 _STEEL = (0.08, 0.09, 0.10, 1.0)
-_SOIL = (0.33, 0.30, 0.24, 1.0)
+_SOIL = (0.18, 0.17, 0.12, 1.0)
 _SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
 
 
