@@ -117,9 +117,9 @@ def test_neighbours_that_share_no_face_are_connected_half_way():
 
 
 def test_limit_keeps_the_nearest():
-    # Three places at 0, 1 and 3 m.
-    pairs, distances = np.array([[0, 1], [0, 2], [1, 2]]), np.array([1.0, 3.0, 2.0])
-    assert limited(pairs, distances, 1, 3).tolist() == [[0, 1]]
+    # Three places at 0, 2 and 3 m.
+    pairs, distances = np.array([[0, 1], [0, 2], [1, 2]]), np.array([2.0, 3.0, 1.0])
+    assert limited(pairs, distances, 1, 3).tolist() == [[1, 2]]
     assert sorted(limited(pairs, distances, 2, 3).tolist()) == pairs.tolist()
 
 

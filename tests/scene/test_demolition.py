@@ -261,6 +261,7 @@ def test_timeline_covers_the_duration(build):
 def test_ball_is_held_and_then_let_go(build, time, release_s, first_free):
     scene = build(replace(SCENARIO, time=time, ball=replace(SCENARIO.ball, release_time_s=release_s)))
     (ball,) = bodies(scene, "ball")
+    assert ball.rigid_body.kinematic  # before any frame is played, too
     held = []
     for frame in range(1, first_free + 3):
         scene.frame_set(frame)
