@@ -47,7 +47,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         arguments.execute(arguments)
     except (UsageError, ScenarioError, GeometryError, OutputError) as error:
         return _failed(error, WRONG_INPUT)
-    except DemolitionError as error:
+    except BrokenPipeError:
+        raise
+    except (DemolitionError, OSError) as error:  # a full disk, for one
         return _failed(error, RUN_FAILED)
     except KeyboardInterrupt:
         print("bda: interrupted", file=sys.stderr)

@@ -82,7 +82,9 @@ def _print_results(summary: Mapping[str, Any], output: Path) -> None:
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     connections, force = summary["connections"], summary["largest_force_sum"]
     yield "broken connections", f"{connections['broken']} of {connections['count']}"
-    yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN on {force['body']} at {force['time_s']:.3f} s"
+    if force:
+        place = f"on {force['body']} at {force['time_s']:.3f} s"
+        yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {place}"
     if impact := summary["impact"]:
         yield "impact of the ball", f"{impact['time_s']:.3f} s, frame {impact['frame']}"
     if throw := summary["largest_throw"]:

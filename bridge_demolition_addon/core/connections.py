@@ -57,7 +57,7 @@ def connect(
     faces
         All faces that two shards share.
     pairs, distances
-        (k, 2) neighbouring shards and (k,) how far apart they are, m.
+        (k, 2) neighbouring shards and (k,) how far apart they are, in m or in any other order of preference.
     limit_per_shard
         How many connections a shard may have.
     """
@@ -74,8 +74,8 @@ def connect(
 
 
 def neighbours_by_face(faces: SharedFaces) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs (k, 2) of shards that share a face, all at distance 0 (k,)."""
-    return faces.pairs, np.zeros(len(faces.pairs))
+    """Pairs (k, 2) of shards that share a face, and an order (k,) in which the largest face comes first."""
+    return faces.pairs, -faces.areas
 
 
 def neighbours_by_centre(centres: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:

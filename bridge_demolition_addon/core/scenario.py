@@ -342,10 +342,11 @@ class Scenario(Table):
             self._check_target(self.ball)
 
     def _check_release(self, ball: Ball) -> None:
-        if ball.release_time_s >= self.time.duration_s:
+        if self.time.step.frames(ball.release_time_s) >= self.time.frames:
             raise ScenarioError(
                 f"ball.release_time_s is {ball.release_time_s}: "
-                f"expected less than time.duration_s, {self.time.duration_s} (s)"
+                f"expected less than time.duration_s, {self.time.duration_s} (s), "
+                f"by a frame of {self.time.step.frame_s:.3g} s"
             )
 
     def _check_target(self, ball: Ball) -> None:

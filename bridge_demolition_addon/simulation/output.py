@@ -32,11 +32,11 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
     OutputError
         The folder is there already and may not be overwritten, is no folder, or cannot be written.
     """
-    if folder.exists() and not folder.is_dir():
-        raise OutputError(f"{folder}: expected a folder for the results, found a file")
-    if folder.exists() and not overwrite:
-        raise OutputError(f"{folder}: exists already; choose another folder or allow overwriting")
     try:
+        if folder.exists() and not folder.is_dir():
+            raise OutputError(f"{folder}: expected a folder for the results, found a file")
+        if folder.exists() and not overwrite:
+            raise OutputError(f"{folder}: exists already; choose another folder or allow overwriting")
         folder.mkdir(parents=True, exist_ok=True)
         for name in RESULT_FILES:
             (folder / name).unlink(missing_ok=True)

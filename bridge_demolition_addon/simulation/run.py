@@ -166,6 +166,6 @@ def _summary(
 
 def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
     """Pictures at the start, at the impact (or else at the largest force) and at the end."""
-    middle = summary["impact"] or summary["largest_force_sum"]
-    for name, frame in zip(PICTURES, (START_FRAME, middle["frame"], scene.frame_end), strict=True):
+    moment = summary["impact"] or summary["largest_force_sum"] or {"frame": scene.frame_end}
+    for name, frame in zip(PICTURES, (START_FRAME, moment["frame"], scene.frame_end), strict=True):
         render_picture(scene, frame, folder / PICTURE_FOLDER / f"{name}.png")

@@ -62,7 +62,7 @@ def test_every_shifted_offset_is_refused(stepped, group, name, shift):
     # Nothing was written: the right layout still finds the world as Blender made it, and it goes on.
     world, state = bound(stepped, layout)
     assert state is WorldState.NEW
-    blocks, bodies, graph = stepped
+    blocks, _, graph = stepped
     for frame in range(3, 9):
         blocks.scene.frame_set(frame)
     assert world.bind(graph) is WorldState.KNOWN
