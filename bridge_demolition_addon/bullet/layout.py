@@ -48,6 +48,11 @@ class BodyLayout:
         return self.inverse_mass - 64
 
     @property
+    def activation(self) -> int:
+        """State of activation, in the block of settings that ends with the user pointer."""
+        return self.user_pointer - 72
+
+    @property
     def ignored_bodies_count(self) -> int:
         """Length of the list of bodies that this one does not collide with."""
         return self.user_pointer + 60
@@ -77,6 +82,11 @@ class ConstraintLayout:
         return self.body_a + 8
 
     @property
+    def applied_impulse(self) -> int:
+        """Impulse of the constraint's last solver row, which is all that Bullet itself compares and shows."""
+        return self.body_a + 16
+
+    @property
     def drawing_size(self) -> int:
         """Size for debug drawings, which Blender leaves at its default."""
         return self.body_a + 24
@@ -95,6 +105,11 @@ class WorldLayout:
     broadphase: int = 128
     solver_settings: int = 176
     solver: int = 456
+
+    @property
+    def after_step(self) -> int:
+        """Function that is called after every step; Blender sets none."""
+        return self.solver_settings - 24
 
     @property
     def user_info(self) -> int:
@@ -118,11 +133,68 @@ class WorldLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class ContactPointLayout:
+    """btManifoldPoint."""
+
+    size: int
+    lateral_directions: int
+    place_on_b: int = 64
+    place_on_a: int = 96
+    normal: int = 128
+    distance: int = 160
+    friction: int = 168
+    normal_impulse: int = 232
+    lateral_impulses: int = 248
+
+
+@dataclass(frozen=True, slots=True)
+class ManifoldLayout:
+    """btPersistentManifold: up to four contact points in a row, then the two bodies and how many points there are."""
+
+    points: int
+    point: ContactPointLayout
+
+    @property
+    def body_a(self) -> int:
+        """First body."""
+        return self.points + 4 * self.point.size
+
+    @property
+    def body_b(self) -> int:
+        """Second body."""
+        return self.body_a + 8
+
+    @property
+    def count(self) -> int:
+        """Number of contact points."""
+        return self.body_a + 16
+
+
+@dataclass(frozen=True, slots=True)
+class DispatcherLayout:
+    """btCollisionDispatcher: its array of pointers to all manifolds, from its pool and beyond."""
+
+    manifolds: int = 16
+
+    @property
+    def manifold_count(self) -> int:
+        """Length of the array."""
+        return self.manifolds + 4
+
+    @property
+    def manifold_data(self) -> int:
+        """First entry of the array."""
+        return self.manifolds + 16
+
+
+@dataclass(frozen=True, slots=True)
 class Layout:
     """All offsets of one platform."""
 
     name: str
     body: BodyLayout
+    manifold: ManifoldLayout
+    dispatcher: DispatcherLayout = DispatcherLayout()
     blender: BlenderLayout = BlenderLayout()
     constraint: ConstraintLayout = ConstraintLayout()
     world: WorldLayout = WorldLayout()
@@ -138,6 +210,7 @@ SYSTEM_V = Layout(
         inverse_mass=784,
         linear_damping=984,
     ),
+    manifold=ManifoldLayout(points=8, point=ContactPointLayout(size=376, lateral_directions=312)),
 )
 
 MICROSOFT = replace(
@@ -151,10 +224,17 @@ MICROSOFT = replace(
         inverse_mass=800,
         linear_damping=1008,
     ),
+    manifold=ManifoldLayout(points=16, point=ContactPointLayout(size=384, lateral_directions=320)),
 )
 
 RIGID_BODY = 2
 """Bullet's internal type of a rigid body (btCollisionObject::CO_RIGID_BODY)."""
+
+SLEEPING = frozenset({2, 5})
+"""Activation states in which a body is not simulated: asleep and disabled."""
+
+ACTIVATION_STATES = frozenset({1, 2, 3, 4, 5})
+"""Active, sleeping, wants to sleep, never sleeps, disabled."""
 
 CONSTRAINT_TYPES = {
     "POINT": frozenset({3}),

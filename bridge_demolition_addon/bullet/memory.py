@@ -56,9 +56,10 @@ def read_pointer(address: int) -> int:
     return pointer
 
 
-def gather_doubles(addresses: np.ndarray, count: int = 1) -> np.ndarray:
-    """`count` doubles in a row at each of the checked addresses (n,), as (n, count)."""
-    return _DOUBLES.take(_indices(addresses, 8)[:, None] + np.arange(count))
+def gather_doubles(addresses: np.ndarray, count: int = 1, columns: np.ndarray | None = None) -> np.ndarray:
+    """Doubles at each of the checked addresses (n,): `count` in a row, or those at `columns` (c,); as (n, c)."""
+    columns = np.arange(count) if columns is None else columns
+    return _DOUBLES.take(_indices(addresses, 8)[:, None] + columns)
 
 
 def gather_pointers(addresses: np.ndarray) -> np.ndarray:

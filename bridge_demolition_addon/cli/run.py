@@ -65,6 +65,7 @@ def _blender_silenced() -> Iterator[None]:
     try:
         yield
     finally:
+        sys.stdout.flush()  # Blender says part of it through Python
         os.dup2(standard_output, 1)
         os.close(standard_output)
 

@@ -88,7 +88,7 @@ def run_scenario(
     progress.stage("writing the results")
     keep_results(folder, results, summary)
     keep_played_frames(scene)
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"), check_existing=False, compress=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder.resolve() / "scene.blend"), check_existing=False, compress=True)
     if interrupted:
         raise KeyboardInterrupt
     if pictures:
@@ -146,7 +146,7 @@ def _interruptible() -> Iterator[threading.Event]:
     try:
         yield interrupted
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
 
 
 def _summary(
@@ -168,4 +168,4 @@ def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> No
     """Pictures at the start, at the impact (or else at the largest force) and at the end."""
     moment = summary["impact"] or summary["largest_force_sum"] or {"frame": scene.frame_end}
     for name, frame in zip(PICTURES, (START_FRAME, moment["frame"], scene.frame_end), strict=True):
-        render_picture(scene, frame, folder / PICTURE_FOLDER / f"{name}.png")
+        render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")

@@ -1,0 +1,183 @@
+"""Contacts between bodies: where they touch, and what they do to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.errors import LayoutError
+from .layout import Layout
+from .memory import gather_doubles, gather_integers, gather_pointers, read, read_pointer, read_value
+
+_MOST_POINTS = 4
+_MOST_MANIFOLDS = 50_000_000
+
+_CHECKED_POINTS = 200
+"""Contact points looked at in a check; a wrong offset is wrong in the first of them."""
+
+_UNIT = 1e-6
+"""How far a unit vector's length, computed by Bullet in double precision, may be from 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contacts:
+    """Contact points of one sub-step, structure of arrays.
+
+    Attributes
+    ----------
+    pairs
+        (k, 2) indices of the two bodies.
+    places_m
+        (k, 3) where they touch, on the second body.
+    normals
+        (k, 3) unit vectors from the second body to the first.
+    normal_impulses_ns, tangential_impulses_ns
+        (k,) and (k, 3) impulse on the first body; the second gets the opposite.
+    """
+
+    pairs: np.ndarray
+    places_m: np.ndarray
+    normals: np.ndarray
+    normal_impulses_ns: np.ndarray
+    tangential_impulses_ns: np.ndarray
+
+    @property
+    def impulses_ns(self) -> np.ndarray:
+        """Whole impulse (k, 3) on the first body, N·s."""
+        return self.normal_impulses_ns[:, None] * self.normals + self.tangential_impulses_ns
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+
+class ContactReader:
+    """Reads the contacts of a world whose bodies are known.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    dispatcher
+        Address of the btCollisionDispatcher.
+    bodies
+        (n,) addresses of the bodies, in the order of their indices.
+    """
+
+    def __init__(self, layout: Layout, dispatcher: int, bodies: np.ndarray):
+        self._layout, self._dispatcher = layout, dispatcher
+        self._order = np.argsort(bodies)
+        self._sorted = bodies[self._order]
+        self._is_checked = False
+        point = layout.manifold.point
+        fields = (point.place_on_b, point.normal, point.normal_impulse, point.lateral_impulses)
+        directions = (point.lateral_directions, point.lateral_directions + 32)
+        self._columns = np.concatenate(
+            [np.arange(3) + start // 8 for start in fields[:2]]
+            + [np.array([fields[2], fields[3], fields[3] + 8]) // 8]
+            + [np.arange(3) + start // 8 for start in directions]
+        )
+
+    def read(self) -> Contacts:
+        """All contact points that carry a load, also those of sleeping bodies, which keep their last one.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected.
+        """
+        manifolds = self._manifolds()
+        if len(manifolds) and not self._is_checked:
+            check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
+            self._is_checked = True
+        layout = self._layout.manifold
+        counts = gather_integers(manifolds + np.uint64(layout.count))
+        if len(counts) and not (0 <= counts.min() and counts.max() <= _MOST_POINTS):
+            raise LayoutError("a contact has more than four points")
+        rows = np.repeat(np.arange(len(manifolds)), counts)
+        number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
+        points = manifolds[rows] + np.uint64(layout.points) + (number * layout.point.size).astype(np.uint64)
+        values = gather_doubles(points, columns=self._columns)
+        loaded = values[:, 6] != 0.0
+        return self._contacts(manifolds[rows[loaded]], values[loaded])
+
+    def _manifolds(self) -> np.ndarray:
+        """Addresses of all manifolds, from Bullet's pool and from beyond it."""
+        layout, address = self._layout.dispatcher, self._dispatcher
+        count = int(gather_integers(np.array([address + layout.manifold_count]))[0])
+        if not 0 <= count <= _MOST_MANIFOLDS:
+            raise LayoutError(f"{count} contacts")
+        if count == 0:
+            return np.zeros(0, np.uint64)
+        data = int(gather_pointers(np.array([address + layout.manifold_data]))[0])
+        return gather_pointers(data + 8 * np.arange(count, dtype=np.uint64))
+
+    def _contacts(self, manifolds: np.ndarray, values: np.ndarray) -> Contacts:
+        layout = self._layout.manifold
+        pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
+        first, second = values[:, 7:8] * values[:, 9:12], values[:, 8:9] * values[:, 12:15]
+        # Bullet leaves the second direction unset where it solved only one.
+        return Contacts(
+            pairs=np.column_stack(pairs),
+            places_m=values[:, 0:3],
+            normals=values[:, 3:6],
+            normal_impulses_ns=values[:, 6],
+            tangential_impulses_ns=first + np.where(values[:, 8:9] != 0.0, second, 0.0),
+        )
+
+    def _indices(self, addresses: np.ndarray) -> np.ndarray:
+        places = np.minimum(np.searchsorted(self._sorted, addresses), len(self._sorted) - 1)
+        if not (self._sorted[places] == addresses).all():
+            raise LayoutError("a contact names a body that is not in the scene")
+        return self._order[places]
+
+
+def check_contacts(layout: Layout, manifolds: np.ndarray, bodies: set[int]) -> None:
+    """Contacts name known bodies, and their points hold together geometrically. Reads without trust.
+
+    Raises
+    ------
+    LayoutError
+        They do not.
+    """
+    left = _CHECKED_POINTS
+    for manifold in manifolds.tolist():
+        pair = {read_pointer(manifold + side) for side in (layout.manifold.body_a, layout.manifold.body_b)}
+        count = read_value(manifold + layout.manifold.count, "i")
+        if not pair <= bodies or len(pair) != 2 or not 0 <= count <= _MOST_POINTS:
+            raise LayoutError("a contact does not name two bodies of the scene")
+        for number in range(count):
+            _check_point(layout, manifold + layout.manifold.points + number * layout.manifold.point.size)
+        left -= count
+        if left <= 0:
+            return
+
+
+def _check_point(layout: Layout, address: int) -> None:
+    point = layout.manifold.point
+    raw = read(address, point.size)
+    if raw is None:
+        raise LayoutError("a contact point cannot be read")
+    doubles = np.frombuffer(raw)
+
+    def vector(offset: int) -> np.ndarray:
+        return doubles[offset // 8 : offset // 8 + 3]
+
+    normal, distance = vector(point.normal), doubles[point.distance // 8]
+    gap = vector(point.place_on_a) - vector(point.place_on_b)
+    push, slides = doubles[point.normal_impulse // 8], doubles[point.lateral_impulses // 8 :][:2]
+    friction = doubles[point.friction // 8]
+    first = vector(point.lateral_directions)
+    checks: Mapping[str, bool] = {
+        "normal": abs(np.linalg.norm(normal) - 1.0) <= _UNIT,
+        "distance": abs(gap @ normal - distance) <= _UNIT * (1.0 + abs(vector(point.place_on_a)).max()),
+        "friction": 0.0 <= friction <= 1e6,
+        "normal impulse": 0.0 <= push < np.inf,
+        "lateral impulses": bool((abs(slides) <= friction * push * (1.0 + _UNIT)).all()),
+        "lateral direction": slides[0] == 0.0
+        or (abs(np.linalg.norm(first) - 1.0) <= _UNIT and abs(first @ normal) <= _UNIT),
+    }
+    wrong = [name for name, is_right in checks.items() if not is_right]
+    if wrong:
+        raise LayoutError(f"{', '.join(wrong)} of a contact point: not as expected")
