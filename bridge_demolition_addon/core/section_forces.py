@@ -1,0 +1,116 @@
+"""Forces and moments of connections in the axes of the sections they stand for: axial, shear, torsion, bending.
+
+A connection is a cut between two bodies. Its x axis is the normal of the cut, from the first body to the second; y and
+z lie in the cut, y level and z as steep as can be. Forces and moments are those on the first body, and so act on the
+face that looks along x: they count positive along the positive axes, and an axial force is positive in tension.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+_LEVEL_CUT = 1e-6
+"""A normal is vertical when its horizontal part is below this: what rounding leaves of the direction of a level cut."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SectionForces:
+    """Forces and moments in m sections.
+
+    Attributes
+    ----------
+    axial_n
+        (m,) along x, tension positive, N.
+    shear_n
+        (m, 2) along y and z, N.
+    torsion_nm
+        (m,) about x, N·m.
+    bending_nm
+        (m, 2) about y and z, N·m. About y it pulls where z is positive, about z where y is negative.
+    """
+
+    axial_n: np.ndarray
+    shear_n: np.ndarray
+    torsion_nm: np.ndarray
+    bending_nm: np.ndarray
+
+
+def section_axes(normals: np.ndarray) -> np.ndarray:
+    """Axes of sections in the axes of the world.
+
+    Where the cut is level, every direction in it is equally far from the vertical: z then points along the world's x,
+    which is along the road.
+
+    Parameters
+    ----------
+    normals
+        (m, 3) unit vectors from the first body to the second.
+
+    Returns
+    -------
+    numpy.ndarray
+        (m, 3, 3) rotations: x, y and z of each section are its columns.
+    """
+    x = np.asarray(normals, dtype=float)
+    level = np.hypot(x[:, 0], x[:, 1]) < _LEVEL_CUT
+    steepest = np.where(level[:, None], (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    y = np.cross(steepest, x)
+    y /= np.linalg.norm(y, axis=1)[:, None]
+    return np.stack((x, y, np.cross(x, y)), axis=2)
+
+
+def axes_in_bodies(axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Axes of sections as seen from the bodies they are fixed to, to be carried along with `carried_axes`.
+
+    Parameters
+    ----------
+    axes
+        (m, 3, 3) in the axes of the world.
+    bodies
+        (m,) the body that the axes of each section turn with.
+    rotations
+        (n, 3, 3) of all bodies at that time.
+
+    Returns
+    -------
+    numpy.ndarray
+        (m, 3, 3)
+    """
+    return np.swapaxes(rotations[bodies], 1, 2) @ axes
+
+
+def carried_axes(local_axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Where the axes of sections (m, 3, 3), fixed to their bodies (m,), point in the world under the bodies' rotations.
+
+    Parameters
+    ----------
+    local_axes
+        (m, 3, 3) from `axes_in_bodies`.
+    bodies
+        (m,) the body that the axes of each section turn with.
+    rotations
+        (n, 3, 3) of all bodies.
+
+    Returns
+    -------
+    numpy.ndarray
+        (m, 3, 3) in the axes of the world.
+    """
+    return rotations[bodies] @ local_axes
+
+
+def section_forces(axes: np.ndarray, forces: np.ndarray, moments: np.ndarray) -> SectionForces:
+    """Forces and moments of connections in the axes of their sections.
+
+    Parameters
+    ----------
+    axes
+        (m, 3, 3) from `section_axes` or `carried_axes`.
+    forces, moments
+        (m, 3) on the first body of each connection, about the connection's own point, in the axes of the world, N and
+        N·m.
+    """
+    force, moment = (np.einsum("mji,mj->mi", axes, each) for each in (forces, moments))
+    return SectionForces(force[:, 0], force[:, 1:], moment[:, 0], moment[:, 1:])
