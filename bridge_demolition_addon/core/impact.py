@@ -1,0 +1,262 @@
+"""Hits: their impulse from the recorded steps, and an estimate of the force that rigid bodies cannot give.
+
+The force of a rigid-body impact is impulse by step, and grows without limit as the step shrinks. The impulse does not
+depend on the step. With a contact time, from Hertz's theory or from a measurement, it gives a peak force that means
+something.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+_HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamma(9.0 / 10.0)
+"""2 ∫ dx / √(1 - x^(5/2)) from 0 to 1: contact time by time to cross the largest compression at full speed, 2.943."""
+
+_PRESSURE_AT_YIELD = 1.6
+"""Largest pressure of a contact by the yield stress of the metal that just begins to yield (Johnson 1985, 6.1)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Elasticity:
+    """Elastic constants of a material.
+
+    Attributes
+    ----------
+    young_modulus_pa
+        Young's modulus.
+    poisson_ratio
+        Poisson's ratio.
+    """
+
+    young_modulus_pa: float
+    poisson_ratio: float
+
+
+STEEL = Elasticity(young_modulus_pa=210e9, poisson_ratio=0.3)
+"""EN 1993-1-1:2005, 3.2.6."""
+
+CONCRETE = Elasticity(young_modulus_pa=30e9, poisson_ratio=0.2)
+"""C20/25 uncracked, EN 1992-1-1:2004, table 3.1 and 3.1.3."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Hit:
+    """Consecutive steps in which a body was hit.
+
+    Attributes
+    ----------
+    first_step, last_step
+        Rows of the first and the last of these steps.
+    start_s, end_s
+        When the first of them began and the last ended.
+    impulse_ns
+        (3,) impulse on the body over all of them.
+    raw_peak_force_n, raw_step_s
+        Largest impulse of one step divided by the step, and that step: it grows as the step shrinks.
+    """
+
+    first_step: int
+    last_step: int
+    start_s: float
+    end_s: float
+    impulse_ns: np.ndarray
+    raw_peak_force_n: float
+    raw_step_s: float
+
+    @property
+    def impulse_magnitude_ns(self) -> float:
+        """Magnitude of the impulse."""
+        return float(np.linalg.norm(self.impulse_ns))
+
+
+def hits(impulses_ns: np.ndarray, steps_s: np.ndarray, start_s: float = 0.0, resting_force_n: float = 0.0) -> list[Hit]:
+    """Hits of a body, from the impulses of its contacts.
+
+    Parameters
+    ----------
+    impulses_ns
+        (k, 3) sum of the contact impulses on the body in each step.
+    steps_s
+        (k,) length of each step; sub-steps, or frames where nothing finer was recorded.
+    start_s
+        When the first step begins.
+    resting_force_n
+        A step belongs to a hit when its force is above this. With 0 every contact does, and a body that comes to rest
+        is being hit for ever; a few times its weight tells the two apart.
+
+    Returns
+    -------
+    list of Hit
+        In order of time. Steps in which no time passes, or whose impulse is nan, belong to no hit.
+    """
+    impulses_ns, steps_s = np.asarray(impulses_ns, dtype=float), np.asarray(steps_s, dtype=float)
+    magnitudes = np.linalg.norm(impulses_ns, axis=1)
+    ends_s = start_s + np.cumsum(steps_s)
+    hit = (magnitudes > resting_force_n * steps_s) & (steps_s > 0.0)
+    changes = np.flatnonzero(np.diff(hit, prepend=False, append=False))
+    found = []
+    for first, after in changes.reshape(-1, 2):
+        rows = slice(first, after)
+        raw_forces = magnitudes[rows] / steps_s[rows]
+        peak = raw_forces.argmax()
+        found.append(
+            Hit(
+                first_step=int(first),
+                last_step=int(after - 1),
+                start_s=float(ends_s[first] - steps_s[first]),
+                end_s=float(ends_s[after - 1]),
+                impulse_ns=impulses_ns[rows].sum(axis=0),
+                raw_peak_force_n=float(raw_forces[peak]),
+                raw_step_s=float(steps_s[rows][peak]),
+            )
+        )
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Two bodies that meet at a point, as Hertz's theory sees them: reduced to one mass, one radius and one modulus.
+
+    Attributes
+    ----------
+    mass_kg, radius_m, modulus_pa
+        1/m = 1/m₁ + 1/m₂, 1/R = 1/R₁ + 1/R₂ and 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂.
+    """
+
+    mass_kg: float
+    radius_m: float
+    modulus_pa: float
+
+    @classmethod
+    def between(
+        cls,
+        first: Elasticity,
+        second: Elasticity,
+        first_mass_kg: float,
+        first_radius_m: float,
+        second_mass_kg: float = math.inf,
+        second_radius_m: float = math.inf,
+    ) -> Contact:
+        """A sphere with a half-space that does not move, or with another sphere where mass and radius are given.
+
+        References
+        ----------
+        K. L. Johnson (1985), Contact Mechanics, Cambridge University Press, equations 4.3, 4.5 and 11.20.
+        """
+        return cls(
+            mass_kg=1.0 / (1.0 / first_mass_kg + 1.0 / second_mass_kg),
+            radius_m=1.0 / (1.0 / first_radius_m + 1.0 / second_radius_m),
+            modulus_pa=1.0 / sum((1.0 - each.poisson_ratio**2) / each.young_modulus_pa for each in (first, second)),
+        )
+
+
+def hertz_compression(contact: Contact, speed_m_s: float) -> float:
+    """Largest approach of two elastic bodies that meet at a speed, m: (15 m v² / (16 √R E*))^(2/5).
+
+    References
+    ----------
+    Johnson (1985), equation 11.23.
+    """
+    energy = contact.mass_kg * speed_m_s**2
+    return (15.0 * energy / (16.0 * math.sqrt(contact.radius_m) * contact.modulus_pa)) ** 0.4
+
+
+def hertz_contact_time(contact: Contact, speed_m_s: float) -> float:
+    """Time for which two elastic bodies that meet at a speed above 0 touch, s: 2.87 (m² / (R E*² v))^(1/5).
+
+    A body that also yields or crushes touches for longer: this is the least time, and what follows from it the largest
+    force.
+
+    References
+    ----------
+    Johnson (1985), equation 11.24; the number is 2.868, here not rounded.
+    """
+    return _HERTZ_TIME * hertz_compression(contact, speed_m_s) / speed_m_s
+
+
+def hertz_peak_force(contact: Contact, speed_m_s: float) -> float:
+    """Largest force between two elastic bodies that meet at a speed, N: 4/3 E* √R δ^(3/2) at the largest compression δ.
+
+    It holds for a hit that is elastic throughout, which is a soft one: see `largest_elastic_speed`. In any other, steel
+    yields or concrete crushes at a lower force, and this is an upper bound. The theory also takes the bodies to be much
+    larger than the contact, and not to bend: good for a pier or an abutment, an upper bound for a slab.
+
+    References
+    ----------
+    Johnson (1985), equations 4.23 and 11.23.
+    """
+    compression = hertz_compression(contact, speed_m_s)
+    return 4.0 / 3.0 * contact.modulus_pa * math.sqrt(contact.radius_m) * compression**1.5
+
+
+def half_sine_peak_force(impulse_ns: float, contact_time_s: float) -> float:
+    """Largest force of an impulse that comes and goes as half a sine wave, N: π J / (2 t).
+
+    With the whole impulse of an elastic hit, 2 m v, and Hertz's contact time it is 0.854 of Hertz's own peak force: his
+    pulse is a little more pointed than a sine.
+
+    References
+    ----------
+    W. Goldsmith (1960), Impact, Edward Arnold, chapter 4: the pulse of a Hertz impact is close to half a sine.
+    """
+    return math.pi * impulse_ns / (2.0 * contact_time_s)
+
+
+def largest_elastic_speed(contact: Contact, yield_stress_pa: float) -> float:
+    """Speed above which the softer of two bodies yields at the point of contact, m/s.
+
+    For mild steel it is some millimetres a second: every hit in a demolition is far above it.
+
+    References
+    ----------
+    Johnson (1985), sections 6.1 and 11.5: pressure 1.6 Y, so that ½ m v² = 53 R³ Y⁵ / E*⁴ (equation 11.36).
+    """
+    force = (math.pi * _PRESSURE_AT_YIELD * yield_stress_pa) ** 3 * (contact.radius_m / contact.modulus_pa) ** 2 / 6.0
+    compression = (0.75 * force / (contact.modulus_pa * math.sqrt(contact.radius_m))) ** (2.0 / 3.0)
+    return math.sqrt(2.0 * 0.4 * force * compression / contact.mass_kg)
+
+
+@dataclass(frozen=True, slots=True)
+class ImpactEstimate:
+    """Forces of a hit that do not depend on the step.
+
+    Attributes
+    ----------
+    contact_time_s
+        Given, or by Hertz.
+    half_sine_peak_force_n
+        From the recorded impulse and the contact time.
+    hertz_peak_force_n
+        Of an elastic hit at the same speed: an upper bound.
+    """
+
+    contact_time_s: float
+    half_sine_peak_force_n: float
+    hertz_peak_force_n: float
+
+
+def estimate(
+    impulse_ns: float, speed_m_s: float, contact: Contact, contact_time_s: float | None = None
+) -> ImpactEstimate:
+    """What a hit came to, from its impulse and the speed at which the bodies met.
+
+    Parameters
+    ----------
+    impulse_ns
+        Magnitude of the impulse.
+    speed_m_s
+        Speed of approach along the line of contact before the hit, above 0.
+    contact
+        The two bodies.
+    contact_time_s
+        Where it is known from a measurement; without it, Hertz's.
+    """
+    time_s = hertz_contact_time(contact, speed_m_s) if contact_time_s is None else contact_time_s
+    return ImpactEstimate(
+        contact_time_s=time_s,
+        half_sine_peak_force_n=half_sine_peak_force(impulse_ns, time_s),
+        hertz_peak_force_n=hertz_peak_force(contact, speed_m_s),
+    )
