@@ -23,3 +23,7 @@ class LayoutError(DemolitionError):
 
 class SimulationError(DemolitionError):
     """The simulation could not be set up or was changed from outside while it ran."""
+
+
+class BlastError(DemolitionError):
+    """A charge, a stand-off or a wanted load is not a number that a blast can have."""

@@ -1,0 +1,137 @@
+"""Blast the other way round: how far a wanted load reaches, and the smallest charge that gives it at a distance.
+
+What is looked for is always the farthest scaled distance at which a load is still reached. That is the one answer on
+the safe side, and the smallest charge, also where the tables are not monotonic: the incident impulse has a bump near
+Z = 0.8 m/kg^(1/3), and pieces of a table meet in small steps.
+"""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+
+from ..errors import BlastError
+from .models import BlastModel, blast_wave
+from .wave import SMALLEST_SCALED_DISTANCE, Burst, checked
+
+_FARTHEST_SCALED_DISTANCE = 1e6
+"""Nothing is looked for beyond it: the overpressure there is less than 0.1 Pa."""
+
+_GRID_POINTS = 4001
+_BISECTIONS = 50
+"""Enough to halve a cell of the grid down to rounding."""
+
+
+def stand_off_for_overpressure(
+    overpressure_pa: float,
+    tnt_kg: float,
+    burst: Burst = Burst.AIR,
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+) -> float:
+    """Farthest stand-off at which a charge gives a peak incident overpressure, m; 0 for no charge.
+
+    Parameters
+    ----------
+    overpressure_pa
+        Wanted peak overpressure, Pa.
+    tnt_kg
+        Charge, kg of TNT.
+    burst, model
+        Where it detonates, and where the wave comes from.
+
+    Raises
+    ------
+    BlastError
+        A number is out of its range, or no TNT gives this overpressure at any distance.
+    """
+    _check(overpressure_pa, "overpressure", "Pa")
+    cube_root = float(np.cbrt(checked(tnt_kg, "charge", "kg of TNT")))
+    return cube_root * _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))
+
+
+def smallest_charge_for_overpressure(
+    overpressure_pa: float,
+    stand_off_m: float,
+    burst: Burst = Burst.AIR,
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+) -> float:
+    """Smallest charge that gives a peak incident overpressure at a stand-off, kg of TNT.
+
+    Parameters and errors are those of `stand_off_for_overpressure`.
+    """
+    _check(overpressure_pa, "overpressure", "Pa")
+    _check(stand_off_m, "stand-off", "m")
+    return (stand_off_m / _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))) ** 3
+
+
+def smallest_charge_for_impulse(
+    impulse_pa_s: float,
+    stand_off_m: float,
+    burst: Burst = Burst.AIR,
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+) -> float:
+    """Smallest charge that gives an incident impulse per area (Pa·s) at a stand-off (m), kg of TNT.
+
+    The impulse of W kg is that of 1 kg at the same Z, times W^(1/3) = R/Z. So Z is where (impulse of 1 kg) / Z is the
+    wanted impulse over R.
+
+    Raises
+    ------
+    BlastError
+        A number is out of its range, or no charge gives this impulse before it is so large that it touches.
+    """
+    _check(impulse_pa_s, "impulse", "Pa·s")
+    _check(stand_off_m, "stand-off", "m")
+    burst, model = Burst(burst), BlastModel(model)
+    z = _farthest(impulse_pa_s / stand_off_m, _impulse_over_distance, burst, model)
+    if z is None:
+        most = _on_grid(_impulse_over_distance, burst, model).max() * stand_off_m
+        raise BlastError(f"impulse is {impulse_pa_s:g}: expected up to {most:.4g} (Pa·s) at {stand_off_m:g} m")
+    return (stand_off_m / z) ** 3
+
+
+def _distance_of_overpressure(overpressure_pa: float, burst: Burst, model: BlastModel) -> float:
+    """Farthest scaled distance at which the peak overpressure is reached, m/kg^(1/3)."""
+    z = _farthest(overpressure_pa, _peak_overpressure, burst, model)
+    if z is None:
+        most = _on_grid(_peak_overpressure, burst, model).max()
+        raise BlastError(f"overpressure is {overpressure_pa:g}: expected up to {most:.4g} (Pa), that of TNT in contact")
+    return z
+
+
+def _peak_overpressure(z: np.ndarray, burst: Burst, model: BlastModel) -> np.ndarray:
+    return blast_wave(z, 1.0, burst, model).peak_overpressure_pa
+
+
+def _impulse_over_distance(z: np.ndarray, burst: Burst, model: BlastModel) -> np.ndarray:
+    return blast_wave(z, 1.0, burst, model).incident_impulse_pa_s / z
+
+
+def _farthest(wanted: float, load: Callable[..., np.ndarray], burst: Burst, model: BlastModel) -> float | None:
+    """Farthest scaled distance at which a load is reached, None if it is reached nowhere."""
+    distances, loads = _distances(), _on_grid(load, burst, model)
+    reached = np.flatnonzero(loads >= wanted)
+    if not len(reached):
+        return None
+    if reached[-1] == len(distances) - 1:
+        raise BlastError(f"load is {wanted:g}: expected more than {loads[-1]:.2g}, which reaches beyond any distance")
+    near, far = distances[reached[-1]], distances[reached[-1] + 1]
+    for _ in range(_BISECTIONS):
+        middle = np.sqrt(near * far)
+        near, far = (middle, far) if load(middle, burst, model) >= wanted else (near, middle)
+    return float(near)
+
+
+@cache
+def _distances() -> np.ndarray:
+    return np.geomspace(SMALLEST_SCALED_DISTANCE, _FARTHEST_SCALED_DISTANCE, _GRID_POINTS)
+
+
+@cache
+def _on_grid(load: Callable[..., np.ndarray], burst: Burst, model: BlastModel) -> np.ndarray:
+    return load(_distances(), burst, model)
+
+
+def _check(value: float, name: str, unit: str) -> None:
+    if not (np.isfinite(value) and value > 0.0):
+        raise BlastError(f"{name} is {value}: expected a finite number above 0 ({unit})")

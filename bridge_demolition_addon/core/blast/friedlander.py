@@ -1,0 +1,110 @@
+"""The Friedlander pulse p(τ) = p₀ (1 - τ/t_d) e^(-b τ/t_d), its impulse over any interval, and the decay b that fits.
+
+The report's equation 1 (Friedlander 1946). τ is the time since the front arrived; the pulse is over at τ = t_d. The
+suction that follows, the negative phase, is not modelled.
+"""
+
+import numpy as np
+
+LARGEST_SHARE = 0.5
+"""Share of p₀ t_d that the impulse of a pulse without decay has, a triangle; no decay gives more."""
+
+_SERIES_BELOW = 0.5
+_SERIES_TERMS = 15
+"""Enough for the last term to be below rounding where the series is used: 0.5^15 / 15! is 2e-17."""
+
+_MOST_STEPS = 50
+
+
+def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """Overpressure at times since the front arrived; 0 before that and after the positive phase.
+
+    Parameters
+    ----------
+    peak, duration, decay
+        Peak overpressure (Pa), positive-phase duration (s) and decay b of the pulses.
+    time
+        Times since the front arrived, s. All four broadcast.
+    """
+    part = _part_of_phase(time, duration)
+    return np.where((part >= 0.0) & (part < 1.0), peak * (1.0 - part) * np.exp(-decay * np.clip(part, 0.0, 1.0)), 0.0)
+
+
+def impulse_between(
+    peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, start: np.ndarray, end: np.ndarray
+) -> np.ndarray:
+    """Exact integral of the overpressure from `start` to `end`, s since the front arrived, in Pa·s.
+
+    The interval may begin before the front and end after the pulse. It is integrated from its own beginning, so that
+    short intervals lose nothing to the difference of two long ones.
+    """
+    first = np.clip(_part_of_phase(start, duration), 0.0, 1.0)
+    length = np.clip(_part_of_phase(end, duration), 0.0, 1.0) - first
+    exponent = decay * length
+    mean = (1.0 - first) * _moment(0, exponent) - length * _moment(1, exponent)
+    return peak * duration * np.exp(-decay * first) * length * mean
+
+
+def whole_impulse(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray) -> np.ndarray:
+    """Impulse of the whole positive phase, p₀ t_d (b - 1 + e^(-b)) / b², in Pa·s."""
+    return peak * duration * _share(np.asarray(decay, float))
+
+
+def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Duration and decay of the pulses that have a peak, a duration and an impulse.
+
+    No decay of at least 0 gives more than half of p₀ t_d. Where more is asked for, the pulse gets no decay and a longer
+    duration, 2 i / p₀: peak and impulse are what moves and breaks a body, and tests measure them better than where a
+    pulse that fades out ends. A negative decay would keep the duration, with a pressure that hardly falls and then
+    drops at once.
+
+    Parameters
+    ----------
+    peak, duration, impulse
+        Pa, s and Pa·s, of one shape; where the peak is 0 so are the results.
+    """
+    there = peak > 0.0
+    longest = np.divide(impulse, LARGEST_SHARE * peak, out=np.zeros_like(peak), where=there)
+    duration = np.maximum(duration, longest)
+    share = np.divide(impulse, peak * duration, out=np.full_like(peak, LARGEST_SHARE), where=there)
+    return np.where(there, duration, 0.0), decay_of(share)
+
+
+def decay_of(share: np.ndarray) -> np.ndarray:
+    """The decay b ≥ 0 at which the impulse is a share of p₀ t_d, from above 0 to `LARGEST_SHARE`.
+
+    The share falls with b and is convex, and at b = 1/share - 2 it is not below what is asked for. So Newton's steps
+    from there go one way, never overshoot, and are done after a handful.
+    """
+    share = np.asarray(share, float)
+    decay = np.maximum(1.0 / share - 2.0, 0.0)
+    for _ in range(_MOST_STEPS):
+        step = (_share(decay) - share) / (_moment(1, decay) - _moment(2, decay))
+        decay = np.maximum(decay + step, 0.0)
+        if (abs(step) <= 1e-13 * (1.0 + decay)).all():
+            break
+    return decay
+
+
+def _share(decay: np.ndarray) -> np.ndarray:
+    return _moment(0, decay) - _moment(1, decay)
+
+
+def _moment(order: int, exponent: np.ndarray) -> np.ndarray:
+    """∫₀¹ uⁿ e^(-y u) du for n = 0, 1, 2 and y ≥ 0; a series where the closed form would lose its digits."""
+    large = np.maximum(exponent, _SERIES_BELOW)
+    closed = -np.expm1(-large) / large
+    for n in range(1, order + 1):
+        closed = (n * closed - np.exp(-large)) / large
+    small = np.minimum(exponent, _SERIES_BELOW)
+    series, power = np.zeros_like(small), np.ones_like(small)
+    for term in range(_SERIES_TERMS):
+        series = series + power / (term + order + 1)
+        power = power * -small / (term + 1)
+    return np.where(exponent < _SERIES_BELOW, series, closed)
+
+
+def _part_of_phase(time: np.ndarray, duration: np.ndarray) -> np.ndarray:
+    """Time as part of the positive phase; a pulse without duration is over at once."""
+    time, duration = np.broadcast_arrays(np.asarray(time, float), np.asarray(duration, float))
+    return np.divide(time, duration, out=np.full(time.shape, np.inf), where=duration > 0.0)

@@ -1,0 +1,113 @@
+"""What a blast wave is known by where it arrives, and how that scales with the charge."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import NoReturn
+
+import numpy as np
+
+from ..errors import BlastError
+
+SMALLEST_SCALED_DISTANCE = 0.0531
+"""Scaled distance, m/kg^(1/3), below which everything counts as this near.
+
+It is where the table of Kingery and Bulmash begins, and the surface of the charge itself: a ball of 1 kg TNT with a
+density of 1630 kg/m³ has a radius of 0.0527 m.
+"""
+
+
+class Choice(StrEnum):
+    """Base of the few things to choose between; each is equal to the text that names it."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise BlastError(f"{cls.__name__} is {value!r}: expected one of {', '.join(cls)}")
+
+
+class Burst(Choice):
+    """Where a charge detonates."""
+
+    AIR = "air"
+    """Free of any surface: the wave is a sphere."""
+
+    SURFACE = "surface"
+    """On the ground, which sends back what goes down: the wave is a hemisphere."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Wave:
+    """A blast wave at some places, structure of arrays that all have one shape.
+
+    Attributes
+    ----------
+    peak_overpressure_pa, reflected_overpressure_pa
+        Peak overpressure beside the wave's path (incident, side-on), and on a wall that it meets head-on, Pa.
+    incident_impulse_pa_s, reflected_impulse_pa_s
+        Impulse per area of the positive phase, incident and on such a wall, Pa·s.
+    arrival_time_s, positive_phase_duration_s
+        From the detonation to the front, and from the front to the end of the positive phase, s.
+    """
+
+    peak_overpressure_pa: np.ndarray
+    reflected_overpressure_pa: np.ndarray
+    incident_impulse_pa_s: np.ndarray
+    reflected_impulse_pa_s: np.ndarray
+    arrival_time_s: np.ndarray
+    positive_phase_duration_s: np.ndarray
+
+    def scaled(self, cube_root: np.ndarray) -> "Wave":
+        """The wave at the same scaled distances from charges whose cube root is so many times as large.
+
+        Pressures stay, times and impulses grow with the cube root (Hopkinson 1915, Cranz 1926). Without any charge
+        there is no wave: everything is 0.
+        """
+        there = cube_root > 0.0
+        return Wave(
+            self.peak_overpressure_pa * there,
+            self.reflected_overpressure_pa * there,
+            self.incident_impulse_pa_s * cube_root,
+            self.reflected_impulse_pa_s * cube_root,
+            self.arrival_time_s * cube_root,
+            self.positive_phase_duration_s * cube_root,
+        )
+
+
+def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
+    """Scaled distance Z = R / W^(1/3), m/kg^(1/3), the report's equation 5 with a transmission factor of 1.
+
+    Parameters
+    ----------
+    stand_off_m
+        Distances from the charges, m, at least 0.
+    tnt_kg
+        Charges, kg of TNT, at least 0, of a shape that broadcasts; without charge the distance is infinite.
+
+    Raises
+    ------
+    BlastError
+        A stand-off or a charge is negative or not finite.
+    """
+    stand_off = checked(stand_off_m, "stand-off", "m")
+    cube_root = np.cbrt(checked(tnt_kg, "charge", "kg of TNT"))
+    shape = np.broadcast_shapes(stand_off.shape, cube_root.shape)
+    return np.divide(stand_off, cube_root, out=np.full(shape, np.inf), where=cube_root > 0.0)
+
+
+def smallest_stand_off(tnt_kg: np.ndarray) -> np.ndarray:
+    """The stand-off that bodies nearer than it are taken to have, m: the surface of the charge."""
+    return SMALLEST_SCALED_DISTANCE * np.cbrt(checked(tnt_kg, "charge", "kg of TNT"))
+
+
+def checked(values: np.ndarray, name: str, unit: str) -> np.ndarray:
+    """Values as floats.
+
+    Raises
+    ------
+    BlastError
+        One of them is negative or not finite; the text names the first.
+    """
+    values = np.asarray(values, float)
+    wrong = values[~((values >= 0.0) & np.isfinite(values))]
+    if wrong.size:
+        raise BlastError(f"{name} is {wrong.flat[0]:g}: expected a finite number of at least 0 ({unit})")
+    return values
