@@ -13,6 +13,7 @@ import numpy as np
 
 from ..core.errors import LayoutError
 from .layout import (
+    ACTIVATION_STATES,
     CONSTRAINT_TYPES,
     DRAWING_SIZE,
     FIRST_STEP_S,
@@ -103,6 +104,7 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
         return struct.unpack_from("<" + format_, raw, offset)[0]
 
     _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)
+    _expect_member(f"activation state {name}", value("i", offsets.activation), ACTIVATION_STATES)
     _expect(f"internal type {name}", value("i", offsets.internal_type), RIGID_BODY)
     _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
     _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)

@@ -93,7 +93,7 @@ class ContactReader:
             self._is_checked = True
         layout = self._layout.manifold
         counts = gather_integers(manifolds + np.uint64(layout.count))
-        if len(counts) and not (0 <= counts.min() and counts.max() <= _MOST_POINTS):
+        if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
             raise LayoutError("a contact has more than four points")
         rows = np.repeat(np.arange(len(manifolds)), counts)
         number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -82,6 +82,11 @@ def write_float(address: int, value: float) -> None:
     _FLOATS[_indices(address, 4)] = value
 
 
+def write_bytes(addresses: np.ndarray, value: int) -> None:
+    """Write one byte to each of the checked addresses (n,)."""
+    _BYTES[_indices(addresses, 1)] = value
+
+
 def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | int) -> None:
     """Write pointers to checked addresses."""
     _POINTERS[_indices(addresses, 8)] = pointers
@@ -96,6 +101,7 @@ class _AddressSpace:
 
 
 _DOUBLES = np.asarray(_AddressSpace("<f8", 8))
+_BYTES = np.asarray(_AddressSpace("|u1", 1))
 _FLOATS = np.asarray(_AddressSpace("<f4", 4))
 _POINTERS = np.asarray(_AddressSpace("<u8", 8))
 _INTEGERS = np.asarray(_AddressSpace("<i4", 4))

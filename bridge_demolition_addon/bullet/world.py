@@ -6,8 +6,9 @@ Blender leaves unused tells a world that has been checked and prepared from one 
 
 from __future__ import annotations
 
+import ctypes
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from enum import Enum
 
 import bpy
@@ -16,14 +17,16 @@ import numpy as np
 from ..core.errors import LayoutError, SimulationError
 from ..scene.world import scene_time_step
 from . import checks
+from .contacts import ContactReader, Contacts
 from .ignored_collisions import IgnoredCollisions
-from .layout import Layout, platform_layout
+from .layout import SLEEPING, Layout, platform_layout
 from .memory import (
     gather_doubles,
     gather_integers,
     gather_pointers,
     read_pointer,
     read_value,
+    write_bytes,
     write_double,
     write_pointers,
 )
@@ -32,6 +35,11 @@ _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
 
 _tokens = itertools.count(0x42444100)
+
+_AFTER_STEP = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
+
+_callbacks_bullet_may_call: list[object] = []
+"""Callbacks handed to Bullet, never to be freed either."""
 
 _buffers_bullet_may_write: list[np.ndarray] = []
 """Buffers handed to Bullet. They are never freed: a constraint may outlive the recording that asked for its forces."""
@@ -98,6 +106,16 @@ class BulletWorld:
         self._dynamics = dynamics
         return WorldState.KNOWN if known else WorldState.NEW
 
+    def call_after_substeps(self, action: Callable[[float], None]) -> None:
+        """Have a function called after every sub-step of this world, with the sub-step's length in s.
+
+        It is called from whatever thread simulates, while Blender's data is in use: it must not touch bpy, and must not
+        raise. A world that Blender makes anew does not know it any more.
+        """
+        callback = _AFTER_STEP(lambda _world, substep: action(substep))
+        _callbacks_bullet_may_call.append(callback)
+        write_pointers(self._dynamics + self._layout.world.after_step, ctypes.cast(callback, ctypes.c_void_p).value)
+
     def take_substep(self) -> float:
         """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
 
@@ -117,6 +135,34 @@ class BulletWorld:
     def velocities(self) -> np.ndarray:
         """Linear velocities (n, 3) of all bodies, m/s."""
         return gather_doubles(self._body_addresses + np.uint64(self._layout.body.linear_velocity), 3)
+
+    def asleep(self) -> np.ndarray:
+        """Whether each body (n,) is asleep; what can never move is not."""
+        states = gather_integers(self._body_addresses + np.uint64(self._layout.body.activation))
+        movable = gather_doubles(self._body_addresses + np.uint64(self._layout.body.inverse_mass))[:, 0] > 0.0
+        return np.isin(states, list(SLEEPING)) & movable
+
+    def contacts(self) -> Contacts:
+        """All contacts that carry a load; those between sleeping bodies keep the load they fell asleep with.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected.
+        """
+        return self._contact_reader.read()
+
+    def applied_impulses(self) -> np.ndarray:
+        """The one number (m,) that Bullet keeps of each connection: the impulse of its last solver row, N·s."""
+        impulses = np.zeros(len(self.connections))
+        addresses = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.applied_impulse)
+        impulses[self._exists] = gather_doubles(addresses)[:, 0]
+        return impulses
+
+    def break_connections(self, rows: np.ndarray) -> None:
+        """Break connections (k,), as Bullet does at their breaking thresholds."""
+        rows = rows[self._exists[rows]]
+        write_bytes(self._connection_addresses[rows] + np.uint64(self._layout.constraint.enabled), 0)
 
     def intact(self) -> np.ndarray:
         """Whether each connection (m,) exists and has not broken."""
@@ -160,6 +206,7 @@ class BulletWorld:
             ours = False
         if ours:
             self._point_feedback_at(np.uint64(0))
+            write_pointers(dynamics + self._layout.world.after_step, 0)
             write_pointers(dynamics + self._layout.world.user_info, 0)
         self._dynamics = 0
 
@@ -193,14 +240,17 @@ class BulletWorld:
         checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world, substep_s)
         body_addresses = self._find_bodies(depsgraph)
         connection_addresses = self._find_connections(depsgraph, body_addresses)
-        if read_value(dynamics + self._layout.world.user_info, "Q") not in (0, self._token):
-            raise LayoutError("the world's user information is in use")
+        for field in (self._layout.world.user_info, self._layout.world.after_step):
+            if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
+                raise LayoutError("something else has its hand on Blender's Bullet world")
         forbidding = [each.rigid_body_constraint.disable_collisions for each in self.connections]
         forbids_collision = np.array(forbidding, bool) & (connection_addresses != 0)
         ignored = IgnoredCollisions(self._layout, connection_addresses[forbids_collision], body_addresses)
         self._body_addresses, self._connection_addresses = body_addresses, connection_addresses
         self._exists = self._connection_addresses != 0
         self._forbids_collision, self._ignored = forbids_collision, ignored
+        dispatcher = read_pointer(dynamics + self._layout.world.dispatcher)
+        self._contact_reader = ContactReader(self._layout, dispatcher, body_addresses)
         self._ignored_rows = np.cumsum(forbids_collision) - 1
         self._feedback[:] = 0.0
         starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from . import forces
 from .errors import OutputError
 
 
@@ -16,49 +15,84 @@ from .errors import OutputError
 class Results:
     """A run: k recorded frames, n bodies, m connections.
 
+    Loads are those of the whole frame when `reading` is ``every sub-step``, otherwise those of its last sub-step.
+    Forces on a body are those of its connections and contacts together, without gravity. All vectors are in the world's
+    axes.
+
     Attributes
     ----------
+    reading
+        Which sub-steps the loads come from, a text.
     frames, times_s
         (k,) Blender's frame and the simulated time since the start.
     substep_s
         (k,) length of the sub-steps that led to each frame; 0 for the first, in which no time passes.
-    body_names, body_kinds, masses_kg
-        (n,) names, kinds (shard, ball, ground) and masses; a body that never moves has mass 0.
+    body_names, body_kinds, masses_kg, volumes_m3
+        (n,) names, kinds (shard, ball, ground), masses and volumes; both 0 for a body that never moves.
     places_m, rotations, velocities_m_s
-        (k, n, 3), (k, n, 3, 3) and (k, n, 3).
-    connection_names, pairs
-        (m,) names and (m, 2) indices of the connected bodies.
+        (k, n, 3), (k, n, 3, 3) and (k, n, 3) at the end of each frame.
+    asleep
+        (k, n) bodies that are not simulated because they rest; they keep the loads that they fell asleep with.
+    body_forces_n, body_peaks_n
+        (k, n, 3) mean of the resultant, and (k, n) its largest magnitude.
+    body_sums_n, body_peak_sums_n
+        (k, n) mean and largest of the sum of the magnitudes.
+    body_contact_impulses_ns
+        (k, n, 3) impulse of the contacts in the frame.
+    body_signed_2019_n
+        (k, n) mean of what the add-on of 2019 calls the contact force: the numbers that Bullet keeps of its
+        connections, added or taken off with their signs. For comparison only.
+    stresses_pa, von_mises_pa
+        (k, n, 3, 3) mean of the average stress of each body, tension positive, and (k, n) largest equivalent stress.
+    connection_names, pairs, points_m, areas_m2, normals
+        (m,) names, (m, 2) indices of the connected bodies, (m, 3) first places, (m,) areas, (m, 3) first unit normals
+        from the first body to the second.
     connection_forces_n, connection_moments_nm
-        (k, m, 3) force on the first body of each pair, and the moment about the connection's own point, in the world's
-        axes, of the last sub-step before the frame. The second body gets the opposite.
+        (k, m, 3) mean force on the first body of each pair, and moment about the connection's own point.
+    connection_peaks_n, connection_peak_forces_n, connection_peak_moments_nm
+        (k, m) largest magnitude of the force, and (k, m, 3) force and moment in the sub-step that had it.
     intact
         (k, m) whether each connection holds.
+    balls, ball_times_s, ball_impulses_ns, ball_velocities_m_s
+        (b,) indices of the balls, (s,) times of all sub-steps, (s, b, 3) impulses of their contacts in each, and
+        velocities after it.
     """
 
+    reading: np.ndarray
     frames: np.ndarray
     times_s: np.ndarray
     substep_s: np.ndarray
     body_names: np.ndarray
     body_kinds: np.ndarray
     masses_kg: np.ndarray
+    volumes_m3: np.ndarray
     places_m: np.ndarray
     rotations: np.ndarray
     velocities_m_s: np.ndarray
+    asleep: np.ndarray
+    body_forces_n: np.ndarray
+    body_peaks_n: np.ndarray
+    body_sums_n: np.ndarray
+    body_peak_sums_n: np.ndarray
+    body_contact_impulses_ns: np.ndarray
+    body_signed_2019_n: np.ndarray
+    stresses_pa: np.ndarray
+    von_mises_pa: np.ndarray
     connection_names: np.ndarray
     pairs: np.ndarray
+    points_m: np.ndarray
+    areas_m2: np.ndarray
+    normals: np.ndarray
     connection_forces_n: np.ndarray
     connection_moments_nm: np.ndarray
+    connection_peaks_n: np.ndarray
+    connection_peak_forces_n: np.ndarray
+    connection_peak_moments_nm: np.ndarray
     intact: np.ndarray
-
-    def resultants(self) -> np.ndarray:
-        """Vector sum of the connection forces on every body in every frame, (k, n, 3) in N."""
-        count = len(self.body_names)
-        return np.array([forces.resultants(self.pairs, each, count) for each in self.connection_forces_n])
-
-    def magnitude_sums(self) -> np.ndarray:
-        """Sum of the magnitudes of the connection forces on every body in every frame, (k, n) in N."""
-        count = len(self.body_names)
-        return np.array([forces.magnitude_sums(self.pairs, each, count) for each in self.connection_forces_n])
+    balls: np.ndarray
+    ball_times_s: np.ndarray
+    ball_impulses_ns: np.ndarray
+    ball_velocities_m_s: np.ndarray
 
     def of_kind(self, kind: str) -> np.ndarray:
         """Indices of the bodies of a kind."""

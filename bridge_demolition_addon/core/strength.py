@@ -213,7 +213,7 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
     axial = forces.axial_n / sections.areas_m2
     moments = np.einsum("mji,mj->mi", sections.directions, forces.bending_nm)
     bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
-    shear = np.linalg.norm(forces.shear_n, axis=1) / sections.areas_m2
+    shear = np.hypot(*forces.shear_n.T) / sections.areas_m2
     shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3
     stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
     pressed = (bending - axial) / strength.compression_pa

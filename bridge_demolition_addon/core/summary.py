@@ -27,8 +27,9 @@ def summarise(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any]:
         "bodies": {kind: len(results.of_kind(kind)) for kind in ("shard", "ball", "ground")},
         "connections": _connections(results),
         "impact": _moment(results, impact_step(results, gravity_m_s2)),
-        "largest_resultant": _largest_force(results, np.linalg.norm(results.resultants(), axis=2)),
-        "largest_force_sum": _largest_force(results, results.magnitude_sums()),
+        "reading": str(results.reading),
+        "largest_resultant": _largest_force(results, results.body_peaks_n),
+        "largest_force_sum": _largest_force(results, results.body_peak_sums_n),
         "largest_throw": _largest_throw(results),
     }
 
@@ -65,16 +66,16 @@ def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
 
 
 def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] | None:
-    """Largest of the magnitudes (k, n), on any body that is not the ground, in any frame whose forces are known."""
+    """Largest of the magnitudes (k, n) on any shard, in any frame whose forces are known."""
     known = np.flatnonzero(np.isfinite(magnitudes).all(axis=1))
-    movable = np.flatnonzero(results.body_kinds != "ground")
-    candidates = magnitudes[np.ix_(known, movable)]
+    shards = results.of_kind("shard")
+    candidates = magnitudes[np.ix_(known, shards)]
     if not candidates.size:
         return None
     step, body = np.unravel_index(candidates.argmax(), candidates.shape)
     return {
         "force_N": float(candidates[step, body]),
-        "body": str(results.body_names[movable[body]]),
+        "body": str(results.body_names[shards[body]]),
         **_moment(results, int(known[step])),
     }
 

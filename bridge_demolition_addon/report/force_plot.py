@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -30,8 +29,8 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     FigureCanvasAgg(figure)
     force_axes = figure.add_subplot()
     shards = results.of_kind("shard")
-    sums = results.magnitude_sums()[:, shards].max(axis=1, initial=0.0)
-    resultants = np.linalg.norm(results.resultants()[:, shards], axis=2).max(axis=1, initial=0.0)
+    sums = results.body_peak_sums_n[:, shards].max(axis=1, initial=0.0)
+    resultants = results.body_peaks_n[:, shards].max(axis=1, initial=0.0)
     times = results.times_s
     lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
     lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")

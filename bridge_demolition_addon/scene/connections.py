@@ -5,16 +5,37 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import bpy
+import numpy as np
 
 from ..core.connections import GROUND, Connections
 
 _SYMBOL_SIZE_M = 0.1
+_AREA = "bda_area_m2"
+_NORMAL = "bda_normal"
 
 
 def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """All objects that hold a constraint of the scene's rigid-body world."""
     constraints = scene.rigidbody_world.constraints
     return [each for each in constraints.all_objects if each.rigid_body_constraint] if constraints else []
+
+
+def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray]:
+    """Areas (m,) in m² and unit normals (m, 3), from first to second bodies, of the sections connections stand for.
+
+    A connection that was not made here has no area, and the direction between its bodies' origins for a normal.
+    """
+    areas = np.array([connection.get(_AREA, 0.0) for connection in connections], float)
+    normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
+    return areas, normals
+
+
+def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
+    if _NORMAL in connection:
+        return tuple(connection[_NORMAL])
+    constraint = connection.rigid_body_constraint
+    between = constraint.object2.matrix_world.translation - constraint.object1.matrix_world.translation
+    return tuple(between.normalized()) if between.length else (0.0, 0.0, 1.0)
 
 
 def create_connection_template(world: bpy.types.RigidBodyWorld, kind: str, impulse: float) -> bpy.types.Object:
@@ -46,9 +67,11 @@ def create_connections(
 ) -> list[bpy.types.Object]:
     """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical."""
     objects = []
-    for (first, second), point in zip(connections.pairs, connections.points, strict=True):
+    columns = (connections.pairs, connections.points, connections.areas.tolist(), connections.normals.tolist())
+    for (first, second), point, area, normal in zip(*columns, strict=True):
         connection = template.copy()  # keeps the name that Blender gives it: each renaming searches all names
         connection.location = point
+        connection[_AREA], connection[_NORMAL] = area, normal
         constraint = connection.rigid_body_constraint
         constraint.object1 = shards[first]
         constraint.object2 = ground if second == GROUND else shards[second]

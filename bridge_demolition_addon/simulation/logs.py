@@ -11,10 +11,109 @@ from typing import Self
 
 import numpy as np
 
-FORCE_COLUMNS = ("frame", "time_s", "body", "force_x_N", "force_y_N", "force_z_N", "force_sum_N")
+from ..core.motion import throw, travel
+from ..core.stress import principal_stresses
+from ..scene.inventory import Inventory
+from .substeps import Breaks
+
+FORCE_COLUMNS = (
+    "frame",
+    "time_s",
+    "body",
+    "force_x_N",
+    "force_y_N",
+    "force_z_N",
+    "force_sum_N",
+    "peak_force_N",
+    "peak_force_sum_N",
+    "contact_impulse_x_Ns",
+    "contact_impulse_y_Ns",
+    "contact_impulse_z_Ns",
+    "signed_2019_N",
+    "stress_largest_Pa",
+    "stress_smallest_Pa",
+    "peak_von_mises_Pa",
+    "asleep",
+)
 DEBRIS_COLUMNS = ("frame", "time_s", "body", "x_m", "y_m", "z_m", "distance_m", "throw_m")
+BREAKING_COLUMNS = (
+    "frame",
+    "time_s",
+    "connection",
+    "first_body",
+    "second_body",
+    "axial_N",
+    "shear_y_N",
+    "shear_z_N",
+    "torsion_Nm",
+    "bending_y_Nm",
+    "bending_z_Nm",
+)
 
 _STEP_MARK = "\0"
+
+
+class Logs:
+    """All logs of a recording.
+
+    Parameters
+    ----------
+    folder
+        Existing folder; logs that are there are replaced.
+    inventory
+        The bodies and connections that the logs are about.
+    """
+
+    def __init__(self, folder: Path, inventory: Inventory):
+        names = inventory.body_names.tolist()
+        self._inventory = inventory
+        self._forces = BodyLog(folder / "force_log.csv", FORCE_COLUMNS, names)
+        self._debris = BodyLog(folder / "debris_log.csv", DEBRIS_COLUMNS, names)
+        self._breaking = (folder / "breaking_log.csv").open("w", encoding="utf-8", newline="")
+        self._breaking_rows = csv.writer(self._breaking, lineterminator="\n")
+        self._breaking_rows.writerow(BREAKING_COLUMNS)
+        self._breaking.flush()
+        self._first_places: np.ndarray | None = None
+
+    def write_frame(self, frame: dict) -> None:
+        """Log the loads of a frame; of the first frame, also where everything is."""
+        columns = (
+            frame["body_forces_n"],
+            frame["body_sums_n"],
+            frame["body_peaks_n"],
+            frame["body_peak_sums_n"],
+            frame["body_contact_impulses_ns"],
+            frame["body_signed_2019_n"],
+            principal_stresses(frame["stresses_pa"]),
+            frame["von_mises_pa"],
+            frame["asleep"],
+        )
+        self._forces.write(frame["frames"], frame["times_s"], np.column_stack(columns))
+        if self._first_places is None:
+            self._first_places = frame["places_m"]
+            self._write_places(frame)
+
+    def write_breaks(self, frame: int, breaks: Sequence[Breaks]) -> None:
+        """Log the connections that broke in a frame, each with the loads that it broke under."""
+        names, bodies, pairs = self._inventory.connection_names, self._inventory.body_names, self._inventory.pairs
+        for each in breaks:
+            loads = each.loads
+            values = np.column_stack((loads.axial_n, loads.shear_n, loads.torsion_nm, loads.bending_nm)) + 0.0
+            for row, numbers in zip(each.connections, values, strict=True):
+                texts = (names[row], *bodies[pairs[row]], *(f"{number:.9g}" for number in numbers))
+                self._breaking_rows.writerow((frame, f"{each.time_s:.9g}", *texts))
+        self._breaking.flush()
+
+    def close(self, last_frame: dict) -> None:
+        """Log where everything is at last, and close the files."""
+        self._write_places(last_frame)
+        for each in (self._forces, self._debris, self._breaking):
+            each.close()
+
+    def _write_places(self, frame: dict) -> None:
+        first, last = self._first_places, frame["places_m"]
+        values = np.column_stack((last, travel(first, last), throw(first, last)))
+        self._debris.write(frame["frames"], frame["times_s"], values)
 
 
 class BodyLog:

@@ -14,6 +14,7 @@ RESULT_FILES = (
     "summary.json",
     "force_log.csv",
     "debris_log.csv",
+    "breaking_log.csv",
     "results.npz",
     "force_over_time.png",
     "scene.blend",

@@ -1,4 +1,4 @@
-"""Recording a simulation while Blender's timeline runs: forces, motion and breaking, frame by frame."""
+"""Recording a simulation while Blender's timeline runs: loads, motion and breaking, frame by frame."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import numpy as np
 
 from ..bullet.held_time import hold_time, release_time, time_is_held
 from ..bullet.world import BulletWorld, WorldState
-from ..core import forces
 from ..core.errors import SimulationError
-from ..core.motion import throw, travel
 from ..core.results import Results
-from ..scene.bodies import bodies_of, kind_of
+from ..scene.bodies import bodies_of
 from ..scene.connections import connections_of
-from .logs import DEBRIS_COLUMNS, FORCE_COLUMNS, BodyLog
+from ..scene.inventory import Inventory, take_inventory
+from .logs import Logs
+from .substeps import SubstepRecorder
 
 
 class Recording:
@@ -28,6 +28,8 @@ class Recording:
         Scene with a rigid-body world.
     folder
         Existing folder for the logs.
+    every_substep
+        Whether loads are taken down after every sub-step, or only after the last one of each frame.
 
     Attributes
     ----------
@@ -35,23 +37,23 @@ class Recording:
         As given.
     error
         Why the recording ended before its time, or None.
-    seconds
-        Wall time that recording has taken so far.
     """
 
-    def __init__(self, scene: bpy.types.Scene, folder: Path):
+    def __init__(self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True):
         if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
             raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
         self.scene = scene
-        self.error: Exception | None = None
-        self.seconds = 0.0
         self.folder = folder
-        self._bodies = bodies_of(scene)
-        self._connections = connections_of(scene)
+        self.error: Exception | None = None
+        self._every_substep = every_substep
+        self._seconds = 0.0
+        self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         self._counts_at_start = self._object_counts()
         self._world = BulletWorld(scene, self._bodies, self._connections)
-        self._logs: tuple[BodyLog, BodyLog] | None = None
-        self._steps: list[dict[str, np.ndarray | float]] = []
+        self._inventory: Inventory | None = None
+        self._substeps: SubstepRecorder | None = None
+        self._logs: Logs | None = None
+        self._frames: list[dict[str, np.ndarray | float]] = []
 
     def before_frame(self) -> None:
         """Let no time pass in the frame in which Blender makes its world.
@@ -62,7 +64,7 @@ class Recording:
             hold_time(self.scene)
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Take down what the frame's last sub-step left behind.
+        """Take down the frame.
 
         Raises
         ------
@@ -75,7 +77,7 @@ class Recording:
                 self._record(self._bound_state(depsgraph), time_is_held(depsgraph))
         finally:
             release_time(self.scene)
-            self.seconds += time.perf_counter() - began
+            self._seconds += time.perf_counter() - began
 
     def fail(self, error: Exception) -> None:
         """End the recording for a reason."""
@@ -86,20 +88,23 @@ class Recording:
         """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
         self._world.release()
         if self._logs:
-            self._write_debris(self._steps[-1])
-            for log in self._logs:
-                log.close()
+            self._logs.close(self._frames[-1])
             self._logs = None
 
     @property
     def recorded_frames(self) -> int:
         """Frames recorded so far."""
-        return len(self._steps)
+        return len(self._frames)
 
     @property
     def broken(self) -> int:
         """Connections broken by now."""
-        return int((~self._steps[-1]["intact"]).sum()) if self._steps else 0
+        return int((~self._frames[-1]["intact"]).sum()) if self._frames else 0
+
+    @property
+    def seconds(self) -> float:
+        """Wall time that recording has taken so far."""
+        return self._seconds + (self._substeps.seconds if self._substeps else 0.0)
 
     def results(self) -> Results:
         """Everything recorded.
@@ -109,16 +114,15 @@ class Recording:
         SimulationError
             Nothing was recorded.
         """
-        if not self._steps:
+        if not self._frames:
             raise SimulationError("nothing was recorded: play the timeline from its start frame")
-        series = {name: np.array([step[name] for step in self._steps]) for name in self._steps[0]}
+        series = {name: np.array([frame[name] for frame in self._frames]) for name in self._frames[0]}
+        inventory = {name: getattr(self._inventory, name) for name in Inventory.__dataclass_fields__}
         return Results(
-            body_names=np.array(self._names),
-            body_kinds=np.array(self._kinds),
-            masses_kg=self._masses,
-            connection_names=np.array(self._connection_names),
-            pairs=self._pairs,
+            reading=np.array("every sub-step" if self._every_substep else "last sub-step of each frame"),
+            **inventory,
             **series,
+            **self._substeps.ball_history(),
         )
 
     @property
@@ -143,93 +147,50 @@ class Recording:
         if state is WorldState.NEW:
             self._begin()
             # The solver of a new world names a default step before it has taken any.
-            self._record_step(0.0 if held else substep, forces_known=held)
+            self._record_first_frame(0.0 if held else substep)
         elif substep > 0.0:
-            self._record_step(substep, forces_known=True)
-            self._world.let_broken_collide()
+            self._record_frame(substep)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin(self) -> None:
-        """Note what stays the same throughout, and start the logs."""
-        self._steps.clear()
-        self._elapsed = 0.0
-        self._names = [body.name for body in self._bodies]
-        self._kinds = [kind_of(body).value for body in self._bodies]
-        active = np.array([body.rigid_body.type == "ACTIVE" for body in self._bodies])
-        self._masses = np.where(active, [body.rigid_body.mass for body in self._bodies], 0.0)
-        self._connection_names = [connection.name for connection in self._connections]
-        self._pairs = self._paired_bodies()
-        self._measured_side = np.where(self._masses[self._pairs[:, 0]] > 0.0, 0, 1)
-        self._feedback_side = np.where(self._world.first_is_body_a(), self._measured_side, 1 - self._measured_side)
-        self._measured_bodies = np.take_along_axis(self._pairs, self._measured_side[:, None], axis=1)[:, 0]
-        self._local_points = self._points_in_measured_bodies()
-        self._logs = (
-            BodyLog(self.folder / "force_log.csv", FORCE_COLUMNS, self._names),
-            BodyLog(self.folder / "debris_log.csv", DEBRIS_COLUMNS, self._names),
-        )
+        """Note what stays the same throughout, and start anew."""
+        self._frames.clear()
+        self._inventory = take_inventory(self._bodies, self._connections)
+        self._substeps = SubstepRecorder(self._world, self._inventory)
+        if self._every_substep:
+            self._world.call_after_substeps(self._substeps.after_substep)
+        self._logs = Logs(self.folder, self._inventory)
 
-    def _paired_bodies(self) -> np.ndarray:
-        index = {body: number for number, body in enumerate(self._bodies)}
-        pairs = []
-        for connection in self._connections:
-            constraint = connection.rigid_body_constraint
-            if constraint.object1 not in index or constraint.object2 not in index:
-                raise SimulationError(f"connection {connection.name!r} lacks a body: give it two, or delete it")
-            pairs.append((index[constraint.object1], index[constraint.object2]))
-        return np.array(pairs, int).reshape(-1, 2)
+    def _record_first_frame(self, substep_s: float) -> None:
+        """A frame in which no time passed, or else one whose loads were not asked for in time."""
+        self._substeps.skip(substep_s * self.scene.rigidbody_world.substeps_per_frame)
+        loads, _ = self._substeps.finish_frame()
+        if substep_s > 0.0:
+            loads = {name: np.full_like(values, np.nan) for name, values in loads.items()}
+        self._keep_frame(substep_s, loads)
 
-    def _points_in_measured_bodies(self) -> np.ndarray:
-        """Points of the connections (m, 3) in the axes of the bodies their loads are measured on."""
-        points = np.array([connection.matrix_world.translation for connection in self._connections]).reshape(-1, 3)
-        centres, rotations = self._world.places()
-        bodies = self._measured_bodies
-        return np.einsum("mji,mj->mi", rotations[bodies], points - centres[bodies])
+    def _record_frame(self, substep_s: float) -> None:
+        if not self._every_substep:
+            self._substeps.after_substep(substep_s)
+            self._substeps.skip(substep_s * (self.scene.rigidbody_world.substeps_per_frame - 1))
+        if self._substeps.error:
+            raise self._substeps.error
+        loads, breaks = self._substeps.finish_frame()
+        self._keep_frame(substep_s, loads)
+        self._logs.write_breaks(self.scene.frame_current, breaks)
 
-    def _record_step(self, substep_s: float, forces_known: bool) -> None:
-        self._elapsed += substep_s * self.scene.rigidbody_world.substeps_per_frame
+    def _keep_frame(self, substep_s: float, loads: dict[str, np.ndarray]) -> None:
         places, rotations = self._world.places()
-        force, moment = self._connection_loads(places, rotations)
-        if not forces_known:  # a step was taken before we could ask for its forces
-            force, moment = np.full_like(force, np.nan), np.full_like(moment, np.nan)
-        step = {
+        frame = {
             "frames": self.scene.frame_current,
-            "times_s": self._elapsed,
+            "times_s": self._substeps.elapsed_s,
             "substep_s": substep_s,
             "places_m": places,
             "rotations": rotations,
             "velocities_m_s": self._world.velocities(),
-            "connection_forces_n": force,
-            "connection_moments_nm": moment,
+            "asleep": self._world.asleep(),
             "intact": self._world.intact(),
+            **loads,
         }
-        self._steps.append(step)
-        self._write_forces(step)
-        if len(self._steps) == 1:
-            self._write_debris(step)
-
-    def _connection_loads(self, places: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Force (m, 3) on the first body of each connection, and moment (m, 3) about the connection's point.
-
-        They are measured on a body that can move: of a hinge on a fixed body, Bullet leaves out a part of the torque
-        on that body.
-        """
-        bodies, rows = self._measured_bodies, np.arange(len(self._pairs))
-        feedback = self._world.joint_feedback().reshape(-1, 2, 2, 3)[rows, self._feedback_side]
-        force, torque = feedback[:, 0], feedback[:, 1]
-        points = forces.carried_points(self._local_points, bodies, places, rotations)
-        moment = forces.moments_at(points, force, torque, places[bodies])
-        on_first = np.where(self._measured_side == 0, 1.0, -1.0)[:, None]
-        return on_first * force, on_first * moment
-
-    def _write_forces(self, step: dict) -> None:
-        force, count = step["connection_forces_n"], len(self._bodies)
-        values = np.column_stack(
-            (forces.resultants(self._pairs, force, count), forces.magnitude_sums(self._pairs, force, count))
-        )
-        self._logs[0].write(step["frames"], step["times_s"], values)
-
-    def _write_debris(self, step: dict) -> None:
-        first, last = self._steps[0]["places_m"], step["places_m"]
-        self._logs[1].write(
-            step["frames"], step["times_s"], np.column_stack((last, travel(first, last), throw(first, last)))
-        )
+        self._frames.append(frame)
+        self._logs.write_frame(frame)

@@ -90,7 +90,7 @@ def test_logs_hold_what_was_recorded(span):
     forces = rows(folder / "force_log.csv")
     assert len(forces) == len(results.frames) * len(results.body_names)
     logged = np.array([[float(row[f"force_{axis}_N"]) for axis in ("x", "y", "z", "sum")] for row in forces])
-    expected = np.dstack((results.resultants(), results.magnitude_sums()))
+    expected = np.dstack((results.body_forces_n, results.body_sums_n))
     # Nine digits are written.
     np.testing.assert_allclose(logged, expected.reshape(-1, 4), rtol=1e-8, atol=1e-8)
     debris = rows(folder / "debris_log.csv")
@@ -158,7 +158,7 @@ def test_awake_bridge_stands_where_its_strength_suffices_and_hands_its_weight_to
     ground = results.of_kind("ground")[0]
     weight = 107_000.0 * STANDARD_GRAVITY_M_S2
     # The last swaying of the deck, damped by 4 % a second, is still in it.
-    assert results.resultants()[-1, ground, 2] == pytest.approx(-weight, rel=1e-3)
+    assert results.body_forces_n[-1, ground, 2] == pytest.approx(-weight, rel=1e-3)
 
 
 def test_pictures_show_before_impact_and_after(tmp_path):

@@ -34,9 +34,9 @@ def test_chain_carries_the_weight_below_each_connection(blender, tmp_path, kind,
     np.testing.assert_allclose(results.connection_forces_n[-1][:, 2], -weights, rtol=STATICS)
     np.testing.assert_allclose(results.connection_forces_n[-1][:, :2], 0.0, atol=STATICS * weights[0])
     np.testing.assert_allclose(results.connection_moments_nm[-1], 0.0, atol=STATICS * weights[0])
-    np.testing.assert_allclose(results.resultants()[-1][1:, 2], np.array(masses) * GRAVITY, rtol=STATICS)
+    np.testing.assert_allclose(results.body_forces_n[-1][1:, 2], np.array(masses) * GRAVITY, rtol=STATICS)
     expected_sums = weights + np.append(weights[1:], 0.0)
-    np.testing.assert_allclose(results.magnitude_sums()[-1][1:], expected_sums, rtol=STATICS)
+    np.testing.assert_allclose(results.body_sums_n[-1][1:], expected_sums, rtol=STATICS)
 
 
 @pytest.mark.parametrize("step", STEPS, ids=("24 Hz × 10", "60 Hz × 4"))
@@ -85,5 +85,5 @@ def test_forces_sum_to_zero_over_all_bodies(blender, tmp_path):
         blocks.connect("POINT", (0, 0, 9.5), *pair)
     results = blocks.play(tmp_path, 10)
     # Each connection enters once with each sign: only the rounding of sums of some hundred N remains.
-    np.testing.assert_allclose(results.resultants().sum(axis=1), 0.0, atol=1e-9)
-    assert abs(results.resultants()).max() > 1.0
+    np.testing.assert_allclose(results.body_forces_n.sum(axis=1), 0.0, atol=1e-9)
+    assert abs(results.body_forces_n).max() > 1.0

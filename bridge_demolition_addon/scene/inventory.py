@@ -1,0 +1,92 @@
+"""What is in a scene's rigid-body world: bodies and connections, as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.errors import SimulationError
+from ..core.solids import volumes_and_centres
+from .bodies import kind_of
+from .connections import sections_of
+
+
+@dataclass(frozen=True, slots=True)
+class Inventory:
+    """The n bodies and m connections of a world, as they stand when its simulation begins.
+
+    Attributes
+    ----------
+    body_names, body_kinds
+        (n,) names, and kinds (shard, ball, ground).
+    masses_kg, volumes_m3
+        (n,) both 0 for a body that never moves.
+    connection_names, pairs
+        (m,) names and (m, 2) indices of the connected bodies.
+    points_m, areas_m2, normals
+        (m, 3) where the connections are, (m,) the areas they stand for, (m, 3) unit normals from first to second body.
+    """
+
+    body_names: np.ndarray
+    body_kinds: np.ndarray
+    masses_kg: np.ndarray
+    volumes_m3: np.ndarray
+    connection_names: np.ndarray
+    pairs: np.ndarray
+    points_m: np.ndarray
+    areas_m2: np.ndarray
+    normals: np.ndarray
+
+
+def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> Inventory:
+    """Read all that stays the same throughout a simulation.
+
+    Raises
+    ------
+    SimulationError
+        A connection lacks a body.
+    """
+    moves = np.array([body.rigid_body.type == "ACTIVE" for body in bodies], bool)
+    pairs = _pairs(bodies, connections)
+    areas, normals = sections_of(connections)
+    return Inventory(
+        body_names=np.array([body.name for body in bodies]),
+        body_kinds=np.array([kind_of(body).value for body in bodies]),
+        masses_kg=np.where(moves, [body.rigid_body.mass for body in bodies], 0.0),
+        volumes_m3=np.where(moves, _volumes(bodies), 0.0),
+        connection_names=np.array([connection.name for connection in connections]),
+        pairs=pairs,
+        points_m=np.array([each.matrix_world.translation for each in connections]).reshape(-1, 3),
+        areas_m2=areas,
+        normals=normals,
+    )
+
+
+def _pairs(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> np.ndarray:
+    index = {body: number for number, body in enumerate(bodies)}
+    pairs = []
+    for connection in connections:
+        constraint = connection.rigid_body_constraint
+        if constraint.object1 not in index or constraint.object2 not in index:
+            raise SimulationError(f"connection {connection.name!r} lacks a body: give it two, or delete it")
+        pairs.append((index[constraint.object1], index[constraint.object2]))
+    return np.array(pairs, int).reshape(-1, 2)
+
+
+def _volumes(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
+    vertices, triangles = zip(*(_triangulated(body) for body in bodies), strict=True)
+    return abs(volumes_and_centres(vertices, triangles)[0])
+
+
+def _triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3), scaled as the body is, and triangles (t, 3) of a body's mesh."""
+    mesh = body.data
+    mesh.calc_loop_triangles()
+    vertices = np.empty(3 * len(mesh.vertices), np.float32)
+    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.vertices.foreach_get("co", vertices)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    return vertices.reshape(-1, 3).astype(float) * np.array(body.matrix_world.to_scale()), triangles.reshape(-1, 3)

@@ -1,0 +1,116 @@
+"""What is taken down after every sub-step: loads, breaking, and the hits of the ball."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..bullet.world import BulletWorld
+from ..core.frame_loads import FrameLoads, SubstepLoads
+from ..core.section_forces import SectionForces, section_forces
+from ..scene.inventory import Inventory
+from .load_reader import LoadReader
+
+
+@dataclass(frozen=True, slots=True)
+class Breaks:
+    """Connections (b,) that broke in one sub-step, its time, and the loads they broke under, in their own axes."""
+
+    time_s: float
+    connections: np.ndarray
+    loads: SectionForces
+
+
+class SubstepRecorder:
+    """Follows a world sub-step by sub-step and gathers each frame.
+
+    Parameters
+    ----------
+    world
+        The bound world, before any time passes.
+    inventory
+        Its bodies and connections.
+
+    Attributes
+    ----------
+    elapsed_s
+        Simulated time so far.
+    seconds
+        Wall time that taking down has cost so far.
+    error
+        What went wrong in a sub-step; nothing is taken down after it.
+    """
+
+    def __init__(self, world: BulletWorld, inventory: Inventory):
+        self.elapsed_s = 0.0
+        self.seconds = 0.0
+        self.error: Exception | None = None
+        self._world, self._inventory = world, inventory
+        can_move = inventory.masses_kg > 0.0
+        self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
+        self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3)
+        self._intact = world.intact()
+        self._breaks: list[Breaks] = []
+        self._balls = np.flatnonzero(inventory.body_kinds == "ball")
+        self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
+
+    def after_substep(self, substep_s: float) -> None:
+        """Take down a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
+        if self.error:
+            return
+        began = time.perf_counter()
+        try:
+            self._take_down(substep_s)
+        except Exception as error:  # whoever follows the frames raises it there
+            self.error = error
+        self.seconds += time.perf_counter() - began
+
+    def skip(self, duration_s: float) -> None:
+        """Let time pass of which nothing is known."""
+        self.elapsed_s += duration_s
+
+    def finish_frame(self) -> tuple[dict[str, np.ndarray], list[Breaks]]:
+        """Loads of the frame and the connections that broke in it; the next frame begins."""
+        loads, breaks = self._frame.finish(), self._breaks
+        self._frame.begin()
+        self._breaks = []
+        return loads, breaks
+
+    def ball_history(self) -> dict[str, np.ndarray]:
+        """Times (s,), contact impulses (s, b, 3) and velocities (s, b, 3) of the b balls after every sub-step."""
+        shape = (len(self._hits), len(self._balls), 3)
+        times, impulses, velocities = zip(*self._hits, strict=True) if self._hits else ((), (), ())
+        return {
+            "balls": self._balls,
+            "ball_times_s": np.array(times),
+            "ball_impulses_ns": np.array(impulses).reshape(shape),
+            "ball_velocities_m_s": np.array(velocities).reshape(shape),
+        }
+
+    def _take_down(self, substep_s: float) -> None:
+        self.elapsed_s += substep_s
+        loads = self._reader.read(substep_s)
+        self._frame.add(loads, substep_s)
+        self._note_breaks(loads)
+        self._world.let_broken_collide()
+        if len(self._balls):
+            self._note_balls(loads, substep_s)
+
+    def _note_breaks(self, loads: SubstepLoads) -> None:
+        intact = self._world.intact()
+        rows = np.flatnonzero(self._intact & ~intact)
+        self._intact = intact
+        if len(rows):
+            axes = self._reader.section_axes(self._world.places()[1])[rows]
+            forces, moments = loads.connection_forces_n[rows], loads.connection_moments_nm[rows]
+            self._breaks.append(Breaks(self.elapsed_s, rows, section_forces(axes, forces, moments)))
+
+    def _note_balls(self, loads: SubstepLoads, substep_s: float) -> None:
+        pairs, forces = loads.contact_pairs, loads.contact_forces_n
+        impulses = [
+            substep_s * (forces[pairs[:, 0] == ball].sum(axis=0) - forces[pairs[:, 1] == ball].sum(axis=0))
+            for ball in self._balls
+        ]
+        self._hits.append((self.elapsed_s, np.array(impulses), self._world.velocities()[self._balls]))
