@@ -134,17 +134,29 @@ class WorldLayout:
 
 @dataclass(frozen=True, slots=True)
 class ContactPointLayout:
-    """btManifoldPoint."""
+    """btManifoldPoint. From the distance on, its fields follow one another without gaps up to the impulses."""
 
     size: int
     lateral_directions: int
     place_on_b: int = 64
     place_on_a: int = 96
     normal: int = 128
-    distance: int = 160
     friction: int = 168
-    normal_impulse: int = 232
-    lateral_impulses: int = 248
+
+    @property
+    def distance(self) -> int:
+        """How far apart the two bodies are, negative inside each other."""
+        return self.friction - 8
+
+    @property
+    def normal_impulse(self) -> int:
+        """Impulse along the normal."""
+        return self.friction + 64
+
+    @property
+    def lateral_impulses(self) -> int:
+        """Impulses along the two lateral directions."""
+        return self.friction + 80
 
 
 @dataclass(frozen=True, slots=True)
