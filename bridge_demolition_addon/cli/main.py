@@ -6,15 +6,15 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ..core.errors import DemolitionError, GeometryError, OutputError, ScenarioError
-from . import check, run
+from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError
+from . import charge, charts, check, run
 
 DONE = 0
 RUN_FAILED = 1
 WRONG_INPUT = 2
 INTERRUPTED = 130
 
-COMMANDS = (check, run)
+COMMANDS = (check, run, charge, charts)
 
 
 class UsageError(DemolitionError):
@@ -45,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         arguments = _parser().parse_args(argv)
         arguments.execute(arguments)
-    except (UsageError, ScenarioError, GeometryError, OutputError) as error:
+    except (UsageError, ScenarioError, GeometryError, BlastError, OutputError) as error:
         return _failed(error, WRONG_INPUT)
     except BrokenPipeError:
         raise

@@ -6,7 +6,6 @@ maps by lightness, so that all can be read in black and white.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
-from matplotlib.ticker import FuncFormatter, LogLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..core.blast.air import AMBIENT_PRESSURE_PA
 from ..core.blast.charges import Charge, ChargeArrays
@@ -40,16 +38,19 @@ PULSE_CHARGE_KG = 10_000.0
 PULSE_SCALED_DISTANCES = (2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0)
 LARGEST_CHARGE_KG = 100_000.0
 FARTHEST_M = 50.0
-"""Reach of Figure 11."""
+"""Charges and distances of Figure 11."""
 
 TARGETS_PA = (6.9e3, 15.8e3, 34.5e3, 68.9e3, 200e3, 500e3, 1e6)
 """Overpressures of Figure 12: four thresholds of damage, and three that break concrete."""
 
-NEAREST_ON_BRIDGE_M = 1.0
-"""The overpressure is not drawn nearer to a charge than this: it goes up a hundredfold, and into its craters."""
+SMALLEST_SHADE_PA = 1e4
+"""Overpressure that is still white on the map over time; black is a thousand times as much."""
 
-_DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (3, 2)))
-_SHADES = ("0.0", "#2166ac", "#b2182b", "0.35", "#542788", "#b35806", "#1b7837")
+NEAR_RINGS_PA = 15e3
+"""Rings of less overpressure are left out of the plan near the charges."""
+
+_DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (3, 2)), (0, (1, 3)))
+_SHADES = ("0.0", "#2166ac", "#b2182b", "0.35", "#542788", "#b35806", "#1b7837", "0.0")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,15 +96,13 @@ def pressure_over_time(settings: ChartSettings) -> Figure:
     distances = np.array(PULSE_SCALED_DISTANCES)
     stand_offs = distances[:, None] * cube_root
     pulses = blast_pulses(stand_offs, [PULSE_CHARGE_KG], [0.0], [settings.burst], model=settings.model)
+    times = pulses.arrivals_s + pulses.durations_s * np.linspace(0.0, 1.0, 200)
+    pressures = pressure_at(pulses, times) / settings.pressure_unit_pa
     time_unit = cube_root * 1e-3 if settings.scaled else 1e-3
-    for row, (z, style) in enumerate(zip(distances, _line_styles(), strict=False)):
-        arrival, end = pulses.arrivals_s[row, 0], pulses.ends_s[row, 0]
-        times = np.linspace(arrival, end, 200)
-        pressures = np.array([pressure_at(pulses, time)[row, 0] for time in times])
-        pressures[-1] = 0.0
+    for z, time, pressure, style in zip(distances, times, pressures, _line_styles(), strict=False):
         label = f"Z = {z:g} m/kg$^{{1/3}}$" if settings.scaled else f"{z * cube_root:.0f} m (Z = {z:g})"
-        times, pressures = np.append(arrival, times) / time_unit, np.append(0.0, pressures)
-        axes.plot(times, pressures / settings.pressure_unit_pa, label=label, **style)
+        # Up the front first, which takes no time.
+        axes.plot(np.append(time[0], time) / time_unit, np.append(0.0, pressure), label=label, **style)
     axes.set_title(f"Pulses of {PULSE_CHARGE_KG:,.0f} kg of TNT as they pass\n{settings.source}")
     axes.set_xlabel("time / W$^{1/3}$ (ms/kg$^{1/3}$)" if settings.scaled else "time since the detonation (ms)")
     axes.set_ylabel(settings.pressure_label)
@@ -118,16 +117,17 @@ def overpressure_contours(settings: ChartSettings) -> Figure:
     if settings.scaled:
         return _overpressure_over_scaled_distance(settings)
     figure, axes = _figure()
-    distances = np.linspace(1.0, FARTHEST_M, 300)
-    charges = np.linspace(100.0, LARGEST_CHARGE_KG, 300)
+    axes.set(xlabel="distance (m)", ylabel="charge (kg of TNT)", xscale="log", yscale="log")
+    distances = np.geomspace(1.0, FARTHEST_M, 300)
+    charges = np.geomspace(1.0, LARGEST_CHARGE_KG, 300)
     wave = blast_wave(distances, charges[:, None], settings.burst, settings.model)
-    ratios = wave.peak_overpressure_pa / settings.pressure_unit_pa
-    levels = _levels(ratios[:, distances > 0.1 * FARTHEST_M])
-    axes.contourf(distances, charges / 1e3, ratios, levels, norm=LogNorm(), cmap="Greys", alpha=0.35, extend="both")
-    lines = axes.contour(distances, charges / 1e3, ratios, levels, colors="black", linewidths=0.9)
-    axes.clabel(lines, fmt=_plain, fontsize=8)
+    peaks = wave.peak_overpressure_pa / settings.pressure_unit_pa
+    levels = _levels(peaks)
+    axes.contourf(distances, charges, peaks, levels, norm=LogNorm(), cmap="Greys", alpha=0.35, extend="both")
+    lines = axes.contour(distances, charges, peaks, levels, colors="black", linewidths=0.9)
+    axes.clabel(lines, fmt=_plain, fontsize=8, manual=_across(distances, charges, peaks, levels))
     axes.set_title(f"Peak {settings.pressure_label}\n{settings.source}")
-    axes.set(xlabel="distance (m)", ylabel="charge (t of TNT)")
+    _label_plainly(axes)
     return figure
 
 
@@ -146,8 +146,7 @@ def _overpressure_over_scaled_distance(settings: ChartSettings) -> Figure:
         axes.text(0.105, level, threshold.damage, fontsize=7, va="bottom")
     axes.set_title(f"Peak overpressure of any charge\n{settings.source}")
     axes.set(xlabel="scaled distance Z (m/kg$^{1/3}$)", ylabel=f"peak {settings.pressure_label}", xmargin=0.0)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _plain(value)))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _plain(value)))
+    _label_plainly(axes)
     axes.legend(frameon=False)
     return figure
 
@@ -161,13 +160,11 @@ def charge_for_overpressure(settings: ChartSettings) -> Figure:
     distances = np.geomspace(1.0, 200.0, 100)
     for target, style in zip(TARGETS_PA, _line_styles(), strict=False):
         at_one_metre = smallest_charge_for_overpressure(target, 1.0, settings.burst, settings.model)
-        label = f"{_plain(target / settings.pressure_unit_pa)}"
+        label = _plain(target / settings.pressure_unit_pa)
         axes.loglog(distances, at_one_metre * distances**3, label=label, **style)
     axes.set_title(f"Smallest charge for a peak overpressure\n{settings.source}")
     axes.set(xlabel="distance (m)", ylabel="charge (kg of TNT)", xmargin=0.0, ylim=(1e-2, 1e6))
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: _plain(value)))
-    axes.yaxis.set_major_locator(LogLocator(numticks=12))
+    _label_plainly(axes)
     handles, labels = axes.get_legend_handles_labels()
     title = f"peak {settings.pressure_label}".replace(" / ", " /\n").replace(" (", "\n(")
     figure.legend(handles[::-1], labels[::-1], title=title, loc="outside right center", frameon=False)
@@ -177,7 +174,8 @@ def charge_for_overpressure(settings: ChartSettings) -> Figure:
 def two_span_charges(settings: ChartSettings) -> Figure:
     """Figure 13: the peak overpressure of each charge along the bridge."""
     figure, axes = _figure()
-    places, peaks = _peaks_along_bridge(settings)
+    places = _along_the_spans()
+    peaks = _pulses_along_bridge(places, settings).peaks_pa
     for charge, peak, style in zip(TWO_SPAN_BRIDGE, peaks.T, _line_styles(), strict=False):
         axes.semilogy(places, peak / settings.pressure_unit_pa, label=charge.name, **style)
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of each charge")
@@ -187,12 +185,12 @@ def two_span_charges(settings: ChartSettings) -> Figure:
 def two_span_total(settings: ChartSettings) -> Figure:
     """Figure 14: the sum of the peaks along the bridge, and what is there at any one time."""
     figure, axes = _figure()
-    places, peaks = _peaks_along_bridge(settings)
+    places = _along_the_spans()
     pulses = _pulses_along_bridge(places, settings)
     # The pressure can only be largest when a front has just arrived.
-    at_arrivals = [_pressures_at(pulses, pulses.arrivals_s[:, column]) for column in range(len(TWO_SPAN_BRIDGE))]
+    at_arrivals = [pressure_at(pulses, arrivals[:, None]).sum(axis=1) for arrivals in pulses.arrivals_s.T]
     unit = settings.pressure_unit_pa
-    axes.semilogy(places, peaks.sum(axis=1) / unit, "--", color="0.0", label="sum of the peaks, as in 2019")
+    axes.semilogy(places, pulses.peaks_pa.sum(axis=1) / unit, "--", color="black", label="sum of the peaks, as in 2019")
     axes.semilogy(places, np.max(at_arrivals, axis=0) / unit, "-", color="#b2182b", label="largest sum at one time")
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of all charges")
     return figure
@@ -202,11 +200,12 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
     """The overpressure along the bridge as time goes on: where the waves run and meet."""
     figure, axes = _figure()
     cube_root = _bridge_cube_root() if settings.scaled else 1.0
-    places = np.linspace(-SPAN_M, SPAN_M, 801)
+    places = _along_the_spans()
     pulses = _pulses_along_bridge(places, settings)
-    times = np.linspace(0.0, 1.05 * pulses.arrivals_s.min(axis=1).max() * 2.5, 700)
+    meeting_s = pulses.arrivals_s.min(axis=1).max()
+    times = np.linspace(0.0, 2.5 * meeting_s, 700)
     pressures = np.array([pressure_at(pulses, time).sum(axis=1) for time in times]) / settings.pressure_unit_pa
-    smallest = 10.0 / (settings.pressure_unit_pa / 1e3)
+    smallest = SMALLEST_SHADE_PA / settings.pressure_unit_pa
     image = axes.pcolormesh(
         places / cube_root,
         1e3 * times / cube_root,
@@ -217,7 +216,7 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
         rasterized=True,
     )
     bar = figure.colorbar(image, ax=axes, extend="both", label=settings.pressure_label)
-    bar.formatter = FuncFormatter(lambda value, _: _plain(value))
+    bar.formatter = PLAIN
     axes.set_title(f"Overpressure of all charges over time\n{_bridge_in_words()}\n{settings.source}")
     axes.set_xlabel(_along_bridge(settings))
     axes.set_ylabel("time / W$^{1/3}$ (ms/kg$^{1/3}$)" if settings.scaled else "time since the detonation (ms)")
@@ -225,22 +224,34 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
 
 
 def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str) -> Figure:
-    """Plan view of charges with the rings within which thresholds of damage are reached at the charges' level."""
-    figure, axes = _figure()
+    """Plan view of charges with the rings within which thresholds of damage are reached at the first one's level.
+
+    Once with all rings, and once near the charges.
+    """
+    figure = _blank_figure(11.0, 7.0)
     thresholds = _distinct_thresholds()
     radii = ring_radii(charges, charges[0].place_m[2], thresholds, settings.model)
-    for threshold, row, style in zip(thresholds, radii, cycle(_line_styles()), strict=False):
-        label = f"{_plain(threshold.overpressure_pa / settings.pressure_unit_pa)}: {threshold.damage}"
-        for charge, radius in zip(charges, row, strict=True):
-            axes.add_patch(Circle(charge.place_m[:2], radius, fill=False, label=label, **style))
-            label = None
-    axes.plot(*np.array([charge.place_m[:2] for charge in charges]).T, "k+", label="charge")
-    axes.set_aspect("equal")
-    axes.autoscale_view()
-    axes.set_title(f"{title}\n{settings.source}", parse_math=False)
-    axes.set(xlabel="x (m)", ylabel="y (m)")
-    legend = figure.legend(loc="outside right center", frameon=False, fontsize=8)
-    legend.set_title(f"peak {settings.pressure_label}")
+    places = np.array([charge.place_m[:2] for charge in charges])
+    for axes, nearest in zip(figure.subplots(1, 2), (0.0, NEAR_RINGS_PA), strict=True):
+        for threshold, row, style in zip(thresholds, radii, _line_styles(), strict=True):
+            if threshold.overpressure_pa >= nearest:
+                label = f"{_plain(threshold.overpressure_pa / settings.pressure_unit_pa)}: {threshold.damage}"
+                axes.plot(*_circles(places, row), label=label, **style)
+        axes.plot(*places.T, "k+", label="charge")
+        axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
+        axes.set_title("near the charges" if nearest else "all rings", fontsize=10)
+        axes.grid(alpha=0.3)
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(
+        handles,
+        labels,
+        title=f"peak {settings.pressure_label}",
+        loc="outside lower center",
+        ncols=2,
+        frameon=False,
+        fontsize=9,
+    )
+    figure.suptitle(f"{title}\n{settings.source}", parse_math=False)
     return figure
 
 
@@ -285,18 +296,22 @@ def write_charts(folder: Path, settings: ChartSettings) -> list[Path]:
 
 
 def _figure() -> tuple[Figure, Axes]:
-    # A figure of its own: pyplot would set up a window system inside Blender and keep every figure alive.
-    figure = Figure(figsize=(8.0, 5.5), dpi=120, layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = _blank_figure(8.0, 5.5)
     axes = figure.add_subplot()
     axes.grid(alpha=0.3)
     return figure, axes
 
 
+def _blank_figure(width_in: float, height_in: float) -> Figure:
+    # A figure of its own: pyplot would set up a window system inside Blender and keep every figure alive.
+    figure = Figure(figsize=(width_in, height_in), dpi=120, layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.15, h_pad=0.1)
+    FigureCanvasAgg(figure)
+    return figure
+
+
 def _line_styles() -> list[dict]:
-    return [
-        {"color": shade, "linestyle": dash, "linewidth": 1.6} for shade, dash in zip(_SHADES, _DASHES, strict=True)
-    ]
+    return [{"color": shade, "linestyle": dash, "linewidth": 1.6} for shade, dash in zip(_SHADES, _DASHES, strict=True)]
 
 
 def _levels(values: np.ndarray) -> np.ndarray:
@@ -306,9 +321,38 @@ def _levels(values: np.ndarray) -> np.ndarray:
     return levels[(levels > values.min()) & (levels < values.max())]
 
 
+def _across(distances: np.ndarray, charges: np.ndarray, peaks: np.ndarray, levels: np.ndarray) -> np.ndarray:
+    """Places (k, 2) where the diagonal from much charge nearby to little far away crosses the levels (k,)."""
+    falling = peaks[::-1].diagonal()
+    steps = np.interp(-np.log(levels), -np.log(falling), np.arange(len(falling))).round().astype(int)
+    return np.column_stack((distances[steps], charges[::-1][steps]))
+
+
 def _plain(value: float) -> str:
-    """A number in three digits and never in powers of ten."""
-    return f"{value:,.0f}" if value >= 1000.0 else f"{value:.3g}" if value >= 1e-4 else f"{value:f}".rstrip("0")
+    """A number in three digits, large ones without powers of ten."""
+    return f"{value:,.0f}" if value >= 1000.0 else f"{value:.3g}"
+
+
+PLAIN = FuncFormatter(lambda value, _: _plain(value))
+
+
+def _label_plainly(axes: Axes) -> None:
+    """Logarithmic axes with numbers in full at each decade, and at 2 and 5 where there are few decades."""
+    for axis in (axes.xaxis, axes.yaxis):
+        low, high = axis.get_view_interval()
+        if axis.get_scale() == "log":
+            steps = (1.0, 2.0, 5.0) if high < 1e3 * low else (1.0,)
+            axis.set_major_locator(LogLocator(subs=steps, numticks=20))
+            axis.set_major_formatter(PLAIN)
+            axis.set_minor_formatter(NullFormatter())
+
+
+def _circles(places: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Circles round places (c, 2) as one line, with gaps between them."""
+    angles = np.append(np.linspace(0.0, 2.0 * np.pi, 181), np.nan)
+    x = places[:, :1] + radii[:, None] * np.cos(angles)
+    y = places[:, 1:] + radii[:, None] * np.sin(angles)
+    return x.ravel(), y.ravel()
 
 
 def _distinct_thresholds() -> list:
@@ -328,28 +372,17 @@ def _along_bridge(settings: ChartSettings) -> str:
     return "distance from the mid pier / W$^{1/3}$ (m/kg$^{1/3}$)" if settings.scaled else "distance from mid pier (m)"
 
 
+def _along_the_spans() -> np.ndarray:
+    """Places from end to end, m from the mid pier."""
+    return np.linspace(-SPAN_M, SPAN_M, 801)
+
+
 def _pulses_along_bridge(places_m: np.ndarray, settings: ChartSettings) -> Pulses:
     arrays = ChargeArrays.of(TWO_SPAN_BRIDGE)
     points = np.column_stack((places_m, np.zeros((len(places_m), 2))))
     stand_offs, _ = lines_of_blast(arrays.places_m, points)
     bursts = [settings.burst] * len(TWO_SPAN_BRIDGE)
     return blast_pulses(stand_offs, arrays.tnt_kg, arrays.delays_s, bursts, model=settings.model)
-
-
-def _peaks_along_bridge(settings: ChartSettings) -> tuple[np.ndarray, np.ndarray]:
-    """Places along the bridge, m, and the peak of each charge there, Pa; gaps where a charge is too near."""
-    places = np.linspace(-SPAN_M, SPAN_M, 801)
-    peaks = _pulses_along_bridge(places, settings).peaks_pa
-    return places, peaks
-
-
-def _pressures_at(pulses: Pulses, times_s: np.ndarray) -> np.ndarray:
-    """Sum of the pressures on every body (n,) at its own time (n,), Pa."""
-    rows = [
-        Pulses(pulses.arrivals_s[[row]], pulses.peaks_pa[[row]], pulses.durations_s[[row]], pulses.decays[[row]])
-        for row in range(len(times_s))
-    ]
-    return np.array([pressure_at(row, time).sum() for row, time in zip(rows, times_s, strict=True)])
 
 
 def _finish_bridge_chart(figure: Figure, axes: Axes, settings: ChartSettings, title: str) -> None:
@@ -360,5 +393,5 @@ def _finish_bridge_chart(figure: Figure, axes: Axes, settings: ChartSettings, ti
     axes.autoscale_view()
     axes.set_title(f"{title}\n{_bridge_in_words()}\n{settings.source}")
     axes.set(xlabel=_along_bridge(settings), ylabel=f"peak {settings.pressure_label}", xmargin=0.0)
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _plain(value)))
+    _label_plainly(axes)
     figure.legend(loc="outside lower center", ncols=3, frameon=False)

@@ -129,8 +129,11 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> np.ndarray:
     )
 
 
-def pressure_at(pulses: Pulses, time_s: float) -> np.ndarray:
-    """Overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it."""
+def pressure_at(pulses: Pulses, time_s: np.ndarray) -> np.ndarray:
+    """Overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it.
+
+    Instead of one time there can be an array of them that broadcasts with (n, c).
+    """
     return friedlander.pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
 
 
