@@ -14,7 +14,7 @@ from blocks import Blocks
 
 from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
 
-pybullet = pytest.importorskip("pybullet", reason="pybullet is not installed: it has a wheel for Python 3.11 on Linux only")
+pybullet = pytest.importorskip("pybullet", reason="pybullet is not installed: its wheel is for Python 3.11 on Linux")
 
 STEPS_PER_SECOND = 240
 STEP_S = 1 / STEPS_PER_SECOND
