@@ -11,13 +11,7 @@ from .blast_options import add_blast_options
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser("charts", help="draw the charts to choose charges by", allow_abbrev=False)
-    parser.add_argument(
-        "--output",
-        metavar="DIR",
-        type=Path,
-        default=Path("charts"),
-        help="folder for the pictures, made if new (charts)",
-    )
+    parser.add_argument("--output", metavar="DIR", type=Path, default="charts", help="folder, made if new (charts)")
     parser.add_argument("--unit", choices=["kpa", "ratio"], default="kpa", help="overpressure in kPa, or over ambient")
     parser.add_argument("--scaled", action="store_true", help="distances and times divided by the charge's cube root")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
@@ -27,10 +21,8 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def charts(arguments: argparse.Namespace) -> None:
     """Draw the charts and say where they are."""
-    from ..report.blast_charts import (
-        ChartSettings,
-        write_charts,
-    )  # matplotlib takes a second, which other commands keep
+    # Loading matplotlib takes a second, which the other commands need not wait.
+    from ..report.blast_charts import ChartSettings, write_charts
 
     settings = ChartSettings(
         model=BlastModel(arguments.model),
