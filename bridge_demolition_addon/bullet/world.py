@@ -178,13 +178,21 @@ class BulletWorld:
             self._ignored.restore(self._ignored_rows[broken])
             self._forbids_collision &= ~broken
 
-    def joint_feedback(self) -> np.ndarray:
-        """Loads that each connection put on its bodies in the last sub-step, (m, 4, 3).
+    def joint_feedback(self, sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Loads that connections put on their bodies in the last sub-step.
 
-        Rows: force on Bullet's body A (N), torque on A about its centre (N·m), force on B, torque on B. Bullet writes
-        into the array this looks at; copy what must last.
+        Parameters
+        ----------
+        sides
+            (k,) which loads: 2 c for those of connection c on Bullet's body A, 2 c + 1 for those on its body B.
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            (k, 3) force in N, and (k, 3) torque about the body's centre in N·m.
         """
-        return self._feedback[:, :, :3]
+        loads = self._feedback.reshape(-1, 8).take(sides, axis=0)
+        return loads[:, 0:3], loads[:, 4:7]
 
     def first_is_body_a(self) -> np.ndarray:
         """Whether `object1` of each connection (m,) is Bullet's body A; True where the connection does not exist."""

@@ -30,12 +30,11 @@ def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.nda
     return np.column_stack(components)
 
 
-def magnitude_sums(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
-    """Sum of the magnitudes of the connection forces on every body, (n,) in N.
+def magnitude_sums(pairs: np.ndarray, magnitudes: np.ndarray, body_count: int) -> np.ndarray:
+    """Sum of the magnitudes (m,) of the forces between pairs of bodies, for every body (n,), in N.
 
     The measure of how hard a body is held from all sides, where the resultant of a body at rest is only its weight.
     """
-    magnitudes = np.linalg.norm(forces, axis=1)
     first, second = pairs.T
     return np.bincount(first, magnitudes, body_count) + np.bincount(second, magnitudes, body_count)
 
@@ -57,7 +56,10 @@ def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, cent
     numpy.ndarray
         (m, 3) in N·m: the torque less what the force makes by its lever arm.
     """
-    return torques - np.cross(points - centres, forces)
+    (x, y, z), (a, b, c) = (points - centres).T, forces.T
+    return torques - np.column_stack(
+        (y * c - z * b, z * a - x * c, x * b - y * a)
+    )  # np.cross takes three times as long
 
 
 def carried_points(
@@ -74,4 +76,4 @@ def carried_points(
     centres, rotations
         (n, 3) and (n, 3, 3) of all bodies.
     """
-    return centres[bodies] + np.einsum("mij,mj->mi", rotations[bodies], local_points)
+    return centres[bodies] + np.einsum("mij,mj->mi", rotations.take(bodies, axis=0), local_points)

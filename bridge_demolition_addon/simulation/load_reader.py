@@ -31,10 +31,10 @@ class LoadReader:
         self._world = world
         # Of a hinge on a fixed body, Bullet leaves out a part of the torque on that body: loads are read on the other.
         side = np.where(can_move[pairs[:, 0]], 0, 1)
-        self._rows = np.arange(len(pairs))
-        self._feedback_side = np.where(world.first_is_body_a(), side, 1 - side)
+        rows = np.arange(len(pairs))
+        self._feedback_rows = 2 * rows + np.where(world.first_is_body_a(), side, 1 - side)
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
-        self._bodies = pairs[self._rows, side]
+        self._bodies = pairs[rows, side]
         centres, rotations = world.places()
         bodies = self._bodies
         self._local_points = np.einsum("mji,mj->mi", rotations[bodies], points_m - centres[bodies])
@@ -44,11 +44,14 @@ class LoadReader:
         """Axes (m, 3, 3) of the connections, turned with their bodies."""
         return carried_axes(self._local_axes, self._bodies, rotations)
 
+    def normals(self, rotations: np.ndarray) -> np.ndarray:
+        """Unit normals (m, 3) of the connections, turned with their bodies."""
+        return self.section_axes(rotations)[:, :, 0]
+
     def read(self, substep_s: float) -> SubstepLoads:
         """Loads of the last sub-step, whose length is given in s."""
         centres, rotations = self._world.places()
-        feedback = self._world.joint_feedback().reshape(-1, 2, 2, 3)[self._rows, self._feedback_side]
-        force, torque = feedback[:, 0], feedback[:, 1]
+        force, torque = self._world.joint_feedback(self._feedback_rows)
         points = forces.carried_points(self._local_points, self._bodies, centres, rotations)
         moment = forces.moments_at(points, force, torque, centres[self._bodies])
         contacts = self._world.contacts()
@@ -56,10 +59,10 @@ class LoadReader:
             connection_forces_n=self._sign * force,
             connection_moments_nm=self._sign * moment,
             connection_points_m=points,
-            connection_normals=self.section_axes(rotations)[:, :, 0],
             signed_2019_n=self._world.applied_impulses() / substep_s,
             contact_pairs=contacts.pairs,
             contact_forces_n=contacts.impulses_ns / substep_s,
             contact_points_m=contacts.places_m,
             centres_m=centres,
+            rotations=rotations,
         )

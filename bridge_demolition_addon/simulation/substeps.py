@@ -50,7 +50,7 @@ class SubstepRecorder:
         self._world, self._inventory = world, inventory
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
-        self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3)
+        self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._breaks: list[Breaks] = []
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")

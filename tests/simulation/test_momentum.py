@@ -41,7 +41,7 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         before = getattr(recorder, "velocities_before", np.zeros((33, 3)))
         take_down(recorder, substep_s)
         after = recorder._world.velocities()
-        one = FrameLoads(recorder._inventory.pairs, recorder._inventory.volumes_m3)
+        one = FrameLoads(recorder._inventory.pairs, recorder._inventory.volumes_m3, recorder._reader.normals)
         one.add(recorder._reader.read(substep_s), substep_s)
         masses = recorder._inventory.masses_kg[1:, None]
         impulses = one.finish()["body_forces_n"][1:] * substep_s + masses * GRAVITY * substep_s

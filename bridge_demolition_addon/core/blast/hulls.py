@@ -79,5 +79,5 @@ def _faces_of_hull(vertices: np.ndarray, number: int) -> tuple[np.ndarray, np.nd
     normals = doubled / lengths[:, None]
     offsets = np.einsum("fi,fi->f", normals, corners[:, 0])
     planes = np.column_stack((normals, offsets))
-    _, first, face_of = np.unique(planes.round(_SAME_PLANE_DIGITS), axis=0, return_index=True, return_inverse=True)
+    _, first, face_of = np.unique(planes.round(_SAME_PLANE_DIGITS) + 0.0, axis=0, return_index=True, return_inverse=True)
     return planes[first], np.bincount(face_of.ravel(), lengths / 2.0)
