@@ -139,7 +139,7 @@ class FrameLoads:
             ("body_peak_sums_n", sums),
         ):
             np.maximum(self._peaks[name], values, out=self._peaks[name])
-        total = float(sums.sum())
+        total = np.nan_to_num(sums.sum(), nan=np.inf)  # loads that are not known must not pass for small ones
         if total > self._largest_sum_n:
             self._largest, self._largest_sum_n = loads, total
 
@@ -163,12 +163,16 @@ class FrameLoads:
             self._volumes,
         )
         of_forces = self._stresses(self._pairs, forces, loads.connection_points_m, loads.centres_m)
-        return of_forces + np.nan_to_num(of_moments)
+        return of_forces + self._of_solids(of_moments)
 
     def _stresses(self, pairs: np.ndarray, forces: np.ndarray, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Stresses under forces (k, 3) on the first bodies of pairs (k, 2), and their opposites on the second."""
         both, twice = np.concatenate((forces, -forces)), np.concatenate((points, points))
-        return np.nan_to_num(average_stress(pairs.T.ravel(), both, twice, centres, self._volumes))
+        return self._of_solids(average_stress(pairs.T.ravel(), both, twice, centres, self._volumes))
+
+    def _of_solids(self, stresses: np.ndarray) -> np.ndarray:
+        """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
+        return np.where(self._volumes[:, None, None] > 0.0, stresses, 0.0)
 
 
 def _lengths(vectors: np.ndarray) -> np.ndarray:

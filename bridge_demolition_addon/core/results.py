@@ -43,7 +43,8 @@ class Results:
         (k, n) mean of what the add-on of 2019 calls the contact force: the numbers that Bullet keeps of its
         connections, added or taken off with their signs. For comparison only.
     stresses_pa, von_mises_pa
-        (k, n, 3, 3) mean of the average stress of each body, tension positive, and (k, n) largest equivalent stress.
+        (k, n, 3, 3) average stress of each body under its mean loads, tension positive, and (k, n) its equivalent
+        stress in the sub-step in which all loads together were largest.
     connection_names, pairs, points_m, areas_m2, normals
         (m,) names, (m, 2) indices of the connected bodies, (m, 3) first places, (m,) areas, (m, 3) first unit normals
         from the first body to the second.
