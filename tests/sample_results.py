@@ -4,57 +4,145 @@ from dataclasses import replace
 
 import numpy as np
 
+from bridge_demolition_addon.core.frame_loads import FrameLoads, SubstepLoads
 from bridge_demolition_addon.core.results import Results
 
-GRAVITY = np.array([0.0, 0.0, -9.80665])
+G = 9.80665
+GRAVITY = np.array([0.0, 0.0, -G])
 FRAME_S = 0.04
+SUBSTEPS = 10
+SUBSTEP_S = FRAME_S / SUBSTEPS
+
+PAIRS = np.array([[1, 0], [1, 2]])
+POINTS = np.array([[0.0, 0.0, 20.0], [0.0, 0.0, 16.0]])
+NORMALS = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])
+CENTRES = np.array([[0.0, 0.0, 21.0], [0.0, 0.0, 18.0], [0.0, 0.0, 14.0], [5.0, 0.0, 22.5]])
+VOLUMES_M3 = np.array([0.0, 4.0, 2.0, 0.125])
+BALL_POINT = np.array([5.0, 0.0, 22.0])
+
+FRAME_SERIES = (
+    "frames",
+    "times_s",
+    "substep_s",
+    "places_m",
+    "rotations",
+    "velocities_m_s",
+    "asleep",
+    "intact",
+    "body_forces_n",
+    "body_peaks_n",
+    "body_sums_n",
+    "body_peak_sums_n",
+    "body_contact_impulses_ns",
+    "body_signed_2019_n",
+    "stresses_pa",
+    "von_mises_pa",
+    "connection_forces_n",
+    "connection_moments_nm",
+    "connection_peaks_n",
+    "connection_peak_forces_n",
+    "connection_peak_moments_nm",
+)
+"""The arrays of a recording that have one entry per frame."""
 
 
 def hanging_chain() -> Results:
-    """Shard *upper* (300 kg) hangs from the ground's edge, shard *lower* (200 kg) from it; a ball stops in frame 6.
+    """Shard *upper* (300 kg) hangs from the ground, a ledge; shard *lower* (200 kg) hangs from it; a ball drops above.
 
-    Five frames, 2 to 6. The ball is let go in frame 3 and falls freely in 4 and 5. In frame 5 a pull of 1 kN along x
+    The shards are 4 m high, with sections of 1 m² and 0.5 m². Five frames, 2 to 6; in frame 2 no time passes. The ball
+    is let go in frame 3 and falls freely in 4 and 5, so that it has 2 g Δt. The ledge stops it in frame 6 with a steady
+    force: its 1000 kg by 2 g, and by one more g against gravity. In the second half of frame 5 a pull of 1 kN along x
     between the shards is added; then they come apart, and by frame 6 *lower* has moved by (3, 4, -12) m.
     """
-    frames = np.arange(2, 7)
-    forces = np.zeros((5, 2, 3))
-    forces[:, 0, 2] = 500 * 9.80665  # on upper, from the ground
-    forces[:, 1, 2] = -200 * 9.80665  # on upper, from lower
-    forces[3, 1, 0] = 1000.0
-    forces[4] = ((0.0, 0.0, 300 * 9.80665), (0.0, 0.0, 0.0))
+    times = FRAME_S * np.arange(5)
     intact = np.ones((5, 2), bool)
     intact[4, 1] = False
-    places = np.zeros((5, 4, 3))
-    places[:, :, 2] = (0.0, 10.0, 14.0, 20.0)
+    places = np.tile(CENTRES, (5, 1, 1))
     places[4, 2] += (3.0, 4.0, -12.0)
     velocities = np.zeros((5, 4, 3))
     velocities[2:4, 3] = np.array([[1.0], [2.0]]) * FRAME_S * GRAVITY
+    asleep = np.zeros((5, 4), bool)
+    asleep[:3, 1:3] = True
+    ball_times = SUBSTEP_S * np.arange(1, 4 * SUBSTEPS + 1)
+    ball_velocities = np.column_stack([np.interp(ball_times, times, velocities[:, 3, axis]) for axis in range(3)])
     return Results(
-        frames=frames,
-        times_s=FRAME_S * np.arange(5),
-        substep_s=np.array([0.0, *[FRAME_S / 10] * 4]),
+        reading=np.array("every sub-step"),
+        frames=np.arange(2, 7),
+        times_s=times,
+        substep_s=np.array([0.0, *[SUBSTEP_S] * 4]),
         body_names=np.array(["Ground", "upper", "lower", "Wrecking ball"]),
         body_kinds=np.array(["ground", "shard", "shard", "ball"]),
         masses_kg=np.array([0.0, 300.0, 200.0, 1000.0]),
+        volumes_m3=VOLUMES_M3,
         places_m=places,
         rotations=np.broadcast_to(np.eye(3), (5, 4, 3, 3)).copy(),
         velocities_m_s=velocities,
+        asleep=asleep,
         connection_names=np.array(["Connection", "Connection.001"]),
-        pairs=np.array([[1, 0], [1, 2]]),
-        connection_forces_n=forces,
-        connection_moments_nm=np.zeros((5, 2, 3)),
+        pairs=PAIRS,
+        points_m=POINTS,
+        areas_m2=np.array([1.0, 0.5]),
+        normals=NORMALS,
         intact=intact,
+        balls=np.array([3]),
+        ball_times_s=ball_times,
+        ball_impulses_ns=SUBSTEP_S * _contact_forces()[1:].reshape(-1, 1, 3),
+        ball_velocities_m_s=ball_velocities[:, None],
+        **_loads(connections=2),
     )
 
 
 def without_connections(results: Results) -> Results:
     """The same recording as if there never had been a connection."""
-    count = len(results.frames)
+    names = ("connection_names", "pairs", "points_m", "areas_m2", "normals")
     return replace(
         results,
-        connection_names=np.array([], str),
-        pairs=np.zeros((0, 2), int),
-        connection_forces_n=np.zeros((count, 0, 3)),
-        connection_moments_nm=np.zeros((count, 0, 3)),
-        intact=np.ones((count, 0), bool),
+        **{name: getattr(results, name)[:0] for name in names},
+        intact=results.intact[:, :0],
+        **_loads(connections=0),
     )
+
+
+def frame_of(results: Results, step: int) -> dict:
+    """One recorded frame by itself."""
+    return {name: getattr(results, name)[step] for name in FRAME_SERIES}
+
+
+def _connection_forces() -> np.ndarray:
+    """Force on *upper* from ground and from *lower* in each frame and sub-step, (5, 10, 2, 3)."""
+    forces = np.zeros((5, SUBSTEPS, 2, 3))
+    forces[:4, :, 0, 2] = 500 * G
+    forces[:4, :, 1, 2] = -200 * G
+    forces[3, SUBSTEPS // 2 :, 1, 0] = 1000.0
+    forces[4, :, 0, 2] = 300 * G
+    return forces
+
+
+def _contact_forces() -> np.ndarray:
+    """Force on the ball from the ground in each frame and sub-step, (5, 10, 3)."""
+    forces = np.zeros((5, SUBSTEPS, 3))
+    forces[4, :, 2] = 3000 * G
+    return forces
+
+
+def _loads(connections: int) -> dict[str, np.ndarray]:
+    """Loads of all frames by the first so many connections and by the contact of the ball."""
+    gathered, frames = FrameLoads(PAIRS[:connections], VOLUMES_M3, lambda _: NORMALS[:connections]), []
+    for step, (of_connections, of_contact) in enumerate(zip(_connection_forces(), _contact_forces(), strict=True)):
+        gathered.begin()
+        for substep in range(SUBSTEPS if step else 0):
+            forces = of_connections[substep, :connections]
+            loads = SubstepLoads(
+                connection_forces_n=forces,
+                connection_moments_nm=np.zeros((connections, 3)),
+                connection_points_m=POINTS[:connections],
+                signed_2019_n=np.linalg.norm(forces, axis=1),
+                contact_pairs=np.array([[3, 0]]),
+                contact_forces_n=of_contact[substep, None],
+                contact_points_m=BALL_POINT[None],
+                centres_m=CENTRES,
+                rotations=np.tile(np.eye(3), (4, 1, 1)),
+            )
+            gathered.add(loads, SUBSTEP_S)
+        frames.append(gathered.finish())
+    return {name: np.array([frame[name] for frame in frames]) for name in frames[0]}
