@@ -35,7 +35,7 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
     lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
     force_axes.set_title(title, parse_math=False, wrap=True)  # a title may hold dollar signs
-    force_axes.set(xlabel="time (s)", ylabel="connection force (kN)", xmargin=0.0)
+    force_axes.set(xlabel="time (s)", ylabel="force (kN)", xmargin=0.0)
     force_axes.set_ylim(bottom=0.0)
     force_axes.grid(alpha=0.3)
     count_axes = force_axes.twinx()
