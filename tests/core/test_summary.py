@@ -1,15 +1,28 @@
 """The summary of a recording against what happened in it."""
 
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from sample_results import GRAVITY, hanging_chain, without_connections
+from sample_results import GRAVITY, G, hanging_chain, without_connections
 
 from bridge_demolition_addon.core.summary import impact_step, summarise
 
-G = 9.80665
+BODY_SERIES = (
+    "places_m",
+    "rotations",
+    "velocities_m_s",
+    "asleep",
+    "body_forces_n",
+    "body_peaks_n",
+    "body_sums_n",
+    "body_peak_sums_n",
+    "body_contact_impulses_ns",
+    "body_signed_2019_n",
+    "stresses_pa",
+    "von_mises_pa",
+)
 
 
 def test_summary_of_the_chain():
@@ -18,6 +31,7 @@ def test_summary_of_the_chain():
     assert summary["simulated_s"] == pytest.approx(0.16)
     assert summary["mass_kg"] == {"shard": 500.0, "ball": 1000.0}
     assert summary["bodies"] == {"shard": 2, "ball": 1, "ground": 1}
+    assert summary["reading"] == "every sub-step"
     assert summary["largest_throw"] == {"throw_m": 5.0, "body": "lower"}
 
 
@@ -32,13 +46,16 @@ def test_breaking_over_time():
 
 def test_largest_forces_with_their_body_and_moment():
     summary = summarise(hanging_chain(), GRAVITY)
-    # Frame 5: weight 500 kg above, 200 kg and 1 kN across below. The ground, which takes more, does not count.
+    # Frame 5, in its second half: weight of 500 kg above, of 200 kg and 1 kN across below. Ball and ground, which the
+    # hit in frame 6 loads with more, do not count.
     force_sum, resultant = summary["largest_force_sum"], summary["largest_resultant"]
     assert (force_sum["body"], force_sum["frame"]) == ("upper", 5)
     assert force_sum["time_s"] == pytest.approx(0.12)
     assert force_sum["force_N"] == pytest.approx(500 * G + np.hypot(200 * G, 1000))
     assert (resultant["body"], resultant["frame"]) == ("upper", 5)
     assert resultant["force_N"] == pytest.approx(np.hypot(300 * G, 1000))
+    others = hanging_chain()
+    assert others.body_peaks_n[4, [0, 3]].min() > force_sum["force_N"] > resultant["force_N"]
 
 
 def test_the_ball_hits_in_the_frame_that_stops_it():
@@ -72,36 +89,58 @@ def test_no_ball_no_impact():
     assert summarise(results, GRAVITY)["impact"] is None
 
 
+def with_unknown(results, frames):
+    """The recording, had the loads of some frames not been known."""
+    changed = {}
+    for name in ("body_peaks_n", "body_peak_sums_n"):
+        changed[name] = getattr(results, name).copy()
+        changed[name][frames] = np.nan
+    return replace(results, **changed)
+
+
 def test_frames_of_unknown_forces_are_passed_over():
     results = hanging_chain()
-    forces = results.connection_forces_n.copy()
-    forces[3] = np.nan
-    summary = summarise(replace(results, connection_forces_n=forces), GRAVITY)
+    summary = summarise(with_unknown(results, [0, 3]), GRAVITY)
     assert summary["largest_force_sum"]["force_N"] == pytest.approx(700 * G)
-    assert summary["largest_force_sum"]["frame"] == 2
-    nothing_known = summarise(replace(results, connection_forces_n=np.full_like(forces, np.nan)), GRAVITY)
+    # Frame 3 is the first with loads; frame 4 has the same, number for number.
+    assert summary["largest_force_sum"]["frame"] == 3
+    nothing_known = summarise(with_unknown(results, slice(None)), GRAVITY)
     assert nothing_known["largest_force_sum"] is nothing_known["largest_resultant"] is None
+
+
+def test_frames_in_which_only_some_forces_are_known_are_passed_over():
+    results = hanging_chain()
+    peaks = results.body_peak_sums_n.copy()
+    peaks[3, 0] = np.nan
+    summary = summarise(replace(results, body_peak_sums_n=peaks), GRAVITY)
+    assert summary["largest_force_sum"]["force_N"] == pytest.approx(700 * G)
+
+
+def test_a_reading_of_last_sub_steps_says_so():
+    results = replace(hanging_chain(), reading=np.array("last sub-step of each frame"))
+    assert summarise(results, GRAVITY)["reading"] == "last sub-step of each frame"
 
 
 def only(results, body):
     """The recording of a single body."""
     kept = without_connections(results)
+    assert set(BODY_SERIES) < {item.name for item in fields(kept)}
     return replace(
         kept,
-        **{name: getattr(kept, name)[[body]] for name in ("body_names", "body_kinds", "masses_kg")},
-        **{name: getattr(kept, name)[:, [body]] for name in ("places_m", "rotations", "velocities_m_s")},
+        **{name: getattr(kept, name)[[body]] for name in ("body_names", "body_kinds", "masses_kg", "volumes_m3")},
+        **{name: getattr(kept, name)[:, [body]] for name in BODY_SERIES},
     )
 
 
 @pytest.mark.parametrize(
     "body, force, throw",
-    [(0, None, None), (1, 0.0, 0.0), (2, 0.0, 5.0), (3, 0.0, None)],
+    [(0, None, None), (1, 0.0, 0.0), (2, 0.0, 5.0), (3, None, None)],
     ids=["ground", "upper", "lower", "ball"],
 )
 def test_a_single_body_without_connections(body, force, throw):
     summary = summarise(only(hanging_chain(), body), GRAVITY)
-    largest = summary["largest_resultant"]
-    assert (largest and largest["force_N"]) == force
+    for largest in (summary["largest_resultant"], summary["largest_force_sum"]):
+        assert (largest and largest["force_N"]) == force
     assert (summary["largest_throw"] and summary["largest_throw"]["throw_m"]) == throw
     assert summary["connections"]["count"] == summary["connections"]["broken"] == 0
 

@@ -2,18 +2,18 @@
 
 import re
 import warnings
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from sample_results import FRAME_S, hanging_chain, without_connections
+from sample_results import FRAME_S, FRAME_SERIES, G, hanging_chain, without_connections
 
 from bridge_demolition_addon.report.force_plot import plot_forces
 
-G = 9.80665
-SUMS_KN = np.array([700 * G] * 3 + [500 * G + np.hypot(200 * G, 1000)] + [300 * G]) / 1e3
-RESULTANTS_KN = np.array([300 * G] * 3 + [np.hypot(300 * G, 1000)] + [300 * G]) / 1e3
+# Nothing acts in the first frame, in which no time passes; in the fourth, the largest is not the mean.
+SUMS_KN = np.array([0.0, 700 * G, 700 * G, 500 * G + np.hypot(200 * G, 1000), 300 * G]) / 1e3
+RESULTANTS_KN = np.array([0.0, 300 * G, 300 * G, np.hypot(300 * G, 1000), 300 * G]) / 1e3
 
 
 def drawn(tmp_path, results, title="A bridge", impact_s=None):
@@ -61,7 +61,7 @@ def test_the_impact_is_marked_at_its_time(tmp_path):
 
 def test_words_and_units(tmp_path):
     svg = drawn(tmp_path, hanging_chain())
-    for text in ("time (s)", "connection force (kN)", "connections intact", "largest resultant on a shard"):
+    for text in ("time (s)", "force (kN)", "connections intact", "largest resultant on a shard"):
         assert f"<!-- {text} -->" in svg
 
 
@@ -80,16 +80,14 @@ def test_picture_has_its_size_and_is_not_empty(tmp_path):
 
 
 def first_frame(results):
-    names = ("frames", "times_s", "substep_s", "places_m", "rotations", "velocities_m_s", "intact")
-    names += ("connection_forces_n", "connection_moments_nm")
-    assert set(names) <= {item.name for item in fields(results)}
-    return replace(results, **{name: getattr(results, name)[:1] for name in names})
+    return replace(results, **{name: getattr(results, name)[:1] for name in FRAME_SERIES})
 
 
 def unknown_at_first(results):
-    forces = results.connection_forces_n.copy()
-    forces[0] = np.nan
-    return replace(results, connection_forces_n=forces)
+    changed = {name: getattr(results, name).copy() for name in ("body_peaks_n", "body_peak_sums_n")}
+    for values in changed.values():
+        values[0] = np.nan
+    return replace(results, **changed)
 
 
 @pytest.mark.parametrize("change", [without_connections, first_frame, unknown_at_first])
@@ -105,3 +103,13 @@ def test_without_shards_there_are_no_forces_to_draw(tmp_path):
     only_ground = replace(results, body_kinds=np.full(4, "ground"))
     svg = drawn(tmp_path, only_ground)
     assert "<!-- connections intact -->" in svg
+    for colour in ("#b2182b", "#2166ac"):
+        np.testing.assert_allclose(curve(svg, colour)[:, 1], axes_bottom(svg), atol=1e-4)
+
+
+def test_ball_and_ground_do_not_count(tmp_path):
+    """In the last frame the ball loads the ground with ten times what any shard carries."""
+    results = hanging_chain()
+    assert results.body_peaks_n[4, [0, 3]].min() >= 10 * results.body_peaks_n[4, [1, 2]].max() - 1e-9  # rounding
+    sums = curve(drawn(tmp_path, results), "#b2182b")[:, 1]
+    assert sums[4] > sums[3]  # lower in the picture
