@@ -70,8 +70,7 @@ class Logs:
         self._forces = BodyLog(folder / "force_log.csv", FORCE_COLUMNS, names)
         self._debris = BodyLog(folder / "debris_log.csv", DEBRIS_COLUMNS, names)
         self._breaking = (folder / "breaking_log.csv").open("w", encoding="utf-8", newline="")
-        self._breaking_rows = csv.writer(self._breaking, lineterminator="\n")
-        self._breaking_rows.writerow(BREAKING_COLUMNS)
+        self._breaking.write(_csv_text(*BREAKING_COLUMNS) + "\n")
         self._breaking.flush()
         self._first_places: np.ndarray | None = None
 
@@ -101,7 +100,7 @@ class Logs:
             values = np.column_stack((loads.axial_n, loads.shear_n, loads.torsion_nm, loads.bending_nm)) + 0.0
             for row, numbers in zip(each.connections, values, strict=True):
                 texts = (names[row], *bodies[pairs[row]], *(f"{number:.9g}" for number in numbers))
-                self._breaking_rows.writerow((frame, f"{each.time_s:.9g}", *texts))
+                self._breaking.write(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
         self._breaking.flush()
 
     def close(self, last_frame: dict) -> None:
@@ -132,7 +131,7 @@ class BodyLog:
     def __init__(self, path: Path, columns: Sequence[str], bodies: Sequence[str]):
         values = ",".join(["%.9g"] * (len(columns) - 3))
         # One template for all lines of a frame: formatting line by line takes several times as long.
-        self._lines = "".join(f"{_STEP_MARK},{_csv_text(name)},{values}\n" for name in bodies)
+        self._lines = "".join(f"{_STEP_MARK},{_csv_text(name).replace('%', '%%')},{values}\n" for name in bodies)
         self._file = path.open("w", encoding="utf-8", newline="")
         self._write(",".join(columns) + "\n")
 
@@ -155,8 +154,8 @@ class BodyLog:
         self._file.flush()  # a run that is killed keeps every frame it has logged
 
 
-def _csv_text(name: str) -> str:
-    """A name as CSV writes it, safe inside a formatting template."""
+def _csv_text(*texts: str) -> str:
+    """Texts as CSV writes them in one line, quoted also where they hold a line break of another system."""
     buffer = io.StringIO()
-    csv.writer(buffer).writerow([name])
-    return buffer.getvalue().removesuffix("\r\n").replace("%", "%%")
+    csv.writer(buffer).writerow(texts)
+    return buffer.getvalue().removesuffix("\r\n")
