@@ -72,9 +72,9 @@ def gather_integers(addresses: np.ndarray) -> np.ndarray:
     return _INTEGERS.take(_indices(addresses, 4))
 
 
-def write_double(address: int, value: float) -> None:
-    """Write one double to a checked address."""
-    _DOUBLES[_indices(address, 8)] = value
+def write_doubles(addresses: np.ndarray, values: np.ndarray | float) -> None:
+    """Write doubles to checked addresses (n,)."""
+    _DOUBLES[_indices(addresses, 8)] = values
 
 
 def write_float(address: int, value: float) -> None:

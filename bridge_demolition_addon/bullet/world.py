@@ -27,7 +27,7 @@ from .memory import (
     read_pointer,
     read_value,
     write_bytes,
-    write_double,
+    write_doubles,
     write_pointers,
 )
 
@@ -124,7 +124,7 @@ class BulletWorld:
         """
         address = self._dynamics + self._layout.world.step
         substep = float(gather_doubles(np.array([address]))[0, 0])
-        write_double(address, 0.0)
+        write_doubles(np.array([address]), 0.0)
         return substep
 
     def places(self) -> tuple[np.ndarray, np.ndarray]:
@@ -163,6 +163,17 @@ class BulletWorld:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
         rows = rows[self._exists[rows]]
         write_bytes(self._connection_addresses[rows] + np.uint64(self._layout.constraint.enabled), 0)
+
+    def hold_connections(self) -> None:
+        """Let no connection break at its threshold, until `release_connections`."""
+        fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.breaking_threshold)
+        self._thresholds = gather_doubles(fields)[:, 0]
+        write_doubles(fields, np.inf)
+
+    def release_connections(self) -> None:
+        """Let connections break at their thresholds again."""
+        fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.breaking_threshold)
+        write_doubles(fields, self._thresholds)
 
     def intact(self) -> np.ndarray:
         """Whether each connection (m,) exists and has not broken."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from ..core.bridge import bridge_density, bridge_members, deck_top
 from ..core.scenario import Ball, Bridge, ConnectionSettings, Scenario, TimeSettings
 from ..core.scenario_file import read_scenario
+from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -67,11 +68,20 @@ def _time_facts(time: TimeSettings) -> Iterator[tuple[str, str]]:
 
 def _connection_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
     connections = scenario.connections
-    force = connections.breaking_force_newton
     yield "shards", f"{scenario.fracture.shards}"
     yield "connections", f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
-    yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
-    yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
+    if connections.material is not None:
+        yield "strength of", connections.material
+        yield from _strength_facts(MATERIALS[connections.material])
+    else:
+        force = connections.breaking_force_newton
+        yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
+        yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
+
+
+def _strength_facts(strength: Strength) -> Iterator[tuple[str, str]]:
+    for kind in ("compression", "tension", "shear", "bending"):
+        yield f"in {kind}", f"{getattr(strength, f'{kind}_pa') / NEWTON_PER_SQUARE_MILLIMETRE:g} N/mm²"
 
 
 def _method(connections: ConnectionSettings) -> str:

@@ -10,6 +10,7 @@ from typing import ClassVar
 
 from .errors import ScenarioError
 from .scenario_key import LARGEST_INTEGER, Table, key
+from .strength import MATERIALS
 from .time_step import TimeStep
 
 STANDARD_GRAVITY_M_S2 = 9.80665
@@ -216,17 +217,35 @@ class ConnectionSettings(Table):
         unit="kgf",
         above=0,
     )
+    material: str | None = key(
+        "Material by whose strengths a connection breaks, under axial force, shear and bending together; with method "
+        "`face`, as it takes the area of the shared face. Give this, `breaking_force_n` or `breaking_force_kgf`.",
+        default=None,
+        choices=tuple(MATERIALS),
+    )
+    warm_up_s: float = key(
+        "Time from the start in which no connection breaks, so that the bridge settles under its own weight.",
+        default=0.0,
+        unit="s",
+        at_least=0,
+    )
     foundation: bool = key("Whether shards that stand on the ground are connected to it.", default=True)
 
     @property
-    def breaking_force_newton(self) -> float:
-        """Force that breaks a connection, N, whichever unit it was given in."""
+    def breaking_force_newton(self) -> float | None:
+        """Force that breaks a connection, N, whichever unit it was given in; None for a material."""
+        if self.material is not None:
+            return None
         if self.breaking_force_n is not None:
             return self.breaking_force_n
         return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
 
     def _check_together(self) -> None:
-        _check_exactly_one(self, "breaking_force_n", "breaking_force_kgf")
+        _check_exactly_one(self, "breaking_force_n", "breaking_force_kgf", "material")
+        if self.material is not None and self.method != "face":
+            raise ScenarioError(
+                f'connections.material is "{self.material}": expected method "face" with it, found "{self.method}"'
+            )
         if self.method == "face" and self.search_radius_m is not None:
             raise ScenarioError(
                 f'connections.search_radius_m is {self.search_radius_m}: expected none with method "face"'
@@ -287,6 +306,13 @@ class Ball(Table):
     )
     friction: float = key("Coefficient of friction.", default=0.5, at_least=0)
     restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    contact_time_s: float | None = key(
+        "How long a hit lasts, for the estimate of its largest force; by default as long as an elastic one of steel on "
+        "concrete (Hertz).",
+        default=None,
+        unit="s",
+        above=0,
+    )
 
     @property
     def density_kg_m3(self) -> float:
@@ -362,8 +388,9 @@ class Scenario(Table):
                 )
 
 
-def _check_exactly_one(table: Table, first: str, second: str) -> None:
-    given = [name for name in (first, second) if getattr(table, name) is not None]
+def _check_exactly_one(table: Table, *names: str) -> None:
+    given = [name for name in names if getattr(table, name) is not None]
     if len(given) != 1:
-        state = "are both given" if given else "are both missing"
-        raise ScenarioError(f"{table.table}.{first} and {table.table}.{second} {state}: expected exactly one of them")
+        state = "given together" if given else "all missing"
+        listed = " and ".join(f"{table.table}.{name}" for name in given or names)
+        raise ScenarioError(f"{listed} are {state}: expected exactly one of {', '.join(names)}")

@@ -6,11 +6,15 @@ from typing import Any
 
 import numpy as np
 
+from .impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .motion import first_hit, throw
 from .results import Results
 
+_RESTING_WEIGHTS = 3.0
+"""A ball that rests or rolls is pressed with about its weight; a hit presses with more than this many times as much."""
 
-def summarise(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any]:
+
+def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None) -> dict[str, Any]:
     """Masses, counts, breaking over time, largest force and largest throw of a run, ready for JSON.
 
     Parameters
@@ -19,6 +23,8 @@ def summarise(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any]:
         What was recorded.
     gravity_m_s2
         (3,) acceleration of gravity.
+    contact_time_s
+        How long hits of the ball last; by default as long as elastic ones.
     """
     return {
         "frames": len(results.frames),
@@ -28,6 +34,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any]:
         "connections": _connections(results),
         "impact": _moment(results, impact_step(results, gravity_m_s2)),
         "reading": str(results.reading),
+        "hits_of_the_ball": _hits(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(results, results.body_peaks_n),
         "largest_force_sum": _largest_force(results, results.body_peak_sums_n),
         "largest_throw": _largest_throw(results),
@@ -43,6 +50,46 @@ def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
             hit = first_hit(results.velocities_m_s[released:, ball], results.times_s[released:], gravity_m_s2)
             return None if hit is None else int(released) + hit
     return None
+
+
+def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None) -> list[dict[str, Any]]:
+    """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not."""
+    steps = np.diff(results.ball_times_s, prepend=results.times_s[0])
+    found = []
+    for column, ball in enumerate(results.balls):
+        mass = results.masses_kg[ball]
+        radius = np.cbrt(0.75 / np.pi * results.volumes_m3[ball])
+        contact = Contact.between(STEEL, CONCRETE, mass, radius)
+        resting_force = _RESTING_WEIGHTS * mass * np.linalg.norm(gravity_m_s2)
+        velocities = results.ball_velocities_m_s[:, column]
+        for hit in hits(results.ball_impulses_ns[:, column], steps, results.times_s[0], resting_force):
+            before = velocities[hit.first_step - 1] if hit.first_step else np.zeros(3)
+            speed = -float(before @ hit.impulse_ns) / hit.impulse_magnitude_ns
+            found.append(
+                {
+                    "ball": str(results.body_names[ball]),
+                    "time_s": hit.start_s,
+                    "lasted_s": hit.end_s - hit.start_s,
+                    "impulse_Ns": hit.impulse_magnitude_ns,
+                    "approach_m_s": speed,
+                    "raw_peak_force_N": hit.raw_peak_force_n,
+                    "raw_step_s": hit.raw_step_s,
+                    **_estimated_forces(hit, speed, contact, contact_time_s),
+                }
+            )
+    return found
+
+
+def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: float | None) -> dict[str, float]:
+    """Forces that do not depend on the step; none for a ball that was hit from behind."""
+    if speed <= 0.0:
+        return {}
+    estimated = estimate(hit.impulse_magnitude_ns, speed, contact, contact_time_s)
+    return {
+        "contact_time_s": estimated.contact_time_s,
+        "half_sine_peak_force_N": estimated.half_sine_peak_force_n,
+        "hertz_peak_force_N": estimated.hertz_peak_force_n,
+    }
 
 
 def _connections(results: Results) -> dict[str, Any]:

@@ -38,7 +38,7 @@ def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
     return tuple(between.normalized()) if between.length else (0.0, 0.0, 1.0)
 
 
-def create_connection_template(world: bpy.types.RigidBodyWorld, kind: str, impulse: float) -> bpy.types.Object:
+def create_connection_template(world: bpy.types.RigidBodyWorld, kind: str, impulse: float | None) -> bpy.types.Object:
     """Connection that all others are copied from; to be removed afterwards.
 
     Parameters
@@ -46,15 +46,16 @@ def create_connection_template(world: bpy.types.RigidBodyWorld, kind: str, impul
     kind
         Blender's type of constraint: FIXED, POINT or HINGE.
     impulse
-        Breaking threshold, N·s in one sub-step.
+        Breaking threshold, N·s in one sub-step; None for connections that Blender is not to break.
     """
     template = bpy.data.objects.new("Connection", None)
     template.empty_display_size = _SYMBOL_SIZE_M
     world.constraints.objects.link(template)
     constraint = template.rigid_body_constraint
     constraint.type = kind
-    constraint.use_breaking = True
-    constraint.breaking_threshold = impulse
+    constraint.use_breaking = impulse is not None
+    if impulse is not None:
+        constraint.breaking_threshold = impulse
     return template
 
 

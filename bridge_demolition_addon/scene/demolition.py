@@ -9,7 +9,9 @@ import bpy
 from ..core.bridge import deck_top
 from ..core.model import Model
 from ..core.scenario import Scenario
+from ..core.strength import MATERIALS
 from .bodies import create_ball, create_ground, create_shard_template, create_shards
+from .breaking import Breaking, keep_breaking
 from .connections import create_connection_template, create_connections
 from .world import START_FRAME, create_world, off_scene
 
@@ -26,7 +28,10 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     ground = create_ground(world, _ground_half_size(scenario), scenario.ground)
     if scenario.ball:
         create_ball(world, scenario.ball, deck_top(scenario.bridge), START_FRAME, release_frame(scenario))
-    impulse = scenario.time.step.impulse(scenario.connections.breaking_force_newton)
+    force, material = scenario.connections.breaking_force_newton, scenario.connections.material
+    impulse = None if force is None else scenario.time.step.impulse(force)
+    strength = None if material is None else MATERIALS[material]
+    keep_breaking(scene, Breaking(strength, scenario.connections.warm_up_s))
     shard_template = create_shard_template(world, scenario.shards)
     connection_template = create_connection_template(world, scenario.connections.type, impulse)
     with off_scene(scene) as (bodies, connections):

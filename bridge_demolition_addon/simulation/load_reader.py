@@ -40,13 +40,13 @@ class LoadReader:
         self._local_points = np.einsum("mji,mj->mi", rotations[bodies], points_m - centres[bodies])
         self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
 
-    def section_axes(self, rotations: np.ndarray) -> np.ndarray:
-        """Axes (m, 3, 3) of the connections, turned with their bodies."""
-        return carried_axes(self._local_axes, self._bodies, rotations)
+    def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """Axes (r, 3, 3) of some connections (r,), turned with their bodies."""
+        return carried_axes(self._local_axes[rows], self._bodies[rows], rotations)
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
         """Unit normals (m, 3) of the connections, turned with their bodies."""
-        return self.section_axes(rotations)[:, :, 0]
+        return np.einsum("mij,mj->mi", rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
 
     def read(self, substep_s: float) -> SubstepLoads:
         """Loads of the last sub-step, whose length is given in s."""

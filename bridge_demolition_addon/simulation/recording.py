@@ -13,6 +13,7 @@ from ..bullet.world import BulletWorld, WorldState
 from ..core.errors import SimulationError
 from ..core.results import Results
 from ..scene.bodies import bodies_of
+from ..scene.breaking import breaking_of
 from ..scene.connections import connections_of
 from ..scene.inventory import Inventory, take_inventory
 from .logs import Logs
@@ -156,7 +157,7 @@ class Recording:
         """Note what stays the same throughout, and start anew."""
         self._frames.clear()
         self._inventory = take_inventory(self._bodies, self._connections)
-        self._substeps = SubstepRecorder(self._world, self._inventory)
+        self._substeps = SubstepRecorder(self._world, self._inventory, breaking_of(self.scene))
         if self._every_substep:
             self._world.call_after_substeps(self._substeps.after_substep)
         self._logs = Logs(self.folder, self._inventory)

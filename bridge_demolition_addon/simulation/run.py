@@ -160,7 +160,7 @@ def _summary(
         "substep_s": scene_time_step(scene).substep_s,
         "density_kg_m3": model.density_kg_m3,
         "members_kg": {member.name: member.volume_m3 * model.density_kg_m3 for member in model.members},
-        **summarise(results, np.array(scene.gravity)),
+        **summarise(results, np.array(scene.gravity), scenario.ball and scenario.ball.contact_time_s),
     }
 
 

@@ -10,6 +10,8 @@ import numpy as np
 from ..bullet.world import BulletWorld
 from ..core.frame_loads import FrameLoads, SubstepLoads
 from ..core.section_forces import SectionForces, section_forces
+from ..core.strength import square_sections, utilisation
+from ..scene.breaking import Breaking
 from ..scene.inventory import Inventory
 from .load_reader import LoadReader
 
@@ -32,6 +34,8 @@ class SubstepRecorder:
         The bound world, before any time passes.
     inventory
         Its bodies and connections.
+    breaking
+        How connections break.
 
     Attributes
     ----------
@@ -43,11 +47,15 @@ class SubstepRecorder:
         What went wrong in a sub-step; nothing is taken down after it.
     """
 
-    def __init__(self, world: BulletWorld, inventory: Inventory):
+    def __init__(self, world: BulletWorld, inventory: Inventory, breaking: Breaking):
         self.elapsed_s = 0.0
         self.seconds = 0.0
         self.error: Exception | None = None
-        self._world, self._inventory = world, inventory
+        self._world, self._inventory, self._breaking = world, inventory, breaking
+        self._sections = square_sections(inventory.areas_m2)
+        self._is_warming_up = breaking.warm_up_s > 0.0
+        if self._is_warming_up:
+            world.hold_connections()
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
         self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3, self._reader.normals)
@@ -93,19 +101,35 @@ class SubstepRecorder:
         self.elapsed_s += substep_s
         loads = self._reader.read(substep_s)
         self._frame.add(loads, substep_s)
+        self._break_overloaded(loads)
         self._note_breaks(loads)
         self._world.let_broken_collide()
         if len(self._balls):
             self._note_balls(loads, substep_s)
+
+    def _break_overloaded(self, loads: SubstepLoads) -> None:
+        """Break what its strength does not bear; Bullet's own threshold has been at work within the sub-step."""
+        if self._is_warming_up:
+            if self.elapsed_s < self._breaking.warm_up_s:
+                return
+            self._is_warming_up = False
+            self._world.release_connections()
+        if self._breaking.strength:
+            forces = self._section_forces(loads, np.arange(len(self._intact)))
+            overloaded = utilisation(forces, self._sections, self._breaking.strength) > 1.0
+            self._world.break_connections(np.flatnonzero(overloaded & self._intact))
+
+    def _section_forces(self, loads: SubstepLoads, rows: np.ndarray) -> SectionForces:
+        """Loads of some connections (r,) in their own axes."""
+        axes = self._reader.section_axes(loads.rotations, rows)
+        return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
 
     def _note_breaks(self, loads: SubstepLoads) -> None:
         intact = self._world.intact()
         rows = np.flatnonzero(self._intact & ~intact)
         self._intact = intact
         if len(rows):
-            axes = self._reader.section_axes(self._world.places()[1])[rows]
-            forces, moments = loads.connection_forces_n[rows], loads.connection_moments_nm[rows]
-            self._breaks.append(Breaks(self.elapsed_s, rows, section_forces(axes, forces, moments)))
+            self._breaks.append(Breaks(self.elapsed_s, rows, self._section_forces(loads, rows)))
 
     def _note_balls(self, loads: SubstepLoads, substep_s: float) -> None:
         pairs, forces = loads.contact_pairs, loads.contact_forces_n

@@ -1,0 +1,43 @@
+"""What breaks the connections of a scene besides Blender's own threshold, kept with the scene."""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass
+
+import bpy
+
+from ..core.strength import Strength
+
+_STRENGTH = "bda_strength_pa"
+_WARM_UP = "bda_warm_up_s"
+
+
+@dataclass(frozen=True, slots=True)
+class Breaking:
+    """How connections break.
+
+    Attributes
+    ----------
+    strength
+        Of all connections that stand for an area; None where Blender's breaking threshold alone decides.
+    warm_up_s
+        Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
+    """
+
+    strength: Strength | None = None
+    warm_up_s: float = 0.0
+
+
+def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
+    """Note it in the scene, which is saved with it."""
+    scene[_WARM_UP] = breaking.warm_up_s
+    if breaking.strength:
+        scene[_STRENGTH] = astuple(breaking.strength)
+    elif _STRENGTH in scene:
+        del scene[_STRENGTH]
+
+
+def breaking_of(scene: bpy.types.Scene) -> Breaking:
+    """What was noted in a scene; in any other, Blender's threshold and no warm-up."""
+    strength = Strength(*scene[_STRENGTH]) if _STRENGTH in scene else None
+    return Breaking(strength, scene.get(_WARM_UP, 0.0))
