@@ -10,14 +10,16 @@ import numpy as np
 
 from ..bullet.held_time import hold_time, release_time, time_is_held
 from ..bullet.world import BulletWorld, WorldState
-from ..core.errors import SimulationError
+from ..core.errors import LayoutError, SimulationError
 from ..core.results import Results
 from ..scene.bodies import bodies_of
 from ..scene.breaking import breaking_of
 from ..scene.connections import connections_of
 from ..scene.inventory import Inventory, take_inventory
 from .logs import Logs
-from .substeps import SubstepRecorder
+from .momentum import READING as READING_OF_MOTION
+from .momentum import MomentumReader
+from .substeps import SubstepRecorder, no_ball_history
 
 
 class Recording:
@@ -38,6 +40,9 @@ class Recording:
         As given.
     error
         Why the recording ended before its time, or None.
+    distrust
+        Why Bullet's memory is not read, or None. Then only the motion of bodies is recorded, and the net force on each
+        from its change of momentum.
     """
 
     def __init__(self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True):
@@ -46,6 +51,7 @@ class Recording:
         self.scene = scene
         self.folder = folder
         self.error: Exception | None = None
+        self.distrust: LayoutError | None = None
         self._every_substep = every_substep
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
@@ -53,6 +59,7 @@ class Recording:
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
         self._substeps: SubstepRecorder | None = None
+        self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._frames: list[dict[str, np.ndarray | float]] = []
 
@@ -61,8 +68,11 @@ class Recording:
 
         The world's first step otherwise happens in the same breath as its making, before anything can be asked of it.
         """
-        if self.scene.frame_current == self._start_frame + 1:
-            hold_time(self.scene)
+        if self.scene.frame_current == self._start_frame + 1 and not self.distrust:
+            try:
+                hold_time(self.scene)
+            except LayoutError as error:
+                self.distrust = error
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take down the frame.
@@ -70,14 +80,16 @@ class Recording:
         Raises
         ------
         LayoutError, SimulationError
-            The world cannot be read, or bodies were added or removed while it ran.
+            The world cannot be read any more, or bodies were added or removed while it ran.
         """
         began = time.perf_counter()
         try:
-            if self.scene.frame_current > self._start_frame:
-                self._record(self._bound_state(depsgraph), time_is_held(depsgraph))
+            self._check_objects()
+            if not self.distrust:
+                self._follow_bullet(depsgraph)
+            if self.distrust:
+                self._follow_motion(depsgraph)
         finally:
-            release_time(self.scene)
             self._seconds += time.perf_counter() - began
 
     def fail(self, error: Exception) -> None:
@@ -119,23 +131,51 @@ class Recording:
             raise SimulationError("nothing was recorded: play the timeline from its start frame")
         series = {name: np.array([frame[name] for frame in self._frames]) for name in self._frames[0]}
         inventory = {name: getattr(self._inventory, name) for name in Inventory.__dataclass_fields__}
-        return Results(
-            reading=np.array("every sub-step" if self._every_substep else "last sub-step of each frame"),
-            **inventory,
-            **series,
-            **self._substeps.ball_history(),
-        )
+        balls = self._substeps.ball_history() if self._substeps else no_ball_history()
+        return Results(reading=np.array(self._reading), **inventory, **series, **balls)
 
     @property
     def _start_frame(self) -> int:
         return self.scene.rigidbody_world.point_cache.frame_start
 
-    def _bound_state(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
+    @property
+    def _reading(self) -> str:
+        if self.distrust:
+            return READING_OF_MOTION
+        return "every sub-step" if self._every_substep else "last sub-step of each frame"
+
+    def _check_objects(self) -> None:
         if self.scene.rigidbody_world is None:
             raise SimulationError("the rigid-body world was removed while it was recorded")
         if self._object_counts() != self._counts_at_start:
             raise SimulationError("bodies or connections were added or removed: go to the start frame and record anew")
-        return self._world.bind(depsgraph)
+
+    def _follow_bullet(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Record the frame from Bullet's memory, or note why that cannot be trusted."""
+        try:
+            if self.scene.frame_current > self._start_frame:
+                self._record(self._world.bind(depsgraph), time_is_held(depsgraph))
+        except LayoutError as error:
+            if self._frames:  # it was trusted, and parts of it are recorded
+                raise
+            self.distrust = error
+        finally:
+            release_time(self.scene)
+
+    def _follow_motion(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Record the frame from where the bodies are."""
+        frame = self.scene.frame_current
+        if frame == self._start_frame or not self._momentum:
+            self._begin_with_motion()
+        elif frame != self._frames[-1]["frames"] + 1:
+            return  # not a step forward in time, but a frame that was recorded already or will be
+        self._keep(self._momentum.read_frame(depsgraph))
+
+    def _begin_with_motion(self) -> None:
+        self._frames.clear()
+        self._inventory = take_inventory(self._bodies, ())
+        self._momentum = MomentumReader(self.scene, self._bodies, self._inventory)
+        self._logs = Logs(self.folder, self._inventory)
 
     def _object_counts(self) -> tuple[int, int]:
         world = self.scene.rigidbody_world
@@ -193,5 +233,8 @@ class Recording:
             "intact": self._world.intact(),
             **loads,
         }
+        self._keep(frame)
+
+    def _keep(self, frame: dict[str, np.ndarray | float]) -> None:
         self._frames.append(frame)
         self._logs.write_frame(frame)

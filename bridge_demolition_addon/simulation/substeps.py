@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,14 +89,10 @@ class SubstepRecorder:
 
     def ball_history(self) -> dict[str, np.ndarray]:
         """Times (s,), contact impulses (s, b, 3) and velocities (s, b, 3) of the b balls after every sub-step."""
-        shape = (len(self._hits), len(self._balls), 3)
-        times, impulses, velocities = zip(*self._hits, strict=True) if self._hits else ((), (), ())
-        return {
-            "balls": self._balls,
-            "ball_times_s": np.array(times),
-            "ball_impulses_ns": np.array(impulses).reshape(shape),
-            "ball_velocities_m_s": np.array(velocities).reshape(shape),
-        }
+        if not self._hits:
+            return no_ball_history()
+        times, impulses, velocities = zip(*self._hits, strict=True)
+        return _ball_history(self._balls, times, impulses, velocities)
 
     def _take_down(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
@@ -138,3 +135,20 @@ class SubstepRecorder:
             for ball in self._balls
         ]
         self._hits.append((self.elapsed_s, np.array(impulses), self._world.velocities()[self._balls]))
+
+
+def no_ball_history() -> dict[str, np.ndarray]:
+    """What `SubstepRecorder.ball_history` gives where nothing is known of any ball."""
+    return _ball_history(np.zeros(0, int), (), (), ())
+
+
+def _ball_history(
+    balls: np.ndarray, times: Sequence, impulses: Sequence, velocities: Sequence
+) -> dict[str, np.ndarray]:
+    shape = (len(times), len(balls), 3)
+    return {
+        "balls": balls,
+        "ball_times_s": np.array(times, float),
+        "ball_impulses_ns": np.array(impulses, float).reshape(shape),
+        "ball_velocities_m_s": np.array(velocities, float).reshape(shape),
+    }

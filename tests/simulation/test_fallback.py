@@ -1,0 +1,60 @@
+"""Where Bullet's memory is not as expected, motion is recorded and said to be all there is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from blocks import Blocks
+
+from bridge_demolition_addon.bullet import layout
+from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.summary import summarise
+from bridge_demolition_addon.simulation import handlers
+from bridge_demolition_addon.simulation.recording import Recording
+
+
+@pytest.fixture
+def strange_blender(blender, monkeypatch):
+    """A Blender that keeps its bodies elsewhere than any known one."""
+    right = layout.platform_layout()
+    monkeypatch.setattr(layout, "SYSTEM_V", replace(right, body=replace(right.body, friction=right.body.friction + 8)))
+    monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)
+    return blender
+
+
+def test_net_force_comes_from_the_change_of_momentum(strange_blender, tmp_path):
+    blocks, mass = Blocks(frames_per_second=240, substeps_per_frame=1), 100.0
+    blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
+    blocks.block((0, 0, 1.0), mass)
+    ceiling, hanging = blocks.block((5, 0, 10)), blocks.block((5, 0, 9), mass)
+    blocks.connect("FIXED", (5, 0, 9.5), ceiling, hanging)
+    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    for frame in range(1, 241):
+        blocks.scene.frame_set(frame)
+    handlers.stop()
+    assert recording.error is None
+    assert "friction" in str(recording.distrust)
+    results = recording.results()
+    assert str(results.reading) == "change of momentum between frames"
+    weight = mass * STANDARD_GRAVITY_M_S2
+    assert results.body_forces_n[-1, 3, 2] == pytest.approx(weight, rel=0.01)
+    # Over the fall, the impact and the rest, the ground has given the block all the momentum that gravity did.
+    impulse = np.nansum(results.body_forces_n[:, 1, 2]) / 240.0
+    assert impulse == pytest.approx(weight * results.times_s[-1], rel=0.02)
+    assert np.isnan(results.body_sums_n).all()
+    summary = summarise(results, np.array(blocks.scene.gravity))
+    assert summary["reading"] == "change of momentum between frames"
+    assert summary["largest_force_sum"] is None
+    assert summary["connections"]["count"] == 0
+
+
+def test_scene_is_left_as_it_was(strange_blender, tmp_path):
+    blocks = Blocks()
+    blocks.block((0, 0, 1.0), 10.0)
+    handlers.start(Recording(blocks.scene, tmp_path))
+    for frame in range(1, 5):
+        blocks.scene.frame_set(frame)
+    handlers.stop()
+    assert blocks.world.time_scale == 1.0
+    graph = strange_blender.context.view_layer.depsgraph
+    assert graph.scene_eval.rigidbody_world.time_scale == 1.0
