@@ -77,8 +77,11 @@ def _pairs(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.O
 
 
 def _volumes(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
-    vertices, triangles = zip(*(_triangulated(body) for body in bodies), strict=True)
-    return abs(volumes_and_centres(vertices, triangles)[0])
+    meshes = [_triangulated(body) for body in bodies]
+    solid = [row for row, (_, triangles) in enumerate(meshes) if len(triangles)]
+    volumes = np.zeros(len(meshes))
+    volumes[solid] = abs(volumes_and_centres([meshes[row][0] for row in solid], [meshes[row][1] for row in solid])[0])
+    return volumes
 
 
 def _triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
