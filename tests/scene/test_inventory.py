@@ -1,0 +1,220 @@
+"""What a run knows of a scene before it begins, read from scenes built by the add-on and by hand."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.core.connections import GROUND, Connections
+from bridge_demolition_addon.core.errors import SimulationError
+
+# Blender keeps places, scales and masses in single precision: 24 binary digits, and a few roundings on the way.
+SINGLE = 4 * 2.0**-23
+
+
+@pytest.fixture
+def blocks(blender):
+    from blocks import Blocks
+
+    return Blocks()
+
+
+def inventory_of(scene):
+    from bridge_demolition_addon.scene.bodies import bodies_of
+    from bridge_demolition_addon.scene.connections import connections_of
+    from bridge_demolition_addon.scene.inventory import take_inventory
+
+    scene.view_layers[0].update()
+    return take_inventory(bodies_of(scene), connections_of(scene))
+
+
+@pytest.mark.parametrize("scale", [(1, 1, 1), (2, 1, 1), (0.5, 3, 2), (-1, 1, 1), (-2, -1, -1.5)])
+@pytest.mark.parametrize("place", [(0, 0, 0), (100, -50, 20)])
+def test_volumes_of_scaled_and_turned_blocks(blocks, scale, place):
+    body = blocks.block(place, 7.0, (1.0, 2.0, 0.5))
+    body.scale, body.rotation_euler = scale, (0.3, -0.5, 2.0)
+    (volume,) = inventory_of(blocks.scene).volumes_m3
+    assert volume == pytest.approx(abs(np.prod(scale)), rel=SINGLE)
+
+
+def test_volumes_of_parts_of_a_larger_whole(blender, blocks):
+    """A block takes the scale of what it is parented to, and its own on top."""
+    body = blocks.block((0, 0, 0), 1.0)
+    whole = blender.data.objects.new("Whole", None)
+    blocks.scene.collection.objects.link(whole)
+    whole.scale, body.scale, body.parent = (2, 2, 2), (1, 1, 3), whole
+    assert inventory_of(blocks.scene).volumes_m3.tolist() == pytest.approx([24.0], rel=SINGLE)
+
+
+def test_volumes_of_a_mesh_of_triangles_and_of_one_that_is_inside_out(blender, blocks):
+    corners = [(0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)]
+    outwards = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    for faces in (outwards, [face[::-1] for face in outwards]):
+        mesh = blender.data.meshes.new("Tetrahedron")
+        mesh.from_pydata(corners, [], faces)
+        body = blender.data.objects.new("Tetrahedron", mesh)
+        blocks.world.collection.objects.link(body)
+    # A sixth of 3 × 2 × 1.
+    np.testing.assert_allclose(inventory_of(blocks.scene).volumes_m3, [1.0, 1.0], rtol=SINGLE)
+
+
+def test_volume_is_that_of_the_mesh_as_it_is_edited_last(blocks):
+    body = blocks.block((0, 0, 0), 1.0)
+    assert inventory_of(blocks.scene).volumes_m3.tolist() == pytest.approx([1.0], rel=SINGLE)
+    for vertex in body.data.vertices:
+        vertex.co *= 2.0
+    assert inventory_of(blocks.scene).volumes_m3.tolist() == pytest.approx([8.0], rel=SINGLE)
+
+
+def test_meshes_without_faces_have_no_volume(blender, blocks):
+    """Bullet makes boxes of loose corners too; those next to them in order keep their volumes."""
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    for place in range(3):
+        mesh = blender.data.meshes.new("Corners")
+        mesh.from_pydata(corners if place else [], [], [])
+        blocks.world.collection.objects.link(blender.data.objects.new("Corners", mesh))
+        blocks.block((place, 0, 0), 1.0)
+    blocks.world.collection.objects.link(blender.data.objects.new("Corners", mesh))
+    volumes = inventory_of(blocks.scene).volumes_m3
+    np.testing.assert_allclose(volumes, [0, 1, 0, 1, 0, 1, 0], rtol=SINGLE)
+
+
+def test_masses_and_volumes_of_what_moves_and_of_what_does_not(blocks):
+    blocks.block((0, 0, 0))
+    blocks.block((0, 0, 2), 250.0, (1, 1, 2))
+    held = blocks.block((0, 0, 5), 40.0, (2, 2, 2))
+    held.rigid_body.kinematic = True  # by animation, and free later
+    inventory = inventory_of(blocks.scene)
+    assert inventory.masses_kg.tolist() == [0, 250, 40]
+    np.testing.assert_allclose(inventory.volumes_m3, [0, 2, 8], rtol=SINGLE)
+
+
+def test_names_and_kinds(blocks):
+    from bridge_demolition_addon.core.scenario import Ball, Ground
+    from bridge_demolition_addon.scene.bodies import create_ball, create_ground
+
+    blocks.block((0, 0, 0)).name = "Pier, left"
+    blocks.block((0, 0, 2), 10.0).name = "Brücke"
+    create_ground(blocks.world, 10.0, Ground())
+    create_ball(blocks.world, Ball(mass_kg=500.0, diameter_m=1.0, target_m=(0.0, 0.0), drop_height_m=2.0), 5.0, 1, 3)
+    inventory = inventory_of(blocks.scene)
+    assert inventory.body_names.tolist() == ["Pier, left", "Brücke", "Ground", "Wrecking ball"]
+    assert inventory.body_kinds.tolist() == ["ground", "shard", "ground", "ball"]
+    assert inventory.masses_kg.tolist() == [0, 10, 0, 500]
+    # A sphere of 32 by 64 facets has a little less than π/6: sin(2π/64) / (2π/64) of every circle of latitude, 0.16 %,
+    # and as much again along the meridians.
+    assert inventory.volumes_m3[3] == pytest.approx(np.pi / 6, rel=5e-3)
+    assert inventory.volumes_m3[3] < np.pi / 6
+
+
+def made_connections(blender, blocks, shards, ground, connections):
+    from bridge_demolition_addon.scene.connections import create_connection_template, create_connections
+    from bridge_demolition_addon.scene.world import off_scene
+
+    template = create_connection_template(blocks.world, "FIXED", 1.0)
+    with off_scene(blocks.scene) as (_, collection):
+        made = create_connections(collection, template, connections, shards, ground)
+    blender.data.objects.remove(template)
+    return made
+
+
+def test_connections_of_the_add_on_keep_their_sections(blender, blocks):
+    ground = blocks.block((0, 0, -0.5))
+    shards = [blocks.block((0, 0, 0.5), 1.0), blocks.block((3, 0, 4.5), 1.0)]
+    normals = np.array([[0.6, 0.0, 0.8], [0.0, 0.0, -1.0]])
+    connections = Connections(
+        np.array([[0, 1], [0, GROUND]]), np.array([[1.5, 0, 2.5], [0, 0, 0]]), np.array([1 / 3, 12.5]), normals
+    )
+    made = made_connections(blender, blocks, shards, ground, connections)
+    inventory = inventory_of(blocks.scene)
+    assert inventory.connection_names.tolist() == [each.name for each in made]
+    assert inventory.pairs.tolist() == [[1, 2], [1, 0]]  # the ground was made first
+    np.testing.assert_allclose(inventory.points_m, connections.points, rtol=SINGLE)
+    # Custom properties are kept in double precision.
+    assert inventory.areas_m2.tolist() == [1 / 3, 12.5]
+    assert inventory.normals.tolist() == normals.tolist()
+
+
+def test_normals_of_the_add_on_are_those_of_the_face_and_not_of_the_centres(blender, blocks):
+    shards = [blocks.block((0, 0, 0.5), 1.0), blocks.block((3, 0, 4.5), 1.0)]
+    connections = Connections(np.array([[0, 1]]), np.zeros((1, 3)), np.ones(1), np.array([[0.0, 1.0, 0.0]]))
+    made_connections(blender, blocks, shards, None, connections)
+    assert inventory_of(blocks.scene).normals.tolist() == [[0, 1, 0]]
+
+
+def test_connections_by_hand_have_no_area_and_point_from_first_to_second_body(blocks):
+    low, high = blocks.block((0, 0, 0)), blocks.block((3, 0, 4), 1.0)
+    blocks.connect("FIXED", (1.0, 0.0, 1.0), low, high)
+    blocks.connect("HINGE", (1.0, 2.0, 1.0), high, low)
+    inventory = inventory_of(blocks.scene)
+    assert inventory.connection_names.tolist() == ["Connection 0", "Connection 1"]
+    assert inventory.pairs.tolist() == [[0, 1], [1, 0]]
+    assert inventory.points_m.tolist() == [[1, 0, 1], [1, 2, 1]]
+    assert inventory.areas_m2.tolist() == [0, 0]
+    np.testing.assert_allclose(inventory.normals, [[0.6, 0, 0.8], [-0.6, 0, -0.8]], rtol=SINGLE)
+
+
+def test_by_hand_and_by_the_add_on_in_one_scene(blender, blocks):
+    first, second = blocks.block((0, 0, 0), 1.0), blocks.block((0, 2, 0), 1.0)
+    blocks.connect("POINT", (0, 1, 0), first, second)
+    connections = Connections(np.array([[1, 0]]), np.ones((1, 3)), np.array([4.0]), np.array([[1.0, 0.0, 0.0]]))
+    made_connections(blender, blocks, [first, second], None, connections)
+    inventory = inventory_of(blocks.scene)
+    order = np.argsort(inventory.areas_m2)
+    assert inventory.areas_m2[order].tolist() == [0, 4]
+    assert inventory.pairs[order].tolist() == [[0, 1], [1, 0]]
+    np.testing.assert_allclose(inventory.normals[order], [[0, 1, 0], [1, 0, 0]], rtol=SINGLE)
+
+
+def test_a_connection_by_hand_between_bodies_in_the_same_place_points_somewhere(blocks):
+    blocks.connect("FIXED", (0, 0, 0), blocks.block((1, 2, 3)), blocks.block((1, 2, 3), 1.0))
+    (normal,) = inventory_of(blocks.scene).normals
+    assert np.linalg.norm(normal) == 1.0
+
+
+def test_places_of_parented_connections_are_those_in_the_world(blender, blocks):
+    connection = blocks.connect("FIXED", (1, 0, 0), blocks.block((0, 0, 0)), blocks.block((2, 0, 0), 1.0))
+    parent = blender.data.objects.new("Parent", None)
+    blocks.scene.collection.objects.link(parent)
+    parent.location, connection.parent = (10, 20, 30), parent
+    assert inventory_of(blocks.scene).points_m.tolist() == [[11, 20, 30]]
+
+
+@pytest.mark.parametrize("side", ["object1", "object2"])
+@pytest.mark.parametrize("instead", ["nothing", "no body", "body elsewhere"])
+def test_a_connection_without_a_body_is_refused(blender, blocks, side, instead):
+    connection = blocks.connect("FIXED", (0, 0, 0), blocks.block((0, 0, 0)), blocks.block((0, 0, 1), 1.0))
+    connection.name = "Loose end"
+    other = None
+    if instead != "nothing":
+        other = blender.data.objects.new("Other", blender.data.meshes.new("Other"))
+        blocks.scene.collection.objects.link(other)
+    if instead == "body elsewhere":
+        blocks.world.collection.objects.link(other)
+        blocks.world.collection.objects.unlink(other)
+    setattr(connection.rigid_body_constraint, side, other)
+    with pytest.raises(SimulationError, match="connection 'Loose end' lacks a body: give it two, or delete it"):
+        inventory_of(blocks.scene)
+
+
+def test_without_connections(blocks):
+    blocks.block((0, 0, 0), 1.0)
+    inventory = inventory_of(blocks.scene)
+    shapes = {item.name: getattr(inventory, item.name).shape for item in fields(inventory)}
+    assert shapes == {
+        "body_names": (1,),
+        "body_kinds": (1,),
+        "masses_kg": (1,),
+        "volumes_m3": (1,),
+        "connection_names": (0,),
+        "pairs": (0, 2),
+        "points_m": (0, 3),
+        "areas_m2": (0,),
+        "normals": (0, 3),
+    }
+    assert inventory.pairs.dtype.kind == "i"
+
+
+def test_an_empty_world(blocks):
+    inventory = inventory_of(blocks.scene)
+    assert {len(getattr(inventory, item.name)) for item in fields(inventory)} == {0}
