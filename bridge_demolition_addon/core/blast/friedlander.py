@@ -27,7 +27,8 @@ def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np
         Times since the front arrived, s. All four broadcast.
     """
     part = _part_of_phase(time, duration)
-    return np.where((part >= 0.0) & (part < 1.0), peak * (1.0 - part) * np.exp(-decay * np.clip(part, 0.0, 1.0)), 0.0)
+    passed = np.clip(part, 0.0, 1.0)
+    return np.where(part >= 0.0, peak * (1.0 - passed) * np.exp(-decay * passed), 0.0)
 
 
 def impulse_between(

@@ -8,13 +8,16 @@ from manifold3d import Manifold
 
 from ..errors import GeometryError
 
+THINNEST = 1e-9
+"""Part of the cube of its longest extent that a body's hull must fill to be one."""
+
 _SAME_PLANE_DIGITS = 9
 """Digits after the point (of m, and of unit normals) in which triangles of one face agree."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ConvexHulls:
-    """Convex hulls of n bodies with f faces in all, structure of arrays, each in the axes of its own body.
+    """Convex hulls of n bodies with f faces and v vertices in all, structure of arrays, in the axes of their bodies.
 
     Attributes
     ----------
@@ -26,23 +29,32 @@ class ConvexHulls:
         (f,) distances of the faces from the body's centre of mass along their normals, m.
     starts
         (n + 1,) where the faces of each body begin, and the number of all.
-    radii
-        (n,) distances of the farthest vertices from the centres of mass, m.
+    vertices
+        (v, 3) from the bodies' centres of mass, m; those of a body follow each other.
+    vertex_starts
+        (n + 1,) where the vertices of each body begin, and the number of all.
     """
 
     normals: np.ndarray
     areas: np.ndarray
     offsets: np.ndarray
     starts: np.ndarray
-    radii: np.ndarray
+    vertices: np.ndarray
+    vertex_starts: np.ndarray
 
     def __len__(self) -> int:
-        return len(self.radii)
+        return len(self.starts) - 1
 
     @property
     def bodies(self) -> np.ndarray:
         """(f,) the body of every face."""
         return np.repeat(np.arange(len(self)), np.diff(self.starts))
+
+    @property
+    def radii(self) -> np.ndarray:
+        """(n,) distances of the farthest vertices from the centres of mass, m."""
+        distances = np.linalg.norm(self.vertices, axis=1)
+        return np.maximum.reduceat(distances, self.vertex_starts[:-1]) if len(self) else np.zeros(0)
 
 
 def convex_hulls(bodies: Sequence[np.ndarray]) -> ConvexHulls:
@@ -58,26 +70,38 @@ def convex_hulls(bodies: Sequence[np.ndarray]) -> ConvexHulls:
     GeometryError
         A body has no volume.
     """
-    faces = [_faces_of_hull(np.asarray(vertices, float), number) for number, vertices in enumerate(bodies)]
+    meshes = [_hull(np.asarray(vertices, float), number) for number, vertices in enumerate(bodies)]
+    faces = [_faces(vertices[triangles]) for vertices, triangles in meshes]
     planes = np.concatenate([np.zeros((0, 4)), *(planes for planes, _ in faces)])
-    areas = np.concatenate([np.zeros(0), *(areas for _, areas in faces)])
-    starts = np.cumsum([0, *(len(areas) for _, areas in faces)])
-    radii = np.array([np.linalg.norm(vertices, axis=1).max() for vertices in bodies])
-    return ConvexHulls(planes[:, :3], areas, planes[:, 3], starts, radii)
+    return ConvexHulls(
+        normals=planes[:, :3],
+        areas=np.concatenate([np.zeros(0), *(areas for _, areas in faces)]),
+        offsets=planes[:, 3],
+        starts=np.cumsum([0, *(len(areas) for _, areas in faces)]),
+        vertices=np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in meshes)]),
+        vertex_starts=np.cumsum([0, *(len(vertices) for vertices, _ in meshes)]),
+    )
 
 
-def _faces_of_hull(vertices: np.ndarray, number: int) -> tuple[np.ndarray, np.ndarray]:
-    """Planes (f, 4), normal and offset, and areas (f,) of a hull whose coplanar triangles are one face."""
-    mesh = Manifold.hull_points(vertices).to_mesh64()
-    corners = mesh.vert_properties[:, :3][mesh.tri_verts]
+def _hull(points: np.ndarray, number: int) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3) and triangles (t, 3) of the convex hull of points."""
+    if len(points) >= 4 and np.isfinite(points).all():
+        hull = Manifold.hull_points(points)
+        # Points in one plane come out as a mesh too, of no volume.
+        if hull.volume() > THINNEST * np.ptp(points, axis=0).max() ** 3:
+            mesh = hull.to_mesh64()
+            return mesh.vert_properties[:, :3], mesh.tri_verts
+    raise GeometryError(f"body {number} has no volume: expected finite vertices that do not lie in one plane")
+
+
+def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Planes (f, 4), normal and offset, and areas (f,) of triangles (t, 3, 3), those in one plane as one face."""
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(doubled, axis=1)
     # A sliver has no direction and adds no area.
     corners, doubled, lengths = (values[lengths > 0.0] for values in (corners, doubled, lengths))
-    if not len(lengths):
-        raise GeometryError(f"body {number} has no volume: expected vertices that do not lie in one plane")
     normals = doubled / lengths[:, None]
-    offsets = np.einsum("fi,fi->f", normals, corners[:, 0])
-    planes = np.column_stack((normals, offsets))
-    _, first, face_of = np.unique(planes.round(_SAME_PLANE_DIGITS) + 0.0, axis=0, return_index=True, return_inverse=True)
+    planes = np.column_stack((normals, np.einsum("fi,fi->f", normals, corners[:, 0])))
+    rounded = planes.round(_SAME_PLANE_DIGITS) + 0.0  # no -0
+    _, first, face_of = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
     return planes[first], np.bincount(face_of.ravel(), lengths / 2.0)

@@ -1,8 +1,9 @@
-"""Which bodies stand behind others, as seen from the charges.
+"""How much of each body stands free, as seen from the charges.
 
-A ray goes from every charge to the centre of mass of every body; the body is shielded if the ray passes through the
-convex hull of another. A wave also bends round edges, which is not modelled: a shielded body gets nothing, and that is
-too little behind anything narrow. A body that holds the charge shields nothing: it is what the charge breaks.
+Rays go from every charge to every body: to its centre of mass, and to the points half-way from there to the vertices of
+its hull. A ray is stopped by the convex hull of any other body that it passes through; the visible share is that of
+the rays that are not. A wave also bends round edges, which is not modelled: behind anything narrow the load is more
+than this share. A body that holds the charge stops nothing: it is what the charge breaks.
 """
 
 from itertools import pairwise
@@ -13,14 +14,17 @@ from ..shared_faces import ranges
 from .hulls import ConvexHulls
 
 GRAZING_M = 1e-3
-"""A ray that stays this short in a body passes between it and its neighbour; rounding does not shield."""
+"""Hulls stop rays this much inside their faces, so that none is stopped between bodies that touch, or by rounding."""
+
+_HALF_WAY = 0.5
+"""Where between centre and vertices the rays end: well inside the body, which so is never hidden by one it touches."""
 
 _PAIRS_AT_ONCE = 1_000_000
 """Ray-and-body or ray-and-face pairs looked at in one array operation: some tens of megabytes."""
 
 
-def shielded(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sources: np.ndarray) -> np.ndarray:
-    """Which bodies are hidden from which charges.
+def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sources: np.ndarray) -> np.ndarray:
+    """Shares of the bodies that the charges see.
 
     Parameters
     ----------
@@ -34,19 +38,31 @@ def shielded(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sou
     Returns
     -------
     numpy.ndarray
-        (n, c) bool.
+        (n, c) from 0, hidden, to 1, free.
     """
-    hidden = np.zeros((len(hulls), len(sources)), bool)
-    bodies_at_once = max(1, _PAIRS_AT_ONCE // max(1, len(hulls)))
+    owners, targets = _targets(hulls, centres, rotations)
+    counts = np.bincount(owners, minlength=len(hulls))
+    shares = np.zeros((len(hulls), len(sources)))
     for column, source in enumerate(sources):
         shields = ~_holding(hulls, centres, rotations, source)
-        for start in range(0, len(hulls), bodies_at_once):
-            targets = np.arange(start, min(start + bodies_at_once, len(hulls)))
-            rays, others = _near_misses(hulls, centres, source, targets)
-            other_than_itself = (targets[rays] != others) & shields[others]
-            rays, others = targets[rays][other_than_itself], others[other_than_itself]
-            hidden[_passing_through(hulls, centres, rotations, source, rays, others), column] = True
-    return hidden
+        stopped = np.zeros(len(targets), bool)
+        for first, last in _blocks(np.full(len(targets), len(hulls))):
+            rays, bodies = _near_misses(hulls, centres, source, targets[first:last])
+            rays += first
+            others = (owners[rays] != bodies) & shields[bodies]
+            rays, bodies = rays[others], bodies[others]
+            passing = _pass_through(hulls, centres, rotations, source, targets[rays], bodies)
+            stopped[rays[passing]] = True
+        shares[:, column] = np.bincount(owners, ~stopped, len(hulls)) / counts
+    return shares
+
+
+def _targets(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bodies (t,) and places (t, 3) that rays go to."""
+    bodies = np.arange(len(hulls))
+    owners = np.repeat(bodies, np.diff(hulls.vertex_starts))
+    half_way = centres[owners] + _HALF_WAY * np.einsum("vij,vj->vi", rotations[owners], hulls.vertices)
+    return np.concatenate((bodies, owners)), np.concatenate((centres, half_way))
 
 
 def _holding(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, source: np.ndarray) -> np.ndarray:
@@ -61,56 +77,50 @@ def _holding(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sou
 def _near_misses(
     hulls: ConvexHulls, centres: np.ndarray, source: np.ndarray, targets: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Rows of targets and bodies whose bounding spheres the rays to these targets touch."""
-    rays, others = centres[targets] - source, centres - source
-    squares = np.einsum("ti,ti->t", rays, rays)[:, None]
-    part = np.clip(np.divide(rays @ others.T, squares, out=np.zeros((len(rays), len(others))), where=squares > 0), 0, 1)
-    distances = (others**2).sum(axis=1) - part * (2.0 * rays @ others.T - part * squares)
+    """Rows of targets (t, 3), and the bodies whose bounding spheres the rays to them touch."""
+    rays, others = targets - source, centres - source
+    along, squares = rays @ others.T, np.einsum("ti,ti->t", rays, rays)[:, None]
+    nearest = np.clip(np.divide(along, squares, out=np.zeros(along.shape), where=squares > 0.0), 0.0, 1.0)
+    distances = np.einsum("ni,ni->n", others, others) - nearest * (2.0 * along - nearest * squares)
     return np.nonzero(distances < hulls.radii**2)
 
 
-def _passing_through(
+def _pass_through(
     hulls: ConvexHulls,
     centres: np.ndarray,
     rotations: np.ndarray,
     source: np.ndarray,
     targets: np.ndarray,
-    others: np.ndarray,
+    bodies: np.ndarray,
 ) -> np.ndarray:
-    """Targets whose rays pass through the hulls of the other bodies (k,) they are paired with."""
-    rays = np.einsum("kji,kj->ki", rotations[others], centres[targets] - source)
-    origins = np.einsum("kji,kj->ki", rotations[others], source - centres[others])
-    counts = np.diff(hulls.starts)[others]
-    ends = np.cumsum(counts)
-    found = [np.zeros(0, int)]
-    for first, last in _blocks(ends):
-        rows, faces = ranges(hulls.starts[others[first:last]], counts[first:last])
-        inside = _length_inside(hulls, faces, rows, origins[first:last], rays[first:last])
-        found.append(targets[first:last][inside > GRAZING_M])
-    return np.concatenate(found)
+    """Whether rays to targets (k, 3) pass through the bodies (k,) that they are paired with."""
+    rays = np.einsum("kji,kj->ki", rotations[bodies], targets - source)
+    origins = np.einsum("kji,kj->ki", rotations[bodies], source - centres[bodies])
+    counts = np.diff(hulls.starts)[bodies]
+    passing = np.zeros(len(bodies), bool)
+    for first, last in _blocks(counts):
+        rows, faces = ranges(hulls.starts[bodies[first:last]], counts[first:last])
+        passing[first:last] = _cross(hulls, rows, faces, origins[first:last], rays[first:last])
+    return passing
 
 
-def _blocks(ends: np.ndarray) -> list[tuple[int, int]]:
-    """Rows from and to, so that each block has some `_PAIRS_AT_ONCE` faces."""
-    if not len(ends):
-        return []
-    edges = np.searchsorted(ends, np.arange(_PAIRS_AT_ONCE, ends[-1], _PAIRS_AT_ONCE))
-    edges = np.unique([0, *edges, len(ends)])
-    return list(pairwise(edges))
-
-
-def _length_inside(
-    hulls: ConvexHulls, faces: np.ndarray, rows: np.ndarray, origins: np.ndarray, rays: np.ndarray
+def _cross(
+    hulls: ConvexHulls, rows: np.ndarray, faces: np.ndarray, origins: np.ndarray, rays: np.ndarray
 ) -> np.ndarray:
-    """How far rays (k, 3) run inside hulls, m: what all half-spaces of a hull leave of its ray."""
+    """Whether rays (k, 3) cross hulls, given as faces with the row of the ray: what all half-spaces leave of each."""
     normals = hulls.normals[faces]
     slopes = np.einsum("fi,fi->f", normals, rays[rows])
-    rooms = hulls.offsets[faces] - np.einsum("fi,fi->f", normals, origins[rows])
+    rooms = hulls.offsets[faces] - GRAZING_M - np.einsum("fi,fi->f", normals, origins[rows])
     # Along a face there is no crossing: either all of the ray is behind it or nothing.
     crossings = np.divide(rooms, slopes, out=np.where(rooms < 0.0, -np.inf, np.inf), where=slopes != 0.0)
     entries = np.where(slopes < 0.0, crossings, 0.0)
     exits = np.where(slopes < 0.0, 1.0, crossings)
     starts = np.searchsorted(rows, np.arange(len(rays)))
-    entry = np.maximum(np.maximum.reduceat(entries, starts), 0.0)
-    leaving = np.minimum(np.minimum.reduceat(exits, starts), 1.0)
-    return np.maximum(leaving - entry, 0.0) * np.linalg.norm(rays, axis=1)
+    return np.maximum.reduceat(entries, starts).clip(min=0.0) < np.minimum.reduceat(exits, starts).clip(max=1.0)
+
+
+def _blocks(counts: np.ndarray) -> list[tuple[int, int]]:
+    """Rows from and to, so that the counts (k,) of each block add up to some `_PAIRS_AT_ONCE`."""
+    block_of = np.cumsum(counts) // _PAIRS_AT_ONCE
+    edges = np.flatnonzero(np.diff(block_of)) + 1
+    return [(first, last) for first, last in pairwise([0, *edges.tolist(), len(counts)]) if first < last]
