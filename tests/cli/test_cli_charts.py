@@ -1,0 +1,55 @@
+"""``bda charts``: pictures in the folder asked for, and wrong input refused in one line."""
+
+from pathlib import Path
+
+import pytest
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.report.blast_charts import CHARTS
+
+
+def test_charts_are_drawn_and_named(tmp_path, capsys):
+    output = tmp_path / "pictures"
+    assert main(["charts", "--output", str(output)]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert printed.out.splitlines() == [str(output / f"{name}.png") for name in CHARTS]
+    assert sorted(path.stem for path in output.iterdir()) == sorted(CHARTS)
+
+
+def test_without_a_folder_they_go_to_charts(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["charts", "--quiet"]) == 0
+    assert capsys.readouterr().out == ""
+    assert len(list(Path("charts").iterdir())) == len(CHARTS)
+
+
+def test_options_change_the_pictures(tmp_path):
+    report = ["--model", "kinney-graham", "--burst", "surface", "--scaled"]
+    for folder, options in {"kpa": [], "ratio": ["--unit", "ratio"], "report": report}.items():
+        assert main(["charts", "--quiet", "--output", str(tmp_path / folder), *options]) == 0
+    for name in CHARTS:
+        assert len({(folder / f"{name}.png").read_bytes() for folder in tmp_path.iterdir()}) == 3
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (["--unit", "psi"], "--unit: invalid choice: 'psi' (choose from"),
+        (["--model", "conwep"], "--model: invalid choice: 'conwep'"),
+        (["--burst", "water"], "--burst: invalid choice: 'water'"),
+        (["--output"], "--output: expected one argument"),
+        (["--output", "file"], "file: charts cannot be written: File exists"),
+        (["pictures"], "unrecognized arguments: pictures"),
+    ],
+)
+def test_wrong_input_is_refused(arguments, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("file").touch()
+    assert main(["charts", *arguments]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("bda: error: ")
+    assert len(printed.err.splitlines()) == 1
+    assert words in printed.err
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
