@@ -62,6 +62,40 @@ def test_the_ball_hits_in_the_frame_that_stops_it():
     assert summarise(hanging_chain(), GRAVITY)["impact"] == {"frame": 6, "time_s": pytest.approx(0.16)}
 
 
+def test_the_hit_of_the_ball_by_hand():
+    (hit,) = summarise(hanging_chain(), GRAVITY, contact_time_s=0.01)["hits_of_the_ball"]
+    # It falls for 0.1 s, and 6 g for 0.02 s stop it: the momentum of 1000 kg at 0.1 g, and 0.02 s of its weight.
+    assert hit.pop("ball") == "Wrecking ball"
+    hertz = hit.pop("hertz_peak_force_N")
+    assert hit == pytest.approx(
+        {
+            "time_s": 0.14,
+            "lasted_s": 0.02,
+            "impulse_Ns": 120 * G,
+            "approach_m_s": 0.1 * G,
+            "raw_peak_force_N": 6000 * G,
+            "raw_step_s": 0.004,
+            "contact_time_s": 0.01,
+            # The area under half a sine is 2/π of its height times its length.
+            "half_sine_peak_force_N": np.pi / 2 * 120 * G / 0.01,
+        }
+    )
+    assert np.isfinite(hertz) and hertz > 0.0
+
+
+def test_a_ball_that_rests_hits_nothing():
+    results = hanging_chain()
+    resting = replace(results, ball_impulses_ns=results.ball_impulses_ns / 6.0)  # its weight
+    assert summarise(resting, GRAVITY)["hits_of_the_ball"] == []
+
+
+def test_a_ball_that_is_hit_from_behind_has_no_estimates():
+    results = hanging_chain()
+    (hit,) = summarise(replace(results, ball_impulses_ns=-results.ball_impulses_ns), GRAVITY)["hits_of_the_ball"]
+    assert hit["approach_m_s"] == pytest.approx(-0.1 * G)
+    assert not {"contact_time_s", "half_sine_peak_force_N", "hertz_peak_force_N"} & set(hit)
+
+
 def with_ball(velocities):
     results = hanging_chain()
     all_velocities = results.velocities_m_s.copy()
@@ -125,8 +159,12 @@ def only(results, body):
     """The recording of a single body."""
     kept = without_connections(results)
     assert set(BODY_SERIES) < {item.name for item in fields(kept)}
+    balls = slice(None) if body in kept.balls else slice(0)
     return replace(
         kept,
+        balls=np.zeros_like(kept.balls[balls]),
+        ball_impulses_ns=kept.ball_impulses_ns[:, balls],
+        ball_velocities_m_s=kept.ball_velocities_m_s[:, balls],
         **{name: getattr(kept, name)[[body]] for name in ("body_names", "body_kinds", "masses_kg", "volumes_m3")},
         **{name: getattr(kept, name)[:, [body]] for name in BODY_SERIES},
     )
@@ -143,6 +181,7 @@ def test_a_single_body_without_connections(body, force, throw):
         assert (largest and largest["force_N"]) == force
     assert (summary["largest_throw"] and summary["largest_throw"]["throw_m"]) == throw
     assert summary["connections"]["count"] == summary["connections"]["broken"] == 0
+    assert len(summary["hits_of_the_ball"]) == (body == 3)
 
 
 @pytest.mark.parametrize("results", [hanging_chain(), only(hanging_chain(), 0)], ids=["chain", "ground"])
