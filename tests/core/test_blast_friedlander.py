@@ -99,13 +99,13 @@ def test_a_fitted_pulse_has_its_impulse():
 
 
 def test_too_large_an_impulse_makes_a_longer_triangle():
-    peak, duration = np.array([1e5]), np.array([0.01])
-    for share in (0.5000001, 0.56, 2.0):
-        impulse = share * peak * duration
-        longer, decay = fitted(peak, duration, impulse)
-        assert decay == 0.0
-        assert longer == pytest.approx(2.0 * share * duration)
-        assert whole_impulse(peak, longer, decay) == pytest.approx(impulse)
+    random = np.random.default_rng(6)
+    peak, duration = random.uniform(1e3, 1e7, 1000), random.uniform(1e-4, 0.1, 1000)
+    share = random.uniform(0.5 + 1e-9, 2.0, 1000)
+    longer, decay = fitted(peak, duration, share * peak * duration)
+    assert (decay == 0.0).all()
+    np.testing.assert_allclose(longer, 2.0 * share * duration, rtol=1e-14)
+    np.testing.assert_allclose(whole_impulse(peak, longer, decay), share * peak * duration, rtol=1e-14)
 
 
 def test_no_pulse_stays_none():

@@ -65,10 +65,10 @@ def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple
         Pa, s and Pa·s, of one shape; where the peak is 0 so are the results.
     """
     there = peak > 0.0
-    longest = np.divide(impulse, LARGEST_SHARE * peak, out=np.zeros_like(peak), where=there)
-    duration = np.maximum(duration, longest)
-    share = np.divide(impulse, peak * duration, out=np.full_like(peak, LARGEST_SHARE), where=there)
-    return np.where(there, duration, 0.0), decay_of(share)
+    triangle = np.divide(impulse, LARGEST_SHARE * peak, out=np.zeros_like(peak), where=there)
+    share = np.full_like(peak, LARGEST_SHARE)
+    np.divide(impulse, peak * duration, out=share, where=there & (triangle < duration))
+    return np.where(there, np.maximum(duration, triangle), 0.0), decay_of(share)
 
 
 def decay_of(share: np.ndarray) -> np.ndarray:
