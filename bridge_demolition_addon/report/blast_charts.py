@@ -49,8 +49,9 @@ SMALLEST_SHADE_PA = 1e4
 NEAR_RINGS_PA = 15e3
 """Rings of less overpressure are left out of the plan near the charges."""
 
-_DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (3, 2)), (0, (1, 3)))
-_SHADES = ("0.0", "#2166ac", "#b2182b", "0.35", "#542788", "#b35806", "#1b7837", "0.0")
+_DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), "-", (0, (1, 3)))
+_WIDTHS = (1.6, 1.6, 1.6, 1.6, 1.6, 1.6, 3.5, 1.6)
+_SHADES = ("0.0", "#2166ac", "#b2182b", "0.35", "#542788", "#b35806", "0.65", "0.0")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -311,7 +312,8 @@ def _blank_figure(width_in: float, height_in: float) -> Figure:
 
 
 def _line_styles() -> list[dict]:
-    return [{"color": shade, "linestyle": dash, "linewidth": 1.6} for shade, dash in zip(_SHADES, _DASHES, strict=True)]
+    styles = zip(_SHADES, _DASHES, _WIDTHS, strict=True)
+    return [{"color": shade, "linestyle": dash, "linewidth": width} for shade, dash, width in styles]
 
 
 def _levels(values: np.ndarray) -> np.ndarray:

@@ -72,8 +72,8 @@ def test_no_words_leave_the_picture(name):
 )
 def test_lines_differ_without_colour(name):
     figure = CHARTS[name](KPA)
-    dashes = [str(line._dash_pattern) for line in figure.axes[0].lines]
-    assert len(set(dashes)) == len(dashes) > 1
+    looks = [(str(line._unscaled_dash_pattern), line.get_linewidth()) for line in figure.axes[0].lines]
+    assert len(set(looks)) == len(looks) > 1
 
 
 def test_figure_10_pulses_pass_in_order_with_their_peaks():
