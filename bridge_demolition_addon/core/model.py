@@ -10,6 +10,7 @@ from . import connections as connecting
 from .bridge import Member, bridge_density, bridge_members
 from .connections import Connections
 from .errors import GeometryError
+from .face_sections import second_moments
 from .fracture import Shard, SharedFaces, fracture, touching_faces
 from .scenario import ConnectionSettings, Scenario
 
@@ -34,6 +35,8 @@ class Model:
         (n, 3) centre of mass of each shard.
     connections
         Connections between shards and to the ground.
+    second_moments_m4
+        (m, 2, 2) second moments of area of the connections' faces; 0 for one without a face.
     """
 
     members: tuple[Member, ...]
@@ -43,6 +46,7 @@ class Model:
     masses_kg: np.ndarray
     centres_m: np.ndarray
     connections: Connections
+    second_moments_m4: np.ndarray
 
 
 def build_model(scenario: Scenario) -> Model:
@@ -65,6 +69,7 @@ def build_model(scenario: Scenario) -> Model:
     member_of_shard = np.repeat(np.arange(len(members)), counts)
     centres = np.concatenate([part.centres for part in parts])
     faces = _all_faces([part.faces for part in parts], shards, member_of_shard, counts)
+    connections = _connections(scenario.connections, shards, centres, faces)
     return Model(
         members=members,
         density_kg_m3=density,
@@ -72,7 +77,10 @@ def build_model(scenario: Scenario) -> Model:
         member_of_shard=member_of_shard,
         masses_kg=density * np.concatenate([part.volumes for part in parts]),
         centres_m=centres,
-        connections=_connections(scenario.connections, shards, centres, faces),
+        connections=connections,
+        second_moments_m4=second_moments(
+            shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
+        ),
     )
 
 

@@ -45,9 +45,9 @@ class Results:
     stresses_pa, von_mises_pa
         (k, n, 3, 3) average stress of each body under its mean loads, tension positive, and (k, n) its equivalent
         stress in the sub-step in which all loads together were largest.
-    connection_names, pairs, points_m, areas_m2, normals
+    connection_names, pairs, points_m, areas_m2, normals, second_moments_m4
         (m,) names, (m, 2) indices of the connected bodies, (m, 3) first places, (m,) areas, (m, 3) first unit normals
-        from the first body to the second.
+        from the first body to the second, and (m, 2, 2) second moments of area about the sections' y and z axes.
     connection_forces_n, connection_moments_nm
         (k, m, 3) mean force on the first body of each pair, and moment about the connection's own point.
     connection_peaks_n, connection_peak_forces_n, connection_peak_moments_nm
@@ -84,6 +84,7 @@ class Results:
     points_m: np.ndarray
     areas_m2: np.ndarray
     normals: np.ndarray
+    second_moments_m4: np.ndarray
     connection_forces_n: np.ndarray
     connection_moments_nm: np.ndarray
     connection_peaks_n: np.ndarray

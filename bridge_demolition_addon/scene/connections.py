@@ -12,6 +12,7 @@ from ..core.connections import GROUND, Connections
 _SYMBOL_SIZE_M = 0.1
 _AREA = "bda_area_m2"
 _NORMAL = "bda_normal"
+_SECOND_MOMENTS = "bda_second_moments_m4"
 
 
 def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
@@ -20,14 +21,19 @@ def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     return [each for each in constraints.all_objects if each.rigid_body_constraint] if constraints else []
 
 
-def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray]:
-    """Areas (m,) in m² and unit normals (m, 3), from first to second bodies, of the sections connections stand for.
+def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sections that connections stand for: areas (m,), unit normals (m, 3), second moments of area (m, 2, 2); m, m⁴.
 
-    A connection that was not made here has no area, and the direction between its bodies' origins for a normal.
+    Normals point from first to second bodies. A connection that was not made here has no area, and the direction
+    between its bodies' origins for a normal; one with only an area is a square.
     """
     areas = np.array([connection.get(_AREA, 0.0) for connection in connections], float)
     normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
-    return areas, normals
+    square = np.eye(2).ravel() / 12.0
+    moments = [
+        connection.get(_SECOND_MOMENTS, area**2 * square) for connection, area in zip(connections, areas, strict=True)
+    ]
+    return areas, normals, np.array([list(each) for each in moments], float).reshape(-1, 2, 2)
 
 
 def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
@@ -65,14 +71,16 @@ def create_connections(
     connections: Connections,
     shards: Sequence[bpy.types.Object],
     ground: bpy.types.Object,
+    second_moments_m4: np.ndarray,
 ) -> list[bpy.types.Object]:
     """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical."""
     objects = []
-    columns = (connections.pairs, connections.points, connections.areas.tolist(), connections.normals.tolist())
-    for (first, second), point, area, normal in zip(*columns, strict=True):
+    sections = (connections.areas.tolist(), connections.normals.tolist(), second_moments_m4.reshape(-1, 4).tolist())
+    columns = (connections.pairs, connections.points, *sections)
+    for (first, second), point, area, normal, moments in zip(*columns, strict=True):
         connection = template.copy()  # keeps the name that Blender gives it: each renaming searches all names
         connection.location = point
-        connection[_AREA], connection[_NORMAL] = area, normal
+        connection[_AREA], connection[_NORMAL], connection[_SECOND_MOMENTS] = area, normal, moments
         constraint = connection.rigid_body_constraint
         constraint.object1 = shards[first]
         constraint.object2 = ground if second == GROUND else shards[second]

@@ -36,7 +36,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     connection_template = create_connection_template(world, scenario.connections.type, impulse)
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, shard_template, model.shards, model.centres_m, model.masses_kg)
-        create_connections(connections, connection_template, model.connections, shards, ground)
+        create_connections(connections, connection_template, model.connections, shards, ground, model.second_moments_m4)
     bpy.data.batch_remove((shard_template, shard_template.data, connection_template))
 
 

@@ -26,8 +26,9 @@ class Inventory:
         (n,) both 0 for a body that never moves.
     connection_names, pairs
         (m,) names and (m, 2) indices of the connected bodies.
-    points_m, areas_m2, normals
-        (m, 3) where the connections are, (m,) the areas they stand for, (m, 3) unit normals from first to second body.
+    points_m, areas_m2, normals, second_moments_m4
+        (m, 3) where the connections are, (m,) the areas they stand for, (m, 3) unit normals from first to second body,
+        (m, 2, 2) second moments of these areas about the sections' y and z axes.
     """
 
     body_names: np.ndarray
@@ -39,6 +40,7 @@ class Inventory:
     points_m: np.ndarray
     areas_m2: np.ndarray
     normals: np.ndarray
+    second_moments_m4: np.ndarray
 
 
 def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> Inventory:
@@ -51,7 +53,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
     """
     moves = np.array([body.rigid_body.type == "ACTIVE" for body in bodies], bool)
     pairs = _pairs(bodies, connections)
-    areas, normals = sections_of(connections)
+    areas, normals, second_moments = sections_of(connections)
     return Inventory(
         body_names=np.array([body.name for body in bodies]),
         body_kinds=np.array([kind_of(body).value for body in bodies]),
@@ -62,6 +64,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         points_m=np.array([each.matrix_world.translation for each in connections]).reshape(-1, 3),
         areas_m2=areas,
         normals=normals,
+        second_moments_m4=second_moments,
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..bullet.world import BulletWorld
 from ..core.frame_loads import FrameLoads, SubstepLoads
 from ..core.section_forces import SectionForces, section_forces
-from ..core.strength import square_sections, utilisation
+from ..core.strength import rectangular_sections, utilisation
 from ..scene.breaking import Breaking
 from ..scene.inventory import Inventory
 from .load_reader import LoadReader
@@ -53,7 +53,7 @@ class SubstepRecorder:
         self.seconds = 0.0
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
-        self._sections = square_sections(inventory.areas_m2)
+        self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
         self._is_warming_up = breaking.warm_up_s > 0.0
         if self._is_warming_up:
             world.hold_connections()
