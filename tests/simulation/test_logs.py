@@ -231,6 +231,16 @@ def test_breaking_log_names_each_connection_and_the_loads_it_broke_under(tmp_pat
     ]
 
 
+def test_columns_of_the_breaking_log_hold_what_they_are_named_after(tmp_path):
+    loads = SectionForces(np.array([1.0]), np.array([[2.0, 3.0]]), np.array([4.0]), np.array([[5.0, 6.0]]))
+    logged(tmp_path, hanging_chain(), [Breaks(0.15, np.array([0]), loads)])
+    (row,) = table(tmp_path / "breaking_log.csv")
+    numbers = {"axial_N": "1", "shear_y_N": "2", "shear_z_N": "3"}
+    numbers |= {"torsion_Nm": "4", "bending_y_Nm": "5", "bending_z_Nm": "6"}
+    assert numbers.items() <= row.items()
+    assert (row["frame"], row["time_s"], row["first_body"], row["second_body"]) == ("6", "0.15", "upper", "Ground")
+
+
 def test_without_breaks_the_breaking_log_has_its_header_alone(tmp_path):
     logged(tmp_path, without_connections(hanging_chain()), [broken([])])
     assert rows_of(tmp_path / "breaking_log.csv") == [list(BREAKING_COLUMNS)]
