@@ -41,7 +41,7 @@ FARTHEST_M = 50.0
 """Charges and distances of Figure 11."""
 
 TARGETS_PA = (6.9e3, 15.8e3, 34.5e3, 68.9e3, 200e3, 500e3, 1e6)
-"""Overpressures of Figure 12: four thresholds of damage, and three that break concrete."""
+"""Overpressures of Figure 12: four thresholds of damage, and three nearer to the charge."""
 
 SMALLEST_SHADE_PA = 1e4
 """Overpressure that is still white on the map over time; black is a thousand times as much."""

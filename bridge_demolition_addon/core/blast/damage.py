@@ -34,7 +34,8 @@ THRESHOLDS = (
     Threshold("eardrum rupture, 50 %", 103e3, RICHMOND),
 )
 """Thresholds in order of overpressure. They come from waves of large charges: those of some kilograms are shorter and
-do less, so that the stand-offs are on the safe side for them."""
+do less, so that the stand-offs are on the safe side for them. Of eardrums Richmond et al. also report rupture from some
+20 kPa on."""
 
 
 def ring_radii(

@@ -1,7 +1,7 @@
 """The blast wave of Kinney and Graham: closed formulas for a spherical burst of TNT, the report's equations 3 and 4.
 
-Kinney and Graham, *Explosive Shocks in Air* (2nd ed., 1985), chapter 6. They fit a table from the surface of the
-charge to Z = 500 m/kg^(1/3); beyond it pressure and impulse go on as 1/Z, as those of a sound wave do.
+Kinney and Graham, *Explosive Shocks in Air* (2nd ed., 1985), chapter 6. Far away their pressure and impulse fall as
+1/Z, as those of a sound wave do, so that no end is set to their range.
 """
 
 from functools import cache
