@@ -39,8 +39,8 @@ class Ground:
 FREE_FACE_HARD = Ground("free face, hard or highly structured rock", 0.500, 1.6)
 FREE_FACE_AVERAGE = Ground("free face, average rock", 1.140, 1.6)
 CONFINED = Ground("heavily confined charge", 5.000, 1.6)
-"""Constants from Dyno Nobel, *Blasting and Explosives Quick Reference Guide* (2010); the one for average rock is that of
-Australian Standard AS 2187.2, and is 160 in/s at 1 ft/lb^(1/2) in the units of American handbooks."""
+"""Constants from Dyno Nobel, *Blasting and Explosives Quick Reference Guide* (2010); the one for average rock is that
+of Australian Standard AS 2187.2, and is 160 in/s at 1 ft/lb^(1/2) in the units of American handbooks."""
 
 GROUNDS = {"hard": FREE_FACE_HARD, "average": FREE_FACE_AVERAGE, "confined": CONFINED}
 
