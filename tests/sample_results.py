@@ -49,7 +49,7 @@ FRAME_SERIES = (
 def hanging_chain() -> Results:
     """Shard *upper* (300 kg) hangs from the ground, a ledge; shard *lower* (200 kg) hangs from it; a ball drops above.
 
-    The shards are 4 m high, with sections of 1 m² and 0.5 m². Five frames, 2 to 6; in frame 2 no time passes. The ball
+    The shards are 4 m high, with square sections of 1 m² and 0.5 m². Five frames, 2 to 6; in frame 2 no time passes. The ball
     is let go in frame 3 and falls freely for 2.5 frames, up to a speed of 2.5 g Δt. In the second half of frame 6 the
     ledge stops it with a steady force: its 1000 kg by 5 g, and by one more g against gravity. In the second half of
     frame 5 a pull of 1 kN along x between the shards is added; then they come apart, and by frame 6 *lower* has moved
@@ -84,6 +84,7 @@ def hanging_chain() -> Results:
         points_m=POINTS,
         areas_m2=np.array([1.0, 0.5]),
         normals=NORMALS,
+        second_moments_m4=np.array([1.0, 0.25])[:, None, None] * np.eye(2) / 12.0,
         intact=intact,
         balls=np.array([3]),
         ball_times_s=ball_times,
@@ -95,7 +96,7 @@ def hanging_chain() -> Results:
 
 def without_connections(results: Results) -> Results:
     """The same recording as if there never had been a connection."""
-    names = ("connection_names", "pairs", "points_m", "areas_m2", "normals")
+    names = ("connection_names", "pairs", "points_m", "areas_m2", "normals", "second_moments_m4")
     return replace(
         results,
         **{name: getattr(results, name)[:0] for name in names},

@@ -106,13 +106,15 @@ def test_names_and_kinds(blocks):
     assert inventory.volumes_m3[3] < np.pi / 6
 
 
-def made_connections(blender, blocks, shards, ground, connections):
+def made_connections(blender, blocks, shards, ground, connections, second_moments=None):
     from bridge_demolition_addon.scene.connections import create_connection_template, create_connections
     from bridge_demolition_addon.scene.world import off_scene
 
     template = create_connection_template(blocks.world, "FIXED", 1.0)
+    if second_moments is None:
+        second_moments = np.zeros((len(connections), 2, 2))
     with off_scene(blocks.scene) as (_, collection):
-        made = create_connections(collection, template, connections, shards, ground)
+        made = create_connections(collection, template, connections, shards, ground, second_moments)
     blender.data.objects.remove(template)
     return made
 
@@ -124,7 +126,8 @@ def test_connections_of_the_add_on_keep_their_sections(blender, blocks):
     connections = Connections(
         np.array([[0, 1], [0, GROUND]]), np.array([[1.5, 0, 2.5], [0, 0, 0]]), np.array([1 / 3, 12.5]), normals
     )
-    made = made_connections(blender, blocks, shards, ground, connections)
+    second_moments = np.array([[[1 / 3, -0.25], [-0.25, 2.0]], [[5.0, 0.0], [0.0, 7.0]]])
+    made = made_connections(blender, blocks, shards, ground, connections, second_moments)
     inventory = inventory_of(blocks.scene)
     assert inventory.connection_names.tolist() == [each.name for each in made]
     assert inventory.pairs.tolist() == [[1, 2], [1, 0]]  # the ground was made first
@@ -132,6 +135,7 @@ def test_connections_of_the_add_on_keep_their_sections(blender, blocks):
     # Custom properties are kept in double precision.
     assert inventory.areas_m2.tolist() == [1 / 3, 12.5]
     assert inventory.normals.tolist() == normals.tolist()
+    assert inventory.second_moments_m4.tolist() == second_moments.tolist()
 
 
 def test_normals_of_the_add_on_are_those_of_the_face_and_not_of_the_centres(blender, blocks):
@@ -150,7 +154,17 @@ def test_connections_by_hand_have_no_area_and_point_from_first_to_second_body(bl
     assert inventory.pairs.tolist() == [[0, 1], [1, 0]]
     assert inventory.points_m.tolist() == [[1, 0, 1], [1, 2, 1]]
     assert inventory.areas_m2.tolist() == [0, 0]
+    assert inventory.second_moments_m4.tolist() == np.zeros((2, 2, 2)).tolist()
     np.testing.assert_allclose(inventory.normals, [[0.6, 0, 0.8], [-0.6, 0, -0.8]], rtol=SINGLE)
+
+
+def test_a_connection_with_nothing_but_an_area_stands_for_a_square(blocks):
+    connection = blocks.connect("FIXED", (0, 0, 0), blocks.block((0, 0, 0)), blocks.block((0, 0, 1), 1.0))
+    connection["bda_area_m2"] = 4.0
+    inventory = inventory_of(blocks.scene)
+    assert inventory.areas_m2.tolist() == [4]
+    # A square of 2 m: b h³ / 12 = 16/12 m⁴ about both axes. Rounding only.
+    np.testing.assert_allclose(inventory.second_moments_m4, [np.eye(2) * 16 / 12], rtol=1e-15)
 
 
 def test_by_hand_and_by_the_add_on_in_one_scene(blender, blocks):
@@ -210,6 +224,7 @@ def test_without_connections(blocks):
         "points_m": (0, 3),
         "areas_m2": (0,),
         "normals": (0, 3),
+        "second_moments_m4": (0, 2, 2),
     }
     assert inventory.pairs.dtype.kind == "i"
 
