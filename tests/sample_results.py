@@ -49,11 +49,11 @@ FRAME_SERIES = (
 def hanging_chain() -> Results:
     """Shard *upper* (300 kg) hangs from the ground, a ledge; shard *lower* (200 kg) hangs from it; a ball drops above.
 
-    The shards are 4 m high, with square sections of 1 m² and 0.5 m². Five frames, 2 to 6; in frame 2 no time passes. The ball
-    is let go in frame 3 and falls freely for 2.5 frames, up to a speed of 2.5 g Δt. In the second half of frame 6 the
-    ledge stops it with a steady force: its 1000 kg by 5 g, and by one more g against gravity. In the second half of
-    frame 5 a pull of 1 kN along x between the shards is added; then they come apart, and by frame 6 *lower* has moved
-    by (3, 4, -12) m.
+    The shards are 4 m high, with square sections of 1 m² and 0.5 m². Five frames, 2 to 6; in frame 2 no time passes.
+    The ball is let go in frame 3 and falls freely for 2.5 frames, up to a speed of 2.5 g Δt. In the second half of
+    frame 6 the ledge stops it with a steady force: its 1000 kg by 5 g, and by one more g against gravity. In the second
+    half of frame 5 a pull of 1 kN along x between the shards is added; then they come apart, and by frame 6 *lower* has
+    moved by (3, 4, -12) m.
     """
     times = FRAME_S * np.arange(5)
     intact = np.ones((5, 2), bool)
