@@ -109,11 +109,9 @@ class ContactReader:
     def _manifolds(self) -> np.ndarray:
         """Addresses of all manifolds, from Bullet's pool and from beyond it."""
         layout, address = self._layout.dispatcher, self._dispatcher
+        if not self._is_checked:
+            return _doubtful_manifolds(self._layout, address)
         count = int(gather_integers(np.array([address + layout.manifold_count]))[0])
-        if not 0 <= count <= _MOST_MANIFOLDS:
-            raise LayoutError(f"{count} contacts")
-        if count == 0:
-            return np.zeros(0, np.uint64)
         data = int(gather_pointers(np.array([address + layout.manifold_data]))[0])
         return gather_pointers(data + 8 * np.arange(count, dtype=np.uint64))
 
@@ -135,6 +133,17 @@ class ContactReader:
         if not (self._sorted[places] == addresses).all():
             raise LayoutError("a contact names a body that is not in the scene")
         return self._order[places]
+
+
+def _doubtful_manifolds(layout: Layout, dispatcher: int) -> np.ndarray:
+    """Addresses of all manifolds, read without trust."""
+    count = read_value(dispatcher + layout.dispatcher.manifold_count, "i")
+    if not 0 <= count <= _MOST_MANIFOLDS:
+        raise LayoutError(f"{count} contacts")
+    raw = read(read_pointer(dispatcher + layout.dispatcher.manifold_data), 8 * count) if count else b""
+    if raw is None:
+        raise LayoutError("the list of contacts cannot be read")
+    return np.frombuffer(raw, np.uint64)
 
 
 def check_contacts(layout: Layout, manifolds: np.ndarray, bodies: set[int]) -> None:

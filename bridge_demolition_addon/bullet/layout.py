@@ -134,29 +134,45 @@ class WorldLayout:
 
 @dataclass(frozen=True, slots=True)
 class ContactPointLayout:
-    """btManifoldPoint. From the distance on, its fields follow one another without gaps up to the impulses."""
+    """btManifoldPoint. Around the normal its fields follow one another without gaps; the lateral directions end it."""
 
     size: int
-    lateral_directions: int
-    place_on_b: int = 64
-    place_on_a: int = 96
     normal: int = 128
-    friction: int = 168
+
+    @property
+    def place_on_b(self) -> int:
+        """Where the contact is on the second body."""
+        return self.normal - 64
+
+    @property
+    def place_on_a(self) -> int:
+        """Where it is on the first body."""
+        return self.normal - 32
 
     @property
     def distance(self) -> int:
         """How far apart the two bodies are, negative inside each other."""
-        return self.friction - 8
+        return self.normal + 32
+
+    @property
+    def friction(self) -> int:
+        """Combined friction of the two bodies."""
+        return self.normal + 40
 
     @property
     def normal_impulse(self) -> int:
         """Impulse along the normal."""
-        return self.friction + 64
+        return self.normal + 104
 
     @property
     def lateral_impulses(self) -> int:
         """Impulses along the two lateral directions."""
-        return self.friction + 80
+        return self.normal + 120
+
+    @property
+    def lateral_directions(self) -> int:
+        """The two directions, one after the other."""
+        return self.size - 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +238,7 @@ SYSTEM_V = Layout(
         inverse_mass=784,
         linear_damping=984,
     ),
-    manifold=ManifoldLayout(points=8, point=ContactPointLayout(size=376, lateral_directions=312)),
+    manifold=ManifoldLayout(points=8, point=ContactPointLayout(size=376)),
 )
 
 MICROSOFT = replace(
@@ -236,7 +252,7 @@ MICROSOFT = replace(
         inverse_mass=800,
         linear_damping=1008,
     ),
-    manifold=ManifoldLayout(points=16, point=ContactPointLayout(size=384, lateral_directions=320)),
+    manifold=ManifoldLayout(points=16, point=ContactPointLayout(size=384)),
 )
 
 RIGID_BODY = 2

@@ -32,7 +32,7 @@ FORCE_COLUMNS = (
     "signed_2019_N",
     "stress_largest_Pa",
     "stress_smallest_Pa",
-    "peak_von_mises_Pa",
+    "von_mises_Pa",
     "asleep",
 )
 DEBRIS_COLUMNS = ("frame", "time_s", "body", "x_m", "y_m", "z_m", "distance_m", "throw_m")
@@ -103,9 +103,10 @@ class Logs:
                 self._breaking.write(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
         self._breaking.flush()
 
-    def close(self, last_frame: dict) -> None:
-        """Log where everything is at last, and close the files."""
-        self._write_places(last_frame)
+    def close(self, last_frame: dict | None) -> None:
+        """Log where everything is at last, if there was a frame, and close the files."""
+        if last_frame:
+            self._write_places(last_frame)
         for each in (self._forces, self._debris, self._breaking):
             each.close()
 

@@ -101,7 +101,7 @@ class Recording:
         """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
         self._world.release()
         if self._logs:
-            self._logs.close(self._frames[-1])
+            self._logs.close(self._frames[-1] if self._frames else None)
             self._logs = None
 
     @property

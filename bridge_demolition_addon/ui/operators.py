@@ -1,6 +1,7 @@
 """What the buttons of the sidebar do."""
 
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -13,6 +14,10 @@ from ..scene.demolition import build_demolition
 from ..simulation import handlers
 from ..simulation.output import keep_results, prepared_folder
 from ..simulation.recording import Recording
+from . import redraw
+
+_subject: dict[str, Any] = {}
+"""Title and gravity of what is recorded: undo or another file may take the scene away before the results are written."""
 
 
 class BDA_OT_build_scenario(bpy.types.Operator):
@@ -39,12 +44,13 @@ class BDA_OT_build_scenario(bpy.types.Operator):
         except DemolitionError as error:
             return _refused(self, error)
         build_demolition(context.scene, scenario, model)
+        context.scene.bda.title = scenario.title
         self.report({"INFO"}, f"{len(model.shards)} shards, {len(model.connections)} connections")
         return {"FINISHED"}
 
 
 class BDA_OT_register_handler(bpy.types.Operator):
-    """Record forces and debris while the timeline plays from its start frame"""
+    """Go to the start frame, and record forces and debris from there while the timeline plays"""
 
     bl_idname = "bda.register_handler"
     bl_label = "Register Handler"
@@ -72,7 +78,10 @@ class BDA_OT_register_handler(bpy.types.Operator):
             handlers.start(Recording(context.scene, folder))
         except DemolitionError as error:
             return _refused(self, error)
-        self.report({"INFO"}, f"Recording to {folder}: play the timeline from its start frame")
+        _subject.update(title=settings.title or context.scene.name, gravity=np.array(context.scene.gravity))
+        _start_over(context.scene)
+        redraw.follow_recording()
+        self.report({"INFO"}, f"Recording to {folder}: play the timeline")
         return {"FINISHED"}
 
 
@@ -93,12 +102,14 @@ class BDA_OT_unregister_handler(bpy.types.Operator):
         recording = handlers.stop()
         try:
             results = recording.results()
-            summary = {"title": recording.scene.name, **summarise(results, np.array(recording.scene.gravity))}
+            summary = {"title": _subject["title"], **summarise(results, _subject["gravity"])}
             keep_results(recording.folder, results, summary)
-        except (DemolitionError, ReferenceError) as error:
+        except DemolitionError as error:
             return _refused(self, recording.error or error)
         if recording.error:
             self.report({"WARNING"}, f"The recording ended early: {recording.error}")
+        if recording.distrust:
+            self.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
         self.report({"INFO"}, f"Results are in {recording.folder}")
         return {"FINISHED"}
 
@@ -115,8 +126,16 @@ def register() -> None:
 def unregister() -> None:
     """End a recording that runs, and take the operators away."""
     handlers.stop()
+    redraw.unregister()
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)
+
+
+def _start_over(scene: bpy.types.Scene) -> None:
+    """Go to the start frame, and have frames that were played before simulated anew instead of played back."""
+    world = scene.rigidbody_world
+    world.substeps_per_frame = world.substeps_per_frame  # Blender takes any setting for a change
+    scene.frame_set(world.point_cache.frame_start)
 
 
 def _absolute(path: str) -> Path:

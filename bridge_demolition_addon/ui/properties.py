@@ -12,6 +12,7 @@ class BDA_PG_settings(bpy.types.PropertyGroup):
         description="Scenario file (TOML) that the bridge, its connections and the ball are built from",
         subtype="FILE_PATH",
     )
+    title: StringProperty(name="Title", description="Title of the scenario that the scene was built from")
     output_directory: StringProperty(
         name="Results",
         description="Folder for the logs and results of the recording; it is made when the handler is registered",

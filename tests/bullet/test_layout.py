@@ -69,3 +69,59 @@ def test_every_shifted_offset_is_refused(stepped, group, name, shift):
     assert world.bind(graph) is WorldState.KNOWN
     assert world.joint_feedback(np.array([0]))[0][0, 2] == pytest.approx(-35.0 * 9.80665, rel=1e-3)
     world.release()
+
+
+CONTACT_OFFSETS = (
+    ("manifold.point", "size"),
+    ("manifold.point", "normal"),
+    ("manifold", "points"),
+    ("dispatcher", "manifolds"),
+)
+
+
+@pytest.fixture
+def sliding(blender):
+    """Blocks that slide over the ground, so that their contacts push and rub."""
+    blocks = Blocks()
+    blocks.scene.gravity = (3.0, 1.0, -9.81)
+    bodies = [blocks.block((0, 0, -0.5), size_m=(60, 60, 1))]
+    bodies += [blocks.block((3.0 * number, 0.3, 0.5), 10.0) for number in range(4)]
+    for body, friction in zip(bodies, (0.3, 0.5, 0.6, 0.7, 0.8), strict=True):
+        body.rigid_body.friction = friction
+    for frame in range(1, 12):
+        blocks.scene.frame_set(frame)
+    return blocks, bodies, blender.context.view_layer.depsgraph
+
+
+def contacts_of(sliding, layout):
+    world, _ = bound(sliding, layout)
+    try:
+        return world.contacts()
+    finally:
+        world.release()
+
+
+def test_right_layout_reads_contacts(sliding):
+    contacts = contacts_of(sliding, platform_layout())
+    assert len(contacts) == 16
+    weights = 4 * 10.0 * 9.81 / 240.0
+    assert abs(contacts.impulses_ns[:, 2]).sum() == pytest.approx(weights, rel=0.05)
+
+
+@pytest.mark.parametrize("shift", (-8, 8, -16, 16, -32, 32, 64))
+@pytest.mark.parametrize(("part", "name"), CONTACT_OFFSETS, ids=lambda value: str(value))
+def test_every_shifted_offset_of_contacts_is_refused(sliding, part, name, shift):
+    layout = platform_layout()
+    if part == "manifold.point":
+        point = layout.manifold.point
+        wrong = replace(layout.manifold, point=replace(point, **{name: getattr(point, name) + shift}))
+        shifted = replace(layout, manifold=wrong)
+    else:
+        group = getattr(layout, part)
+        shifted = replace(layout, **{part: replace(group, **{name: getattr(group, name) + shift})})
+    try:
+        found = contacts_of(sliding, shifted)
+    except DemolitionError:
+        return
+    # Nothing where there should be contacts is no wrong force either.
+    assert len(found) == 0

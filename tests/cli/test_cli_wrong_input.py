@@ -168,19 +168,19 @@ WRONG_FILES = {
     ),
     "density and mass": (
         with_more_in("bridge", "density_kg_m3 = 2400"),
-        ["bridge.density_kg_m3 and bridge.mass_kg are both given", "expected exactly one of them"],
+        ["bridge.density_kg_m3 and bridge.mass_kg are given together", "expected exactly one of"],
     ),
     "neither density nor mass": (
         without("bridge.mass_kg"),
-        ["bridge.density_kg_m3 and bridge.mass_kg are both missing", "expected exactly one of them"],
+        ["bridge.density_kg_m3 and bridge.mass_kg are all missing", "expected exactly one of"],
     ),
     "two breaking forces": (
         with_more_in("connections", "breaking_force_n = 1"),
-        ["connections.breaking_force_n and connections.breaking_force_kgf are both given", "expected exactly one"],
+        ["connections.breaking_force_n and connections.breaking_force_kgf are given together", "expected exactly one"],
     ),
     "no breaking force": (
         without("connections.breaking_force_kgf"),
-        ["connections.breaking_force_n and connections.breaking_force_kgf are both missing", "expected exactly one"],
+        ["connections.breaking_force_n and connections.breaking_force_kgf and connections.material are all missing", "expected exactly one"],
     ),
     "no search radius": (
         without("connections.search_radius_m"),

@@ -88,7 +88,8 @@ def test_warm_up_holds_off_the_threshold_of_bullet_too(blender, tmp_path):
 def collapse_gravity(blender, tmp_path, shard_count, **breaking):
     """Times gravity at which a deck that is held at both ends comes down, as gravity is raised slowly."""
     blender.ops.wm.read_factory_settings(use_empty=True)
-    deck = ShardScene((6, 2, 0.5), (0, 0, 5), shard_count, {"solver_iterations": 50}, **breaking)
+    steps = {"solver_iterations": 200, "substeps_per_frame": 20}
+    deck = ShardScene((6, 2, 0.5), (0, 0, 5), shard_count, steps, **breaking)
     deck.hold(abs(deck.fracture.centres[:, 0]) > 2.55)
     middle = int(np.argmin(np.linalg.norm(deck.fracture.centres - (0, 0, 5), axis=1)))
     handlers.start(recording := Recording(deck.scene, tmp_path))
@@ -105,9 +106,8 @@ def collapse_gravity(blender, tmp_path, shard_count, **breaking):
 
 
 def test_strength_by_area_does_not_depend_on_the_number_of_shards(blender, tmp_path):
-    by_area = [
-        collapse_gravity(blender, tmp_path, count, breaking=Breaking(MATERIALS["concrete"], warm_up_s=1.0))
-        for count in (60, 120, 240)
-    ]
+    """The deck comes down at the same load however finely it is cut, once the solver has enough iterations."""
+    breaking = Breaking(MATERIALS["concrete"], warm_up_s=1.0)
+    by_area = [collapse_gravity(blender, tmp_path, count, breaking=breaking) for count in (40, 120)]
     assert max(by_area) / min(by_area) < 1.15
     assert min(by_area) > 1.5

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a person does in every job."""
+
+from pathlib import Path
+
+from person import Person, Steps
+from traces import SCENARIO, handlers
+
+
+def build(person: Person, scenario: Path = SCENARIO) -> Steps:
+    """Choose a scenario and build it."""
+    yield from person.fill_in("scenario_path", str(scenario))
+    yield from person.click("bda.build_scenario")
+    yield 1.0
+
+
+def register(person: Person, results: Path) -> Steps:
+    """Choose a folder and register the handler."""
+    yield from person.fill_in("output_directory", str(results))
+    yield from person.click("bda.register_handler")
+    yield from person.wait_for("the handler is registered", lambda: bool(handlers()), 5.0)
+
+
+def go_to_start(person: Person) -> Steps:
+    """Go to the first frame by its shortcut."""
+    yield from person.move_to_view()
+    yield from person.press("LEFT_ARROW", shift=True)
+
+
+def play_or_pause(person: Person) -> Steps:
+    """Press the space bar over the 3D view."""
+    yield from person.move_to_view()
+    yield from person.press("SPACE", " ")
+
+
+def play_until(person: Person, frame: int) -> Steps:
+    """Play until a frame is reached, and leave it playing."""
+    yield from play_or_pause(person)
+    yield from person.wait_for(f"the timeline plays up to frame {frame}", lambda: person.scene.frame_current >= frame)

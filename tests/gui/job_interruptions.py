@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pull the rug from under a recording: undo, another file, the extension switched off, Blender quit."""
+
+import bpy
+from habits import build, go_to_start, play_or_pause, play_until, register
+from person import Person, Steps
+from traces import EXTENSION, handlers, rows
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    yield from build(person)
+    yield from undo_while_recording(person)
+    yield from start_anew_while_recording(person)
+    yield from load_while_recording(person)
+    yield from switch_off_while_playing(person)
+    yield from quit_while_recording(person)
+
+
+def undo_while_recording(person: Person) -> Steps:
+    yield from register(person, person.folder / "undone")
+    yield from play_until(person, 10)
+    yield from play_or_pause(person)
+    yield from person.press("Z", ctrl=True)
+    yield from person.picture("undone_while_recording")
+    yield from play_or_pause(person)
+    yield 1.0
+    yield from play_or_pause(person)
+    yield from person.click("bda.unregister_handler")
+    yield 2.0
+    yield from person.picture("undone_and_unregistered")
+    reports = ("30 shards", "Recording to", "as undo", "Results are in")
+    person.expect_reports("undo ends the recording with a warning", *reports)
+    person.expect("what was recorded is kept", (person.folder / "undone" / "summary.json").exists())
+    person.expect("no handler is left after undo", dict(handlers()), {})
+
+
+def start_anew_while_recording(person: Person) -> Steps:
+    """Go back to the start in the middle, make something heavier, and play again."""
+    folder = person.folder / "anew"
+    yield from go_to_start(person)
+    yield from register(person, folder)
+    yield from play_until(person, 15)
+    yield from play_or_pause(person)
+    yield from go_to_start(person)
+    ball = next(each for each in person.scene.rigidbody_world.collection.objects if each.rigid_body.mass == 5000)
+    ball.rigid_body.mass = 6000
+    yield from play_until(person, 8)
+    yield from play_or_pause(person)
+    yield 0.2
+    last = person.scene.frame_current
+    frames = sorted({int(row["frame"]) for row in rows(folder / "force_log.csv")})
+    person.expect("a changed simulation is recorded anew", frames, list(range(2, last + 1)))
+    yield from person.click("bda.unregister_handler")
+    yield 2.0
+    person.expect_reports("nothing but the recording is reported", "Recording to", "Results are in")
+
+
+def load_while_recording(person: Person) -> Steps:
+    file = person.folder / "before_loading.blend"
+    yield from go_to_start(person)
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    yield from register(person, person.folder / "loaded")
+    yield from play_until(person, 12)
+    with bpy.context.temp_override(window=person.window):
+        bpy.ops.wm.open_mainfile(filepath=str(file))
+    yield 1.0
+    yield from person.open_sidebar()
+    yield from person.picture("file_loaded_while_recording")
+    yield from play_until(person, 10)
+    if person.playing:
+        yield from play_or_pause(person)
+    person.expect("the log of the recording is whole", len(rows(person.folder / "loaded" / "force_log.csv")) % 32, 0)
+    if not person.refusal("bda.unregister_handler"):
+        yield from person.click("bda.unregister_handler")
+        yield 2.0
+        yield from person.picture("file_loaded_and_unregistered")
+    person.expect("no handler is left after loading", dict(handlers()), {})
+
+
+def switch_off_while_playing(person: Person) -> Steps:
+    yield from go_to_start(person)
+    yield from register(person, person.folder / "switched_off")
+    yield from play_until(person, 12)
+    bpy.ops.preferences.addon_disable(module=EXTENSION)
+    yield 1.0
+    yield from person.picture("switched_off_while_playing")
+    person.expect("it plays on without the extension", person.playing)
+    person.expect("no handler is left after switching off", dict(handlers()), {})
+    person.expect("its log is whole", len(rows(person.folder / "switched_off" / "force_log.csv")) % 32, 0)
+    yield from play_or_pause(person)
+    bpy.ops.preferences.addon_enable(module=EXTENSION)
+    yield 1.0
+
+
+def quit_while_recording(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    yield from go_to_start(person)
+    yield from register(person, person.folder / "quit")
+    yield from play_until(person, 12)
+    yield from person.picture("about_to_quit")

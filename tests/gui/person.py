@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Someone at Blender's window: a hand on mouse and keyboard, and an eye on the sidebar and the reports.
+
+What takes time is a generator, to be called with ``yield from``: it hands over to Blender until its next step.
+"""
+
+import json
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+Steps = Iterator[float | None]
+
+TAB = "BDA"
+TAB_PX = 20
+"""Width of the tabs' edge, and less than a tab is high."""
+PROBE_PX = 8
+"""Between two places where the mouse looks for a button; less than a button is high."""
+PROBE_COLUMNS = (0.7, 0.3)
+"""Where across the sidebar the mouse looks for buttons."""
+
+
+class Person:
+    """Works in the first window of Blender, and notes in a folder what was found right and wrong.
+
+    Parameters
+    ----------
+    folder
+        Folder for the notes and screenshots.
+    """
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self._mouse = (0, 0)
+        self._pictures = 0
+
+    # What there is to see
+
+    @property
+    def window(self) -> bpy.types.Window:
+        """Blender's window, which a loaded file may replace."""
+        return bpy.context.window_manager.windows[0]
+
+    @property
+    def scene(self) -> bpy.types.Scene:
+        """The scene in the window."""
+        return self.window.scene
+
+    @property
+    def playing(self) -> bool:
+        """Whether the timeline plays."""
+        return self.window.screen.is_animation_playing
+
+    @property
+    def view(self) -> bpy.types.Area:
+        """The 3D view."""
+        return self._area("VIEW_3D")
+
+    @property
+    def sidebar(self) -> bpy.types.Region:
+        """The sidebar of the 3D view."""
+        return _region(self.view, "UI")
+
+    def open_sidebar(self) -> Steps:
+        """Show the tab, and the reports in place of the outliner.
+
+        Raises
+        ------
+        LookupError
+            There is no such tab.
+        """
+        next(area for area in self.window.screen.areas if area.type in ("OUTLINER", "INFO")).ui_type = "INFO"
+        self.view.spaces.active.show_region_ui = True
+        yield 0.5
+        sidebar = self.sidebar
+        for y in range(sidebar.y + sidebar.height - TAB_PX, sidebar.y, -TAB_PX):
+            yield from self.move(sidebar.x + sidebar.width - TAB_PX // 2, y)
+            yield from self.press("LEFTMOUSE")
+            if sidebar.active_panel_category == TAB:
+                return
+        raise LookupError(f"the sidebar has no tab {TAB}")
+
+    def take_reports(self) -> list[str]:
+        """What was reported, of whatever level, since it was last taken; without the log of what was done."""
+        area = self._area("INFO")
+        bpy.context.window_manager.clipboard = ""
+        with bpy.context.temp_override(window=self.window, area=area, region=_region(area, "WINDOW")):
+            bpy.ops.info.select_all(action="SELECT")
+            bpy.ops.info.report_copy()
+            bpy.ops.info.report_delete()
+        lines = bpy.context.window_manager.clipboard.splitlines()
+        return [line for line in lines if line and not line.startswith("bpy.")]
+
+    def refusal(self, operator: str) -> str:
+        """Why a button is greyed: what its tooltip says. Empty where it is not."""
+        group, name = operator.split(".")
+        with self._in_sidebar():
+            call = getattr(getattr(bpy.ops, group), name)
+            if call.poll():
+                return ""
+            try:
+                call()
+            except RuntimeError as error:
+                return str(error).partition("poll()")[2].strip()
+        return ""
+
+    # What the hand does
+
+    def move(self, x: int, y: int) -> Steps:
+        """Move the mouse to a place in the window, counted from its lower left corner."""
+        self._mouse = (x, y)
+        self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+        yield
+
+    def move_to_view(self) -> Steps:
+        """Move the mouse over the 3D view, where shortcuts are meant for it."""
+        yield from self.move(self.view.x + 200, self.view.y + 100)
+
+    def press(self, key: str, unicode: str | None = None, **modifiers: bool) -> Steps:
+        """Press a key or button of the mouse where the mouse is, and let it go."""
+        x, y = self._mouse
+        self.window.event_simulate(type=key, value="PRESS", unicode=unicode, x=x, y=y, **modifiers)
+        yield
+        self.window.event_simulate(type=key, value="RELEASE", x=x, y=y, **modifiers)
+        yield
+
+    def click(self, name: str) -> Steps:
+        """Click a button, named by its operator (``bda.build_scenario``), or a field, by its property."""
+        yield from self.hover(name)
+        yield from self.press("LEFTMOUSE")
+
+    def fill_in(self, name: str, text: str) -> Steps:
+        """Type into a field in place of what it holds."""
+        yield from self.click(name)
+        yield from self.press("A", ctrl=True)
+        yield from self.press("BACK_SPACE")
+        for letter in text:
+            yield from self.press(letter.upper() if letter.isascii() and letter.isalpha() else "SLASH", letter)
+        yield from self.press("RET")
+
+    def hover(self, name: str) -> Steps:
+        """Move the mouse about the sidebar until it is over a button or field, and leave it there.
+
+        Raises
+        ------
+        LookupError
+            There is none to be seen.
+        """
+        sidebar = self.sidebar
+        for column in PROBE_COLUMNS:
+            for y in range(sidebar.y + sidebar.height - PROBE_PX, sidebar.y, -PROBE_PX):
+                yield from self.move(sidebar.x + int(column * sidebar.width), y)
+                if name == self._under_mouse():
+                    yield from self.move(self._mouse[0], y - PROBE_PX // 2)  # off the button's edge
+                    return
+        raise LookupError(f"the sidebar shows no {name}")
+
+    def wait_for(self, what: str, happens: Callable[[], bool], seconds: float = 30.0) -> Steps:
+        """Wait until something happens, and note if it does not."""
+        turns = int(seconds / 0.1)
+        for _ in range(turns):
+            if happens():
+                return
+            yield 0.1
+        self.note(what, f"not within {seconds:g} s")
+
+    # What is kept of it
+
+    def expect(self, what: str, found: Any, expected: Any = True) -> None:
+        """Note whether something is as it should be."""
+        self.note(what, "" if found == expected else f"expected {expected!r}, found {found!r}")
+
+    def expect_reports(self, what: str, *parts: str) -> None:
+        """Note whether just these reports came since the last look: one with each part in it, in their order."""
+        reports = self.take_reports()
+        as_expected = len(reports) == len(parts) and all(map(str.__contains__, reports, parts))
+        self.note(what, "" if as_expected else f"expected were {parts}, reported was {reports}")
+
+    def note(self, what: str, trouble: str = "") -> None:
+        """Note that something is as it should be, or in what it is not."""
+        with (self.folder / "checks.jsonl").open("a", encoding="utf-8") as file:
+            file.write(json.dumps([what, trouble]) + "\n")
+
+    def picture(self, name: str) -> Steps:
+        """Keep a screenshot, when Blender has drawn what there is."""
+        yield 0.5
+        self._pictures += 1
+        path = self.folder / f"{self._pictures:02}_{name}.png"
+        subprocess.run(["import", "-window", "root", str(path)], check=True)
+
+    def _area(self, kind: str) -> bpy.types.Area:
+        return next(area for area in self.window.screen.areas if area.type == kind)
+
+    def _in_sidebar(self) -> Any:
+        return bpy.context.temp_override(window=self.window, area=self.view, region=self.sidebar)
+
+    def _under_mouse(self) -> str:
+        """Name of the button's operator or of the field's property that is under the mouse, empty over neither."""
+        with self._in_sidebar():
+            if bpy.ops.ui.copy_python_command_button.poll():
+                bpy.ops.ui.copy_python_command_button()
+                return bpy.context.window_manager.clipboard.removeprefix("bpy.ops.").partition("(")[0]
+            found = bpy.context.property
+        return found[1].rpartition(".")[2] if found else ""
+
+
+def _region(area: bpy.types.Area, kind: str) -> bpy.types.Region:
+    return next(region for region in area.regions if region.type == kind)

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Do a person's job in a real Blender with a window, by mouse and keyboard, and judge what comes of it.
+
+Started by scripts/gui_test; pytest has no part in it, and finds no tests here, as it takes minutes and a Blender with
+a screen. Every job (job_*.py) gets a Blender of its own, with the extension installed from its zip. Of each stay, in
+the output folder, screenshots after each step, what Blender wrote to the console, and what was checked. The exit
+status is 0 where everything was as it should be.
+"""
+
+import argparse
+import importlib.machinery
+import importlib.util
+import json
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+from machine import CHECKOUT, DebianRoot, SetupError, System, debian_root, found_system
+
+HERE = Path(__file__).resolve().parent
+JOBS = tuple(sorted(path.stem.removeprefix("job_") for path in HERE.glob("job_*.py")))
+JOB_SECONDS = 300
+
+EXPECTED_ON_CONSOLE = re.compile(
+    r"$"
+    r"|Blender \d+\.\d+"
+    r"|Blender quit$"
+    r"|Saved session recovery to "
+    r"|could not get a list of mounted file-systems$"
+    r"|Read blend: "
+    r"|Info: "
+)
+"""Lines that Blender writes as it goes. Reports of buttons are for the jobs to check."""
+
+
+def main() -> int:
+    options = parse()
+    try:
+        machine = found_system(options.blender) if not options.root else None
+        machine = machine or debian_root(options.root or CHECKOUT / "build" / "gui_test" / options.suite, options.suite)
+        output = emptied(options.output.resolve())
+        install(machine, build(machine, output), output)
+    except SetupError as error:
+        print(f"gui_test: {error}", file=sys.stderr)
+        return 1
+    failures = sum([run_job(machine, output, job) for job in options.job or JOBS])
+    print(f"{failures} failed" if failures else "all as it should be", f"- screenshots and logs are in {output}")
+    return 1 if failures else 0
+
+
+def parse() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="gui_test", description=__doc__.splitlines()[0])
+    parser.add_argument("--blender", metavar="PATH", help="the Blender to use, 4.2 or later (the one on the PATH)")
+    parser.add_argument(
+        "--root",
+        type=lambda path: Path(path).resolve(),
+        metavar="DIR",
+        help="folder with a Debian to run Blender in, made there if missing; needs root (build/gui_test/SUITE, where "
+        "there is no other Blender)",
+    )
+    parser.add_argument(
+        "--suite", default="trixie", help="the Debian to make: trixie for Blender 4.3, unstable for 5.2"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=CHECKOUT / "runs" / "gui_test", metavar="DIR", help="where it goes"
+    )
+    parser.add_argument("--job", action="append", choices=JOBS, help="only this job; may be repeated")
+    return parser.parse_args()
+
+
+def emptied(folder: Path) -> Path:
+    """The output folder, cleared of an earlier run's jobs and of nothing else."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("home", "user", "extension", *JOBS):
+        shutil.rmtree(folder / name, ignore_errors=True)
+        (folder / name).mkdir()
+    return folder
+
+
+def build(machine: System | DebianRoot, output: Path) -> Path:
+    """The extension's zip for the Python and the numpy of that Blender, whatever series they make."""
+    question = "import sys, numpy; print('versions %d.%d' % sys.version_info[:2], numpy.__version__)"
+    answer = blender(machine, output, "--background", "--factory-startup", "--python-expr", question)
+    versions = re.search(r"^versions (\S+) (\S+)$", answer.stdout, re.MULTILINE)
+    if not versions:
+        raise SetupError(f"{machine.blender} does not start:\n{answer.stdout}{answer.stderr}")
+    python, numpy = versions.groups()
+    builder = build_extension()
+    known = builder.SERIES.get(python) or builder.Series("", python, numpy, "", None, ())
+    series = replace(known, name="gui-test", blender_min="4.2.0", blender_max=None, platforms=("linux-x64",))
+    options = argparse.Namespace(platform=None, split_platforms=False, output=output / "extension")
+    try:
+        (archive,) = builder.build(series, options, builder.BuildTool.of_bpy())
+    except builder.BuildError as error:
+        raise SetupError(str(error)) from error
+    return archive
+
+
+def build_extension() -> ModuleType:
+    """The script of that name as a module."""
+    loader = importlib.machinery.SourceFileLoader("build_extension", str(CHECKOUT / "scripts" / "build_extension"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    sys.modules[loader.name] = module
+    loader.exec_module(module)
+    return module
+
+
+def install(machine: System | DebianRoot, archive: Path, output: Path) -> None:
+    """Install and switch on the extension, as its README says."""
+    arguments = ("--command", "extension", "install-file", "-r", "user_default", "-e", str(archive))
+    result = blender(machine, output, *arguments)
+    if result.returncode or "Error" in result.stdout + result.stderr:
+        raise SetupError(f"Blender could not install the extension:\n{result.stdout}{result.stderr}")
+
+
+def blender(machine: System | DebianRoot, output: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run Blender without a window."""
+    command = machine.command(machine.blender, *arguments, output=output)
+    return subprocess.run(command, env=environment(output), capture_output=True, text=True)
+
+
+def environment(output: Path) -> dict[str, str]:
+    """Nothing of the person's own settings and packages."""
+    return {
+        "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
+        "LANG": "C.UTF-8",
+        "HOME": str(output / "home"),
+        "TMPDIR": str(output / "home"),
+        "BLENDER_USER_RESOURCES": str(output / "user"),
+        "LIBGL_ALWAYS_SOFTWARE": "1",
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+
+
+def run_job(machine: System | DebianRoot, output: Path, job: str) -> int:
+    """Do one job, print what was checked, and return how much was not as it should be."""
+    print(f"== {job}", flush=True)
+    folder = output / job
+    window = ("--enable-event-simulate", "--gpu-backend", "opengl", "--window-geometry", "0", "0", "1280", "800")
+    driven = ("--python", str(HERE / "drive.py"), "--", job, str(folder))
+    session = ("python3", str(HERE / "session.py"), str(JOB_SECONDS), machine.blender, *window, *driven)
+    with (folder / "console.txt").open("w") as console:
+        command = machine.command(*session, output=output)
+        status = subprocess.run(command, env=environment(output), stdout=console, stderr=subprocess.STDOUT).returncode
+    checks = [*checked(folder), ("Blender ends by itself and in peace", "" if status == 0 else f"exit status {status}")]
+    checks += [("console", f"unexpected: {line}") for line in unexpected(folder / "console.txt")]
+    for what, trouble in checks:
+        print(f"FAILED  {what}: {trouble}" if trouble else f"ok      {what}", flush=True)
+    return sum(bool(trouble) for _, trouble in checks)
+
+
+def checked(folder: Path) -> list[tuple[str, str]]:
+    """What the job checked: each thing, and what was wrong with it."""
+    file = folder / "checks.jsonl"
+    checks = (
+        [tuple(json.loads(line)) for line in file.read_text(encoding="utf-8").splitlines()] if file.exists() else []
+    )
+    return checks if ("done", "") in checks else [*checks, ("the job is done to its end", "it is not")]
+
+
+def unexpected(console: Path) -> list[str]:
+    lines = console.read_text(encoding="utf-8", errors="replace").splitlines()
+    return [line for line in lines if not EXPECTED_ON_CONSOLE.match(line)]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
