@@ -17,7 +17,7 @@ from ..simulation.recording import Recording
 from . import redraw
 
 _subject: dict[str, Any] = {}
-"""Title and gravity of what is recorded: undo or another file may take the scene away before the results are written."""
+"""Title and gravity of what is recorded: undo or another file may take its scene away before the results are kept."""
 
 
 class BDA_OT_build_scenario(bpy.types.Operator):

@@ -7,7 +7,6 @@ import bpy
 from ..simulation import handlers
 from ..simulation.recording import Recording
 
-
 _LETTER_PX = 6.5
 _EDGES_PX = 75
 """Of the sidebar, at 100 %: its tabs, the margins of a panel and an icon."""
