@@ -13,7 +13,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from person import Person  # noqa: E402  only to be found in this folder
+from person import Person
 
 TURN_S = 0.03
 """Until the next step: Blender has then taken in the last one, and drawn what follows from it."""

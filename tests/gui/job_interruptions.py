@@ -62,6 +62,7 @@ def load_while_recording(person: Person) -> Steps:
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     yield from register(person, person.folder / "loaded")
     yield from play_until(person, 12)
+    person.expect_reports("nothing but saving and registering is reported", "Saved", "Recording to")
     with bpy.context.temp_override(window=person.window):
         bpy.ops.wm.open_mainfile(filepath=str(file))
     yield 1.0
@@ -75,6 +76,7 @@ def load_while_recording(person: Person) -> Steps:
         yield from person.click("bda.unregister_handler")
         yield 2.0
         yield from person.picture("file_loaded_and_unregistered")
+        person.expect_reports("loading ends the recording with a warning", "loading a file", "Results are in")
     person.expect("no handler is left after loading", dict(handlers()), {})
 
 
@@ -88,6 +90,7 @@ def switch_off_while_playing(person: Person) -> Steps:
     person.expect("it plays on without the extension", person.playing)
     person.expect("no handler is left after switching off", dict(handlers()), {})
     person.expect("its log is whole", len(rows(person.folder / "switched_off" / "force_log.csv")) % 32, 0)
+    person.expect_reports("nothing but the registering is reported before", "Recording to")
     yield from play_or_pause(person)
     bpy.ops.preferences.addon_enable(module=EXTENSION)
     yield 1.0
@@ -99,3 +102,4 @@ def quit_while_recording(person: Person) -> Steps:
     yield from register(person, person.folder / "quit")
     yield from play_until(person, 12)
     yield from person.picture("about_to_quit")
+    person.expect_reports("nothing but the registering is reported at last", "Recording to")

@@ -92,7 +92,10 @@ class Person:
             bpy.ops.info.report_copy()
             bpy.ops.info.report_delete()
         lines = bpy.context.window_manager.clipboard.splitlines()
-        return [line for line in lines if line and not line.startswith("bpy.")]
+        reports = [line for line in lines if line and not line.startswith("bpy.")]
+        with (self.folder / "reports.txt").open("a", encoding="utf-8") as file:
+            file.writelines(f"{report}\n" for report in reports)
+        return reports
 
     def refusal(self, operator: str) -> str:
         """Why a button is greyed: what its tooltip says. Empty where it is not."""

@@ -2,7 +2,7 @@
 """Do a person's job in a real Blender with a window, by mouse and keyboard, and judge what comes of it.
 
 Started by scripts/gui_test; pytest has no part in it, and finds no tests here, as it takes minutes and a Blender with
-a screen. Every job (job_*.py) gets a Blender of its own, with the extension installed from its zip. Of each stay, in
+a screen. Every job (job_*.py beside this file) gets a Blender of its own, with the extension installed from its zip. Of each stay, in
 the output folder, screenshots after each step, what Blender wrote to the console, and what was checked. The exit
 status is 0 where everything was as it should be.
 """
@@ -32,9 +32,8 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Saved session recovery to "
     r"|could not get a list of mounted file-systems$"
     r"|Read blend: "
-    r"|Info: "
 )
-"""Lines that Blender writes as it goes. Reports of buttons are for the jobs to check."""
+"""Lines that Blender writes as it goes."""
 
 
 def main() -> int:
@@ -147,7 +146,7 @@ def run_job(machine: System | DebianRoot, output: Path, job: str) -> int:
         command = machine.command(*session, output=output)
         status = subprocess.run(command, env=environment(output), stdout=console, stderr=subprocess.STDOUT).returncode
     checks = [*checked(folder), ("Blender ends by itself and in peace", "" if status == 0 else f"exit status {status}")]
-    checks += [("console", f"unexpected: {line}") for line in unexpected(folder / "console.txt")]
+    checks += [("console", f"unexpected: {line}") for line in unexpected(folder)]
     for what, trouble in checks:
         print(f"FAILED  {what}: {trouble}" if trouble else f"ok      {what}", flush=True)
     return sum(bool(trouble) for _, trouble in checks)
@@ -162,9 +161,13 @@ def checked(folder: Path) -> list[tuple[str, str]]:
     return checks if ("done", "") in checks else [*checks, ("the job is done to its end", "it is not")]
 
 
-def unexpected(console: Path) -> list[str]:
-    lines = console.read_text(encoding="utf-8", errors="replace").splitlines()
-    return [line for line in lines if not EXPECTED_ON_CONSOLE.match(line)]
+def unexpected(folder: Path) -> list[str]:
+    """Lines on the console that neither Blender writes as it goes, nor repeat what a job has seen reported."""
+    reports = folder / "reports.txt"
+    seen = reports.read_text(encoding="utf-8").splitlines() if reports.exists() else []
+    repeated = {f"{level}: {report}" for level in ("Info", "Warning", "Error") for report in seen}
+    lines = (folder / "console.txt").read_text(encoding="utf-8", errors="replace").splitlines()
+    return [line for line in lines if line not in repeated and not EXPECTED_ON_CONSOLE.match(line)]
 
 
 if __name__ == "__main__":
