@@ -75,8 +75,10 @@ def check_bodies(
     depsgraph
         Evaluated for the present frame: it knows where the bodies are.
     """
+    scene = depsgraph.scene
+    gravity = np.array(scene.gravity) if scene.use_gravity else np.zeros(3)
     for body, holder, address in bodies:
-        _check_body(layout, body, holder, address)
+        _check_body(layout, body, holder, address, gravity)
         _check_place(layout, body.evaluated_get(depsgraph), address)
 
 
@@ -94,7 +96,7 @@ def check_connections(layout: Layout, connections: Iterable[tuple[bpy.types.Obje
         _check_connection(layout, connection, address, bodies)
 
 
-def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: int) -> None:
+def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: int, gravity: np.ndarray) -> None:
     offsets, settings, name = layout.body, body.rigid_body, f"of body {body.name!r}"
     raw = read(address, offsets.linear_damping + 8)
     if raw is None:
@@ -109,6 +111,7 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
     _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
     _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)
     _check_inverse_mass(name, value("d", offsets.inverse_mass), settings)
+    _check_weight(name, struct.unpack_from("<3d", raw, offsets.gravity), value("d", offsets.inverse_mass), gravity)
 
 
 def _check_inverse_mass(name: str, inverse_mass: float, settings: bpy.types.RigidBodyObject) -> None:
@@ -119,6 +122,14 @@ def _check_inverse_mass(name: str, inverse_mass: float, settings: bpy.types.Rigi
             raise LayoutError(f"inverse mass {name} is {inverse_mass:g}")
         return
     _expect_close(f"mass {name}", 1.0 / inverse_mass, settings.mass)
+
+
+def _check_weight(name: str, weight: tuple[float, ...], inverse_mass: float, gravity: np.ndarray) -> None:
+    """Bullet keeps the weight of every body that moves; Blender has just set it from the scene's gravity."""
+    if inverse_mass == 0.0:
+        return
+    difference = np.array(weight) * inverse_mass - gravity
+    _expect_close(f"weight {name}", abs(difference).max() / max(1.0, abs(gravity).max()), 0.0)
 
 
 def _is_animated(settings: bpy.types.RigidBodyObject) -> bool:

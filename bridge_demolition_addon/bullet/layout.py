@@ -40,12 +40,23 @@ class BodyLayout:
     internal_type: int
     user_pointer: int
     inverse_mass: int
+    gravity: int
     linear_damping: int
 
     @property
     def linear_velocity(self) -> int:
         """Two vectors before the inverse mass."""
         return self.inverse_mass - 64
+
+    @property
+    def angular_velocity(self) -> int:
+        """The vector before the inverse mass."""
+        return self.inverse_mass - 32
+
+    @property
+    def total_force(self) -> int:
+        """Sum of the forces of the coming step, three vectors after the body's weight; the torque follows."""
+        return self.gravity + 96
 
     @property
     def activation(self) -> int:
@@ -110,6 +121,11 @@ class WorldLayout:
     def after_step(self) -> int:
         """Function that is called after every step; Blender sets none."""
         return self.solver_settings - 24
+
+    @property
+    def before_step(self) -> int:
+        """Function that is called before every step, once gravity is in the forces; Blender sets none."""
+        return self.solver_settings - 16
 
     @property
     def user_info(self) -> int:
@@ -236,6 +252,7 @@ SYSTEM_V = Layout(
         internal_type=488,
         user_pointer=496,
         inverse_mass=784,
+        gravity=824,
         linear_damping=984,
     ),
     manifold=ManifoldLayout(points=8, point=ContactPointLayout(size=376)),
@@ -250,6 +267,7 @@ MICROSOFT = replace(
         internal_type=496,
         user_pointer=504,
         inverse_mass=800,
+        gravity=848,
         linear_damping=1008,
     ),
     manifold=ManifoldLayout(points=16, point=ContactPointLayout(size=384)),

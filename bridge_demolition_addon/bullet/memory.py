@@ -82,6 +82,11 @@ def write_float(address: int, value: float) -> None:
     _FLOATS[_indices(address, 4)] = value
 
 
+def write_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
+    """Write vectors (n, 3) of doubles to checked addresses (n,)."""
+    _DOUBLES[_indices(addresses, 8)[:, None] + np.arange(3)] = vectors
+
+
 def write_bytes(addresses: np.ndarray, value: int) -> None:
     """Write one byte to each of the checked addresses (n,)."""
     _BYTES[_indices(addresses, 1)] = value

@@ -29,6 +29,7 @@ from .memory import (
     write_bytes,
     write_doubles,
     write_pointers,
+    write_vectors,
 )
 
 _FEEDBACK_DOUBLES = 16
@@ -36,7 +37,7 @@ _FEEDBACK_DOUBLES = 16
 
 _tokens = itertools.count(0x42444100)
 
-_AFTER_STEP = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
+_STEP_FUNCTION = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
 
 _callbacks_bullet_may_call: list[object] = []
 """Callbacks handed to Bullet, never to be freed either."""
@@ -106,15 +107,16 @@ class BulletWorld:
         self._dynamics = dynamics
         return WorldState.KNOWN if known else WorldState.NEW
 
-    def call_after_substeps(self, action: Callable[[float], None]) -> None:
-        """Have a function called after every sub-step of this world, with the sub-step's length in s.
+    def call_around_substeps(self, before: Callable[[float], None], after: Callable[[float], None]) -> None:
+        """Have functions called before and after every sub-step of this world, with the sub-step's length in s.
 
-        It is called from whatever thread simulates, while Blender's data is in use: it must not touch bpy, and must not
-        raise. A world that Blender makes anew does not know it any more.
+        They are called from whatever thread simulates, while Blender's data is in use: they must not touch bpy, and
+        must not raise. A world that Blender makes anew does not know them any more.
         """
-        callback = _AFTER_STEP(lambda _world, substep: action(substep))
-        _callbacks_bullet_may_call.append(callback)
-        write_pointers(self._dynamics + self._layout.world.after_step, ctypes.cast(callback, ctypes.c_void_p).value)
+        world = self._layout.world
+        for field, action in ((world.before_step, before), (world.after_step, after)):
+            callback = _callback(action)
+            write_pointers(self._dynamics + field, ctypes.cast(callback, ctypes.c_void_p).value)
 
     def take_substep(self) -> float:
         """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
@@ -135,6 +137,23 @@ class BulletWorld:
     def velocities(self) -> np.ndarray:
         """Linear velocities (n, 3) of all bodies, m/s."""
         return gather_doubles(self._body_addresses + np.uint64(self._layout.body.linear_velocity), 3)
+
+    def spins(self) -> np.ndarray:
+        """Angular velocities (n, 3) of all bodies, rad/s."""
+        return gather_doubles(self._body_addresses + np.uint64(self._layout.body.angular_velocity), 3)
+
+    def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray) -> None:
+        """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
+
+        To be called before a sub-step, from a function of `call_around_substeps`: Bullet forgets them after it. A body
+        that sleeps or cannot move is not moved by them.
+        """
+        for offset, values in ((0, forces_n), (32, torques_nm)):
+            sums = np.zeros((len(self.bodies), 3))
+            np.add.at(sums, bodies, values)
+            named = np.unique(bodies)
+            fields = self._body_addresses[named] + np.uint64(self._layout.body.total_force + offset)
+            write_vectors(fields, gather_doubles(fields, 3) + sums[named])
 
     def asleep(self) -> np.ndarray:
         """Whether each body (n,) is asleep; what can never move is not."""
@@ -225,7 +244,8 @@ class BulletWorld:
             ours = False
         if ours:
             self._point_feedback_at(np.uint64(0))
-            write_pointers(dynamics + self._layout.world.after_step, 0)
+            for field in (self._layout.world.before_step, self._layout.world.after_step):
+                write_pointers(dynamics + field, 0)
             write_pointers(dynamics + self._layout.world.user_info, 0)
         self._dynamics = 0
 
@@ -259,7 +279,8 @@ class BulletWorld:
         checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world, substep_s)
         body_addresses = self._find_bodies(depsgraph)
         connection_addresses = self._find_connections(depsgraph, body_addresses)
-        for field in (self._layout.world.user_info, self._layout.world.after_step):
+        world = self._layout.world
+        for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
                 raise LayoutError("something else has its hand on Blender's Bullet world")
         forbidding = [each.rigid_body_constraint.disable_collisions for each in self.connections]
@@ -308,6 +329,13 @@ class BulletWorld:
     def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
         fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.joint_feedback)
         write_pointers(fields, targets)
+
+
+def _callback(action: Callable[[float], None]) -> object:
+    """A function as Bullet calls it, never to be freed."""
+    callback = _STEP_FUNCTION(lambda _world, substep: action(substep))
+    _callbacks_bullet_may_call.append(callback)
+    return callback
 
 
 def _aligned_doubles(count: int) -> np.ndarray:

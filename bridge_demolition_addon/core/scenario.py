@@ -223,6 +223,19 @@ class ConnectionSettings(Table):
         default=None,
         choices=tuple(MATERIALS),
     )
+    ductile_share: float = key(
+        "Part of a material's tensile strength that a connection keeps when it breaks, as reinforcement across the "
+        "crack; 0 for none.",
+        default=0.0,
+        at_least=0,
+        at_most=1,
+    )
+    ductile_elongation_m: float | None = key(
+        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share`, not taken without.",
+        default=None,
+        unit="m",
+        above=0,
+    )
     warm_up_s: float = key(
         "Time from the start in which no connection breaks, so that the bridge settles under its own weight.",
         default=0.0,
@@ -245,6 +258,15 @@ class ConnectionSettings(Table):
         if self.material is not None and self.method != "face":
             raise ScenarioError(
                 f'connections.material is "{self.material}": expected method "face" with it, found "{self.method}"'
+            )
+        if self.ductile_share > 0.0 and self.material is None:
+            raise ScenarioError(
+                f"connections.ductile_share is {self.ductile_share}: expected 0 where connections.material is not given"
+            )
+        if (self.ductile_share > 0.0) != (self.ductile_elongation_m is not None):
+            raise ScenarioError(
+                f"connections.ductile_elongation_m is {self.ductile_elongation_m}: expected a number above 0 (m) with "
+                f"a connections.ductile_share above 0, and none with {self.ductile_share}"
             )
         if self.method == "face" and self.search_radius_m is not None:
             raise ScenarioError(

@@ -6,10 +6,11 @@ from dataclasses import astuple, dataclass
 
 import bpy
 
-from ..core.strength import Strength
+from ..core.strength import Ductility, Strength
 
 _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
+_DUCTILITY = "bda_ductility"
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,22 +23,27 @@ class Breaking:
         Of all connections that stand for an area; None where Blender's breaking threshold alone decides.
     warm_up_s
         Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
+    ductility
+        What is left of connections that their strength did not save; None where nothing is.
     """
 
     strength: Strength | None = None
     warm_up_s: float = 0.0
+    ductility: Ductility | None = None
 
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
     """Note it in the scene, which is saved with it."""
     scene[_WARM_UP] = breaking.warm_up_s
-    if breaking.strength:
-        scene[_STRENGTH] = astuple(breaking.strength)
-    elif _STRENGTH in scene:
-        del scene[_STRENGTH]
+    for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility)):
+        if values:
+            scene[name] = astuple(values)
+        elif name in scene:
+            del scene[name]
 
 
 def breaking_of(scene: bpy.types.Scene) -> Breaking:
     """What was noted in a scene; in any other, Blender's threshold and no warm-up."""
     strength = Strength(*scene[_STRENGTH]) if _STRENGTH in scene else None
-    return Breaking(strength, scene.get(_WARM_UP, 0.0))
+    ductility = Ductility(*scene[_DUCTILITY]) if _DUCTILITY in scene else None
+    return Breaking(strength, scene.get(_WARM_UP, 0.0), ductility)

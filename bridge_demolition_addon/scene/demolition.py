@@ -8,8 +8,8 @@ import bpy
 
 from ..core.bridge import deck_top
 from ..core.model import Model
-from ..core.scenario import Scenario
-from ..core.strength import MATERIALS
+from ..core.scenario import ConnectionSettings, Scenario
+from ..core.strength import MATERIALS, Ductility
 from .bodies import create_ball, create_ground, create_shard_template, create_shards
 from .breaking import Breaking, keep_breaking
 from .connections import create_connection_template, create_connections
@@ -28,16 +28,23 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     ground = create_ground(world, _ground_half_size(scenario), scenario.ground)
     if scenario.ball:
         create_ball(world, scenario.ball, deck_top(scenario.bridge), START_FRAME, release_frame(scenario))
-    force, material = scenario.connections.breaking_force_newton, scenario.connections.material
+    force = scenario.connections.breaking_force_newton
     impulse = None if force is None else scenario.time.step.impulse(force)
-    strength = None if material is None else MATERIALS[material]
-    keep_breaking(scene, Breaking(strength, scenario.connections.warm_up_s))
+    keep_breaking(scene, _breaking(scenario.connections))
     shard_template = create_shard_template(world, scenario.shards)
     connection_template = create_connection_template(world, scenario.connections.type, impulse)
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, shard_template, model.shards, model.centres_m, model.masses_kg)
         create_connections(connections, connection_template, model.connections, shards, ground, model.second_moments_m4)
     bpy.data.batch_remove((shard_template, shard_template.data, connection_template))
+
+
+def _breaking(settings: ConnectionSettings) -> Breaking:
+    if settings.material is None:
+        return Breaking(warm_up_s=settings.warm_up_s)
+    share, elongation = settings.ductile_share, settings.ductile_elongation_m
+    ductility = Ductility(share, elongation) if share > 0.0 else None
+    return Breaking(MATERIALS[settings.material], settings.warm_up_s, ductility)
 
 
 def last_frame(scenario: Scenario) -> int:

@@ -199,7 +199,7 @@ class Recording:
         self._inventory = take_inventory(self._bodies, self._connections)
         self._substeps = SubstepRecorder(self._world, self._inventory, breaking_of(self.scene))
         if self._every_substep:
-            self._world.call_after_substeps(self._substeps.after_substep)
+            self._world.call_around_substeps(self._substeps.before_substep, self._substeps.after_substep)
         self._logs = Logs(self.folder, self._inventory)
 
     def _record_first_frame(self, substep_s: float) -> None:

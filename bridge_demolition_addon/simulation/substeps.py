@@ -15,6 +15,7 @@ from ..core.strength import rectangular_sections, utilisation
 from ..scene.breaking import Breaking
 from ..scene.inventory import Inventory
 from .load_reader import LoadReader
+from .ties import Ties
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +55,9 @@ class SubstepRecorder:
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
+        self._ties = None
+        if breaking.ductility:
+            self._ties = Ties(world, inventory, breaking.ductility, breaking.strength.tension_pa)
         self._is_warming_up = breaking.warm_up_s > 0.0
         if self._is_warming_up:
             world.hold_connections()
@@ -64,6 +68,15 @@ class SubstepRecorder:
         self._breaks: list[Breaks] = []
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
+
+    def before_substep(self, substep_s: float) -> None:
+        """Prepare a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
+        if self.error or not self._ties:
+            return
+        try:
+            self._ties.before_substep(substep_s)
+        except Exception as error:  # whoever follows the frames raises it there
+            self.error = error
 
     def after_substep(self, substep_s: float) -> None:
         """Take down a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
@@ -97,6 +110,8 @@ class SubstepRecorder:
     def _take_down(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
         loads = self._reader.read(substep_s)
+        if self._ties:
+            loads.connection_forces_n[:] += self._ties.forces_n
         self._frame.add(loads, substep_s)
         self._break_overloaded(loads)
         self._note_breaks(loads)
@@ -114,7 +129,10 @@ class SubstepRecorder:
         if self._breaking.strength:
             forces = self._section_forces(loads, np.arange(len(self._intact)))
             overloaded = utilisation(forces, self._sections, self._breaking.strength) > 1.0
-            self._world.break_connections(np.flatnonzero(overloaded & self._intact))
+            rows = np.flatnonzero(overloaded & self._intact)
+            self._world.break_connections(rows)
+            if self._ties and len(rows):
+                self._ties.add(rows, loads.connection_points_m[rows])
 
     def _section_forces(self, loads: SubstepLoads, rows: np.ndarray) -> SectionForces:
         """Loads of some connections (r,) in their own axes."""

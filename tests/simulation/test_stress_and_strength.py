@@ -8,7 +8,7 @@ from blocks import Blocks
 from shard_scenes import DENSITY_KG_M3, ShardScene
 
 from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.strength import MATERIALS, Strength
+from bridge_demolition_addon.core.strength import MATERIALS, Ductility, Strength
 from bridge_demolition_addon.scene.breaking import Breaking, keep_breaking
 from bridge_demolition_addon.simulation import handlers
 from bridge_demolition_addon.simulation.recording import Recording
@@ -111,3 +111,47 @@ def test_strength_by_area_does_not_depend_on_the_number_of_shards(blender, tmp_p
     by_area = [collapse_gravity(blender, tmp_path, count, breaking=breaking) for count in (40, 120)]
     assert max(by_area) / min(by_area) < 1.15
     assert min(by_area) > 1.5
+
+
+def torn(blocks, tmp_path, mass, strength_share, elongation, frames):
+    """A block that hangs from a section that breaks under its weight at once, with a ductile rest."""
+    area = 0.04
+    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), mass)
+    connection = blocks.connect("FIXED", (0, 0, 9.5), ceiling, block)
+    connection["bda_area_m2"], connection["bda_normal"] = area, (0.0, 0.0, -1.0)
+    tension = 0.5 * mass * GRAVITY / area
+    breaking = Breaking(Strength(1e9, tension, 1e9, 1e9), 0.0, Ductility(strength_share / 0.5, elongation))
+    keep_breaking(blocks.scene, breaking)
+    return blocks.play(tmp_path, frames)
+
+
+@pytest.mark.parametrize("substeps", (10, 40))
+def test_tie_gives_way_under_its_yield_force_and_lets_go(blender, tmp_path, substeps):
+    """Of the weight, 0.4 is held back over the elongation: a fall at 0.6 g, then free."""
+    blocks, elongation = Blocks(substeps_per_frame=substeps), 0.3
+    results = torn(blocks, tmp_path, 100.0, 0.4, elongation, 24)
+    fallen = 9.0 - results.places_m[:, 1, 2]
+    speed = -results.velocities_m_s[:, 1, 2]
+    held = np.flatnonzero((fallen > 0.05) & (fallen < elongation))
+    free = np.flatnonzero(fallen > elongation + 0.1)
+    assert len(held) and len(free)
+    # The section held the block for a sub-step, and the tie lets go within one: half a per cent each of the fall.
+    np.testing.assert_allclose(speed[held] ** 2, 2 * 0.6 * GRAVITY * fallen[held], rtol=0.05)
+    energy = 0.6 * GRAVITY * elongation + GRAVITY * (fallen[free] - elongation)
+    np.testing.assert_allclose(speed[free] ** 2 / 2, energy, rtol=0.05)
+    assert results.connection_forces_n[held[0], 0, 2] == pytest.approx(-0.4 * 100.0 * GRAVITY, rel=1e-6)
+
+
+def test_tie_that_is_strong_enough_holds_on(blender, tmp_path):
+    """The section breaks by bending, and its tie then carries the block that swings below it."""
+    blocks, area, mass = Blocks(), 0.04, 100.0
+    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), mass)
+    connection = blocks.connect("FIXED", (0.3, 0, 9.5), ceiling, block)
+    connection["bda_area_m2"], connection["bda_normal"] = area, (0.0, 0.0, -1.0)
+    tension = 4.0 * mass * GRAVITY / area
+    keep_breaking(blocks.scene, Breaking(Strength(1e12, tension, 1e12, 1.0), 0.0, Ductility(1.0, 0.5)))
+    results = blocks.play(tmp_path, 24 * 20)
+    assert not results.intact[-1][0]
+    assert results.places_m[-1, 1, 2] > 8.5
+    # Over whole seconds of swinging the mean force on the block is its weight.
+    assert results.body_forces_n[-240:, 1, 2].mean() == pytest.approx(mass * GRAVITY, rel=0.02)
