@@ -353,6 +353,19 @@ class Ball(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingSettings(Table):
+    """What is taken down while the simulation runs."""
+
+    table: ClassVar[str] = "recording"
+
+    every_substep: bool = key(
+        "Whether loads are read after every sub-step, which gives their means, peaks and impulses, or only after the "
+        "last one of each frame, which is faster and misses most of an impact.",
+        default=True,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSettings(Table):
     """Size of the pictures."""
 
@@ -382,6 +395,7 @@ class Scenario(Table):
     connections: ConnectionSettings
     shards: ShardSettings = field(default_factory=ShardSettings)
     ball: Ball | None = None
+    recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
 
     def _check_together(self) -> None:

@@ -81,7 +81,9 @@ def run_scenario(
     _prepare_view(scene, scenario)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
-    recording, blender_s, interrupted = _simulate(scene, folder, progress)
+    recording, blender_s, interrupted = _simulate(scene, folder, scenario.recording.every_substep, progress)
+    if recording.distrust:
+        progress.stage(f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}")
     results = recording.results()
     summary = _summary(scenario, model, scene, results, interrupted)
     summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
@@ -114,9 +116,11 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
     prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
 
 
-def _simulate(scene: bpy.types.Scene, folder: Path, progress: Progress) -> tuple[Recording, float, bool]:
+def _simulate(
+    scene: bpy.types.Scene, folder: Path, every_substep: bool, progress: Progress
+) -> tuple[Recording, float, bool]:
     """Play the timeline once: the recording, the wall time of Blender's own steps, and whether it was cut short."""
-    recording = Recording(scene, folder)
+    recording = Recording(scene, folder, every_substep=every_substep)
     frames = range(scene.frame_start, scene.frame_end + 1)
     handlers.start(recording)
     began = time.perf_counter()
