@@ -27,7 +27,7 @@ def press_greyed_buttons(person: Person) -> Steps:
     for button, reason in reasons.items():
         person.expect(f"{button} is greyed with a reason", reason in person.refusal(button))
         yield from person.hover(button)
-        yield 1.5
+        yield 3.0
         yield from person.picture(f"greyed_{button.partition('.')[2]}")
         yield from person.press("LEFTMOUSE")
     person.expect("greyed buttons do nothing", (everything(), dict(handlers())), (before, {}))
@@ -48,7 +48,7 @@ def build_and_undo(person: Person) -> Steps:
     yield from build(person)
     person.expect("a world is greyed with a reason", "already" in person.refusal("bda.build_scenario"))
     yield from person.hover("bda.build_scenario")
-    yield 1.5
+    yield 3.0
     yield from person.picture("greyed_after_building")
     yield from person.move_to_view()
     yield from person.press("Z", ctrl=True)

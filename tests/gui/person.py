@@ -158,6 +158,7 @@ class Person:
                 yield from self.move(sidebar.x + int(column * sidebar.width), y)
                 if name == self._under_mouse():
                     yield from self.move(self._mouse[0], y - PROBE_PX // 2)  # off the button's edge
+                    yield from self.move(self._mouse[0] + 1, self._mouse[1])
                     return
         raise LookupError(f"the sidebar shows no {name}")
 

@@ -2,9 +2,11 @@
 """Do a person's job in a real Blender with a window, by mouse and keyboard, and judge what comes of it.
 
 Started by scripts/gui_test; pytest has no part in it, and finds no tests here, as it takes minutes and a Blender with
-a screen. Every job (job_*.py beside this file) gets a Blender of its own, with the extension installed from its zip. Of each stay, in
-the output folder, screenshots after each step, what Blender wrote to the console, and what was checked. The exit
+a screen. Every job (job_*.py beside this file) gets a Blender of its own, with the extension installed from its zip.
+Of each stay, in the output folder, screenshots, what Blender wrote to the console, and what was checked. The exit
 status is 0 where everything was as it should be.
+
+A new job is a file job_NAME.py with a generator steps(person), written with what person.py and habits.py offer.
 """
 
 import argparse
