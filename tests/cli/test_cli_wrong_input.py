@@ -180,7 +180,7 @@ WRONG_FILES = {
     ),
     "no breaking force": (
         without("connections.breaking_force_kgf"),
-        ["connections.breaking_force_n and connections.breaking_force_kgf and connections.material are all missing", "expected exactly one"],
+        ["connections.breaking_force_kgf and connections.material are all missing", "expected exactly one"],
     ),
     "no search radius": (
         without("connections.search_radius_m"),
