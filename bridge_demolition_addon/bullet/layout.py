@@ -19,13 +19,21 @@ class BlenderLayout:
     body_shared: int = 80
     world_shared: int = 40
     world_substeps: int = 76
-    world_iterations: int = 78
-    world_time_scale: int = 84
     shared_physics_world: int = 24
     connection_physics: int = 144
     physics_world_dispatcher: int = 16
     physics_world_broadphase: int = 24
     physics_world_solver: int = 32
+
+    @property
+    def world_iterations(self) -> int:
+        """Iterations of the solver, a short after the sub-steps."""
+        return self.world_substeps + 2
+
+    @property
+    def world_time_scale(self) -> int:
+        """Time scale, behind the two shorts and the flags."""
+        return self.world_substeps + 8
 
 
 @dataclass(frozen=True, slots=True)
