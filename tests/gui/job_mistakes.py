@@ -27,7 +27,7 @@ def press_greyed_buttons(person: Person) -> Steps:
     for button, reason in reasons.items():
         person.expect(f"{button} is greyed with a reason", reason in person.refusal(button))
         yield from person.hover(button)
-        yield 3.0
+        yield 1.5
         yield from person.picture(f"greyed_{button.partition('.')[2]}")
         yield from person.press("LEFTMOUSE")
     person.expect("greyed buttons do nothing", (everything(), dict(handlers())), (before, {}))
@@ -38,7 +38,7 @@ def build_what_is_not_there(person: Person) -> Steps:
     yield from build(person, SCENARIO.with_name("nowhere.toml"))
     yield from person.picture("no_such_scenario")
     person.expect_reports("a scenario that is not there is an error", "nowhere.toml")
-    yield from person.move_to_view()
+    yield from person.close_message()
     person.expect("it changes nothing", everything(), before)
     person.expect("it makes no rigid-body world", person.scene.rigidbody_world is None)
 
@@ -48,7 +48,7 @@ def build_and_undo(person: Person) -> Steps:
     yield from build(person)
     person.expect("a world is greyed with a reason", "already" in person.refusal("bda.build_scenario"))
     yield from person.hover("bda.build_scenario")
-    yield 3.0
+    yield 1.5
     yield from person.picture("greyed_after_building")
     yield from person.move_to_view()
     yield from person.press("Z", ctrl=True)
@@ -70,7 +70,7 @@ def record_into_a_folder_in_use(person: Person) -> Steps:
     yield from person.picture("folder_in_use")
     person.expect_reports("a folder that is there is an error", "overwriting")
     person.expect("it registers nothing", dict(handlers()), {})
-    yield from person.move_to_view()
+    yield from person.close_message()
     yield from person.click("overwrite")
     yield from person.click("bda.register_handler")
     person.expect("it is used once overwriting is allowed", set(handlers().values()), {1})
@@ -78,7 +78,7 @@ def record_into_a_folder_in_use(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield from person.picture("nothing_recorded")
     person.expect_reports("nothing recorded without playing", "play the timeline")
-    yield from person.move_to_view()
+    yield from person.close_message()
 
 
 def record_after_playing_alone(person: Person) -> Steps:

@@ -27,12 +27,15 @@ HERE = Path(__file__).resolve().parent
 JOBS = tuple(sorted(path.stem.removeprefix("job_") for path in HERE.glob("job_*.py")))
 JOB_SECONDS = 300
 
+LOG_PREFIX = re.compile(r"\d+:\d\d\.\d{3}  \S+ +\| ")
+"""What Blender 5 begins its lines with: time and category."""
+
 EXPECTED_ON_CONSOLE = re.compile(
     r"$"
     r"|Blender \d+\.\d+"
     r"|Blender quit$"
-    r"|Saved session recovery to "
-    r"|could not get a list of mounted file-systems$"
+    r"|(Info: )?Saved (as |session recovery to )?\""
+    r"|(WARNING )?[Cc]ould not get a list of mounted file-systems$"
     r"|Read blend: "
 )
 """Lines that Blender writes as it goes."""
@@ -167,8 +170,11 @@ def unexpected(folder: Path) -> list[str]:
     """Lines on the console that neither Blender writes as it goes, nor repeat what a job has seen reported."""
     reports = folder / "reports.txt"
     seen = reports.read_text(encoding="utf-8").splitlines() if reports.exists() else []
-    repeated = {f"{level}: {report}" for level in ("Info", "Warning", "Error") for report in seen}
-    lines = (folder / "console.txt").read_text(encoding="utf-8", errors="replace").splitlines()
+    repeated = {
+        level + report for level in ("", "Info: ", "Warning: ", "Error: ", "WARNING ", "ERROR ") for report in seen
+    }
+    text = (folder / "console.txt").read_text(encoding="utf-8", errors="replace")
+    lines = [LOG_PREFIX.sub("", line) for line in text.splitlines()]
     return [line for line in lines if line not in repeated and not EXPECTED_ON_CONSOLE.match(line)]
 
 

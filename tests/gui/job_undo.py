@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Undo while a recording runs.
+
+Blender alone, without any add-on, may crash when it plays on after an undo in the middle of a simulation: this job is
+by itself, so that such a crash spoils no other.
+"""
+
+from habits import build, play_or_pause, play_until, register
+from person import Person, Steps
+from traces import handlers
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    yield from build(person)
+    yield from register(person, person.folder / "undone")
+    yield from play_until(person, 10)
+    yield from play_or_pause(person)
+    yield from person.press("Z", ctrl=True)
+    yield from person.picture("undone_while_recording")
+    yield from play_or_pause(person)
+    yield 1.0
+    yield from play_or_pause(person)
+    yield from person.click("bda.unregister_handler")
+    yield 2.0
+    yield from person.picture("undone_and_unregistered")
+    reports = ("30 shards", "Recording to", "as undo", "Results are in")
+    person.expect_reports("undo ends the recording with a warning", *reports)
+    person.expect("what was recorded is kept", (person.folder / "undone" / "summary.json").exists())
+    person.expect("no handler is left after undo", dict(handlers()), {})
