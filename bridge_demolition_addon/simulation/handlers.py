@@ -45,6 +45,7 @@ def _handlers() -> tuple[tuple[list, Callable], ...]:
     return (
         (lists.frame_change_pre, _before_frame),
         (lists.frame_change_post, _after_frame),
+        (lists.depsgraph_update_pre, _before_update),
         (lists.load_pre, _before_upheaval),
         (lists.undo_pre, _before_upheaval),
         (lists.redo_pre, _before_upheaval),
@@ -59,6 +60,11 @@ def _before_frame(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None
 @persistent
 def _after_frame(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     _follow(scene, lambda recording: recording.after_frame(depsgraph))
+
+
+@persistent
+def _before_update(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    _follow(scene, lambda recording: recording.before_update())
 
 
 @persistent

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
@@ -20,6 +21,9 @@ from .logs import Logs
 from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
 from .substeps import SubstepRecorder, no_ball_history
+
+_MOST_NAMES = 3
+"""Names of objects in a message."""
 
 
 class Recording:
@@ -48,6 +52,12 @@ class Recording:
     def __init__(self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True):
         if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
             raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+        unit_scale = scene.unit_settings.scale_length
+        if unit_scale != 1.0:
+            raise SimulationError(
+                f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
+                "set the unit scale to 1 and build the scene in metres"
+            )
         self.scene = scene
         self.folder = folder
         self.error: Exception | None = None
@@ -55,7 +65,8 @@ class Recording:
         self._every_substep = every_substep
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
-        self._counts_at_start = self._object_counts()
+        self._objects_at_start = self._objects()
+        self._names_at_start = self._names()
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
         self._substeps: SubstepRecorder | None = None
@@ -67,12 +78,32 @@ class Recording:
         """Let no time pass in the frame in which Blender makes its world.
 
         The world's first step otherwise happens in the same breath as its making, before anything can be asked of it.
+
+        Raises
+        ------
+        SimulationError
+            As for `before_update`.
         """
+        self.before_update()
         if self.scene.frame_current == self._start_frame + 1 and not self.distrust:
             try:
                 hold_time(self.scene)
             except LayoutError as error:
                 self.distrust = error
+
+    def before_update(self) -> None:
+        """See whether all that is recorded is still there, while Bullet still has what was removed just now.
+
+        Raises
+        ------
+        SimulationError
+            Bodies or connections were added or removed, or the whole world was.
+        """
+        world = self.scene.rigidbody_world
+        if world is None or world.collection is None:
+            raise SimulationError("the rigid-body world was removed while it was recorded")
+        if self._objects() != self._objects_at_start:
+            raise SimulationError(f"{self._changes()}: go to the start frame and record anew")
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take down the frame.
@@ -80,11 +111,10 @@ class Recording:
         Raises
         ------
         LayoutError, SimulationError
-            The world cannot be read any more, or bodies were added or removed while it ran.
+            The world cannot be read any more.
         """
         began = time.perf_counter()
         try:
-            self._check_objects()
             if not self.distrust:
                 self._follow_bullet(depsgraph)
             if self.distrust:
@@ -144,12 +174,6 @@ class Recording:
             return READING_OF_MOTION
         return "every sub-step" if self._every_substep else "last sub-step of each frame"
 
-    def _check_objects(self) -> None:
-        if self.scene.rigidbody_world is None:
-            raise SimulationError("the rigid-body world was removed while it was recorded")
-        if self._object_counts() != self._counts_at_start:
-            raise SimulationError("bodies or connections were added or removed: go to the start frame and record anew")
-
     def _follow_bullet(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Record the frame from Bullet's memory, or note why that cannot be trusted."""
         try:
@@ -177,9 +201,31 @@ class Recording:
         self._momentum = MomentumReader(self.scene, self._bodies, self._inventory)
         self._logs = Logs(self.folder, self._inventory)
 
-    def _object_counts(self) -> tuple[int, int]:
+    def _objects(self) -> bytes:
+        """What tells the objects in the world from all others, quickly."""
+        numbers = []
+        for objects in self._collections():
+            numbers.append(np.zeros(len(objects), np.int32))
+            objects.foreach_get("session_uid", numbers[-1])
+        return b"|".join(each.tobytes() for each in numbers)
+
+    def _names(self) -> dict[int, str]:
+        """Names of the objects in the world, by the numbers that stay theirs while Blender runs."""
+        return {each.session_uid: each.name for objects in self._collections() for each in objects}
+
+    def _collections(self) -> list[bpy.types.bpy_prop_collection]:
         world = self.scene.rigidbody_world
-        return len(world.collection.all_objects), len(world.constraints.all_objects) if world.constraints else 0
+        return [each.all_objects for each in (world.collection, world.constraints) if each]
+
+    def _changes(self) -> str:
+        """What was added and removed since the beginning."""
+        before, now = self._names_at_start, self._names()
+        changes = {
+            "removed": [name for number, name in before.items() if number not in now],
+            "added": [name for number, name in now.items() if number not in before],
+        }
+        texts = [f"{_some(names)} {change}" for change, names in changes.items() if names]
+        return "rigid-body world changed, " + (" and ".join(texts) or "its objects are in another order")
 
     def _record(self, state: WorldState, held: bool) -> None:
         if state is WorldState.ABSENT:
@@ -238,3 +284,9 @@ class Recording:
     def _keep(self, frame: dict[str, np.ndarray | float]) -> None:
         self._frames.append(frame)
         self._logs.write_frame(frame)
+
+
+def _some(names: Sequence[str]) -> str:
+    """The first of some names, and how many more there are."""
+    shown = ", ".join(repr(name) for name in names[:_MOST_NAMES])
+    return shown + (f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else "")
