@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from enum import IntEnum
 
 import numpy as np
 
@@ -100,14 +99,6 @@ class Sections:
     directions: np.ndarray
     bending_moduli_m3: np.ndarray
     torsion_moduli_m3: np.ndarray
-
-
-class Stage(IntEnum):
-    """What is left of a connection."""
-
-    INTACT = 0
-    DUCTILE = 1
-    GONE = 2
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -218,33 +209,3 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
     stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
     pressed = (bending - axial) / strength.compression_pa
     return np.hypot(np.maximum(stretched, pressed), shear / strength.shear_pa)
-
-
-def next_stages(
-    stages: np.ndarray, utilisations: np.ndarray, elongations_m: np.ndarray, ductility: Ductility
-) -> np.ndarray:
-    """Stages of connections after a step; none ever goes back.
-
-    An intact connection whose utilisation is above 1 becomes ductile, or is gone at once where nothing of its strength
-    would be left. A ductile one is gone when it has opened further than it can.
-
-    Parameters
-    ----------
-    stages
-        (m,) values of `Stage` before the step.
-    utilisations
-        (m,) from `utilisation`, against the full strength; nan breaks nothing.
-    elongations_m
-        (m,) distance between the points, one on each body, that were one before the connection broke.
-    ductility
-        Of all, or of each of them.
-    """
-    after_breaking = np.where(np.asarray(ductility.strength_share) > 0.0, Stage.DUCTILE, Stage.GONE)
-    breaks = (stages == Stage.INTACT) & (utilisations > 1.0)
-    lets_go = (stages == Stage.DUCTILE) & (elongations_m > ductility.elongation_m)
-    return np.where(lets_go, Stage.GONE, np.where(breaks, after_breaking, stages))
-
-
-def strength_shares(stages: np.ndarray, ductility: Ductility) -> np.ndarray:
-    """Part (m,) of its strength that each connection has in its stage: 1, the share that is left, or 0."""
-    return np.select([stages == Stage.INTACT, stages == Stage.DUCTILE], [1.0, ductility.strength_share], 0.0)

@@ -8,12 +8,9 @@ from bridge_demolition_addon.core.section_forces import SectionForces
 from bridge_demolition_addon.core.strength import (
     MATERIALS,
     Ductility,
-    Stage,
     Strength,
-    next_stages,
     rectangular_sections,
     square_sections,
-    strength_shares,
     strengths_of,
     utilisation,
     weaker,
@@ -184,40 +181,11 @@ def test_connections_without_an_area_or_with_unknown_forces_have_no_utilisation(
     forces = SectionForces(np.array([1.0, np.nan]), np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2)))
     values = utilisation(forces, square_sections(np.array([0.0, 4.0])), STRENGTH)
     assert np.isnan(values).all()
-    assert next_stages(np.zeros(2, int), values, np.zeros(2), Ductility(0.0, 0.0)).tolist() == [Stage.INTACT] * 2
 
 
 def test_no_connections():
     none = SectionForces(np.zeros(0), np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)))
     assert utilisation(none, square_sections(np.zeros(0)), STRENGTH).shape == (0,)
-
-
-def test_a_brittle_connection_is_gone_when_it_breaks():
-    stages = next_stages(np.zeros(3, int), np.array([0.5, 1.0, 1.001]), np.zeros(3), Ductility(0.0, 0.1))
-    assert stages.tolist() == [Stage.INTACT, Stage.INTACT, Stage.GONE]
-
-
-def test_a_ductile_connection_holds_on_until_it_has_opened():
-    ductility = Ductility(strength_share=0.3, elongation_m=0.05)
-    stages = np.array([Stage.INTACT])
-    history = []
-    for used_now, opened in [(0.9, 0.0), (1.2, 0.0), (0.1, 0.02), (0.1, 0.05), (0.1, 0.06), (0.0, 0.0)]:
-        stages = next_stages(stages, np.array([used_now]), np.array([opened]), ductility)
-        history.append(int(stages[0]))
-    # It becomes ductile once, stays so at its limit, and neither heals nor comes back when the crack closes.
-    assert history == [Stage.INTACT, Stage.DUCTILE, Stage.DUCTILE, Stage.DUCTILE, Stage.GONE, Stage.GONE]
-
-
-def test_share_of_the_strength_in_each_stage():
-    stages = np.array([Stage.INTACT, Stage.DUCTILE, Stage.GONE])
-    assert strength_shares(stages, Ductility(0.3, 0.05)).tolist() == [1.0, 0.3, 0.0]
-
-
-def test_some_connections_may_be_ductile_and_others_brittle():
-    ductility = Ductility(np.array([0.5, 0.0]), np.array([0.1, 0.1]))
-    stages = next_stages(np.zeros(2, int), np.full(2, 2.0), np.zeros(2), ductility)
-    assert stages.tolist() == [Stage.DUCTILE, Stage.GONE]
-    assert strength_shares(stages, ductility).tolist() == [0.5, 0.0]
 
 
 @pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf, np.array([1.0, 0.0])])
