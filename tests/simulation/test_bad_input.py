@@ -1,8 +1,8 @@
 """What goes wrong while a recording runs, or before: it is named, what was recorded stays, and nothing of ours is left.
 
 Deleting a body, undoing a step or removing the world frees what Blender's simulation still points at. Without any
-recording, Blender 5.0 and 5.2 crash over a third of such deletions, and over half of the files opened after a world was
-removed. Those tests run in processes of their own, and do not play on where a body was lost.
+recording, Blender 5.0 and 5.2 crash after one in three of such deletions, one in four redos, and every other file
+opened after a world was removed. Those tests run in processes of their own, and do not play on where a body was lost.
 """
 
 import csv
@@ -102,7 +102,7 @@ def falling_heights(blender, scene, body, last):
 def in_own_process(folder, upheaval, check):
     """Record, do something that Blender itself may not survive, and check what becomes of the recording.
 
-    Returns whether Blender survived its own part; everything after that has to go well.
+    Returns whether Blender survived it; a mistake in the recording is raised here.
     """
     begin = """
         import os, bpy
@@ -112,7 +112,7 @@ def in_own_process(folder, upheaval, check):
         pair, folder = Pair(), Path(os.environ["FOLDER"])
         recording = pair.record(folder)
     """
-    script = (begin, upheaval, "print('survived', flush=True)", check, "print('ended well', flush=True); os._exit(0)")
+    script = (begin, upheaval, check, "print('ended well', flush=True); os._exit(0)")
     here = Path(__file__).parent
     folder.mkdir()
     done = subprocess.run(
@@ -127,10 +127,8 @@ def in_own_process(folder, upheaval, check):
         timeout=120,
         check=False,
     )
-    survived = "survived" in done.stdout
     assert "Traceback" not in done.stderr, done.stderr
-    assert not survived or "ended well" in done.stdout, done.stderr
-    return survived
+    return "ended well" in done.stdout
 
 
 UPHEAVALS = {
@@ -198,7 +196,7 @@ UPHEAVALS = {
 
 @pytest.mark.parametrize(("upheaval", "check"), UPHEAVALS.values(), ids=UPHEAVALS)
 def test_something_taken_away(tmp_path, upheaval, check):
-    # Blender survives two of three deletions, so that fewer than one in 10 000 tests fails for its sake.
+    # Blender survives at least two of three, so that fewer than one in 10 000 tests fails for its sake.
     assert any(in_own_process(tmp_path / str(attempt), upheaval, check) for attempt in range(9))
 
 
