@@ -87,9 +87,3 @@ def create_connections(
         collection.objects.link(connection)
         objects.append(connection)
     return objects
-
-
-def set_breaking_impulse(connections: Sequence[bpy.types.Object], impulse: float) -> None:
-    """Rewrite the breaking threshold of all connections, N·s in one sub-step."""
-    for connection in connections:
-        connection.rigid_body_constraint.breaking_threshold = impulse

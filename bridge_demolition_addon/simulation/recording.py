@@ -147,7 +147,13 @@ class Recording:
     @property
     def seconds(self) -> float:
         """Wall time that recording has taken so far."""
-        return self._seconds + (self._substeps.seconds if self._substeps else 0.0)
+        # Read once a frame, the sub-step is read within the frame's own time.
+        return self._seconds + (self.reading_seconds if self._every_substep else 0.0)
+
+    @property
+    def reading_seconds(self) -> float:
+        """The part of it that went into reading loads from Bullet and gathering them."""
+        return self._substeps.seconds if self._substeps else 0.0
 
     def results(self) -> Results:
         """Everything recorded.

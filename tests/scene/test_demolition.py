@@ -154,14 +154,6 @@ def test_thresholds_are_the_breaking_force_times_the_substep(build, time, subste
         assert constraint.breaking_threshold == pytest.approx(98_066.5 * substep_s, rel=SINGLE)
 
 
-def test_thresholds_can_be_rewritten(build):
-    from bridge_demolition_addon.scene.connections import set_breaking_impulse
-
-    found = connections(build())
-    set_breaking_impulse(found, 12.5)
-    assert {each.rigid_body_constraint.breaking_threshold for each in found} == {12.5}
-
-
 def test_step_of_the_scene(build):
     from bridge_demolition_addon.scene.world import scene_time_step
 
