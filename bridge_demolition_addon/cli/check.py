@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from ..core.bridge import bridge_density, bridge_members, deck_top
 from ..core.scenario import Ball, Bridge, ConnectionSettings, Scenario, TimeSettings
-from ..core.scenario_file import read_scenario
+from ..core.scenario.file import read_scenario
 from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 
 

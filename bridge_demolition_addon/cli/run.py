@@ -10,7 +10,7 @@ from typing import Any
 
 from ..core.errors import SimulationError
 from ..core.scenario import Scenario
-from ..core.scenario_file import read_scenario
+from ..core.scenario.file import read_scenario
 from ..simulation.output import RESULT_FILES
 from .progress import Progress, progress_on
 

@@ -7,7 +7,8 @@ from contextlib import contextmanager
 
 import bpy
 
-from ..core.scenario import STANDARD_GRAVITY_M_S2, TimeSettings
+from ..core.gravity import STANDARD_GRAVITY_M_S2
+from ..core.scenario import TimeSettings
 from ..core.time_step import TimeStep
 
 START_FRAME = 1

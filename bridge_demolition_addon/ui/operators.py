@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import DemolitionError, OutputError
 from ..core.model import build_model
-from ..core.scenario_file import read_scenario
+from ..core.scenario.file import read_scenario
 from ..core.summary import summarise
 from ..scene.demolition import build_demolition
 from ..simulation import handlers

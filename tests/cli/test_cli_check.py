@@ -10,7 +10,7 @@ import pytest
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "i235_one_span.toml"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
 ROOT = Path(__file__).parents[2]
 I235 = read_scenario(ROOT / "examples" / "i235_one_span.toml")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "run_scenario.py"

@@ -11,7 +11,7 @@ from bridge_demolition_addon.core.connections import GROUND
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.model import build_model, shards_per_member
 from bridge_demolition_addon.core.scenario import ConnectionSettings
-from bridge_demolition_addon.core.scenario_file import read_scenario
+from bridge_demolition_addon.core.scenario.file import read_scenario
 
 EXAMPLE = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 

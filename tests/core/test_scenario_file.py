@@ -19,7 +19,7 @@ from bridge_demolition_addon.core.scenario import (
     Scenario,
     TimeSettings,
 )
-from bridge_demolition_addon.core.scenario_file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 I235 = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from bridge_demolition_addon.core.scenario import Scenario
-from bridge_demolition_addon.core.scenario_key import key_fields, subtable_class, subtable_fields
-from bridge_demolition_addon.core.scenario_reference import scenario_reference
+from bridge_demolition_addon.core.scenario.key import key_fields, subtable_class, subtable_fields
+from bridge_demolition_addon.core.scenario.reference import scenario_reference
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "scenario.md"
 
@@ -17,7 +17,7 @@ def all_tables(table_class):
 
 def test_the_document_is_up_to_date():
     assert DOCUMENT.read_text(encoding="utf-8") == scenario_reference(), (
-        "run: python -m bridge_demolition_addon.core.scenario_reference docs/scenario.md"
+        "run: python -m bridge_demolition_addon.core.scenario.reference docs/scenario.md"
     )
 
 

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.image import imread
 
 from bridge_demolition_addon.core.model import build_model
-from bridge_demolition_addon.core.scenario_file import read_scenario
+from bridge_demolition_addon.core.scenario.file import read_scenario
 
 EXAMPLE = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 

@@ -7,7 +7,7 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.core.summary import summarise
 from bridge_demolition_addon.simulation import handlers
 from bridge_demolition_addon.simulation.recording import Recording

@@ -6,7 +6,7 @@ from blocks import Blocks
 
 from bridge_demolition_addon.bullet.world import BulletWorld
 from bridge_demolition_addon.core.frame_loads import FrameLoads
-from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation import handlers
 from bridge_demolition_addon.simulation.recording import Recording
 from bridge_demolition_addon.simulation.substeps import SubstepRecorder

@@ -7,7 +7,7 @@ import pytest
 from blocks import Blocks
 from shard_scenes import DENSITY_KG_M3, ShardScene
 
-from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.core.strength import MATERIALS, Ductility, Strength
 from bridge_demolition_addon.scene.breaking import Breaking, keep_breaking
 from bridge_demolition_addon.simulation import handlers

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.scenario import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2

@@ -1,6 +1,6 @@
 """The reference of all keys of a scenario file, made from the dataclasses that check them.
 
-``python -m bridge_demolition_addon.core.scenario_reference docs/scenario.md`` writes it.
+``python -m bridge_demolition_addon.core.scenario.reference docs/scenario.md`` writes it.
 """
 
 import sys
@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from dataclasses import Field
 from pathlib import Path
 
+from .file import toml_value
+from .key import Table, expected, holds_many, is_required, key_fields, subtable_class, subtable_fields
 from .scenario import Scenario
-from .scenario_file import toml_value
-from .scenario_key import Table, expected, is_required, key_fields, subtable_class, subtable_fields
 
 INTRODUCTION = """\
 # Scenario files
 
-<!-- Made by `python -m bridge_demolition_addon.core.scenario_reference docs/scenario.md`: change the code instead. -->
+<!-- Made by `python -m bridge_demolition_addon.core.scenario.reference docs/scenario.md`: change the code instead. -->
 
 A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads one and says what follows from it, `bda run FILE`
 runs it; [examples](../examples) has some to start from. Every key carries its unit in its name. A key that is not
@@ -31,17 +31,18 @@ def scenario_reference() -> str:
     return "\n".join([INTRODUCTION, *_section(Scenario, required=True)])
 
 
-def _section(table_class: type[Table], *, required: bool) -> Iterator[str]:
-    yield f"## [{table_class.table}]"
+def _section(table_class: type[Table], *, required: bool, many: bool = False) -> Iterator[str]:
+    yield f"## [[{table_class.table}]]" if many else f"## [{table_class.table}]"
     yield ""
-    yield f"{_meaning(table_class)} {'Required.' if required else 'May be left out.'}"
+    often = "As often as needed." if many else "May be left out."
+    yield f"{_meaning(table_class)} {'Required.' if required else often}"
     yield ""
     yield "| Key | Value | Default | Meaning |"
     yield "| --- | --- | --- | --- |"
     yield from map(_row, key_fields(table_class))
     yield ""
     for item in subtable_fields(table_class):
-        yield from _section(subtable_class(item), required=is_required(item))
+        yield from _section(subtable_class(item), required=is_required(item), many=holds_many(item))
 
 
 def _row(item: Field) -> str:

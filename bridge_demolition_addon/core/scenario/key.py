@@ -11,7 +11,7 @@ from unicodedata import category
 
 import numpy as np
 
-from .errors import ScenarioError
+from ..errors import ScenarioError
 
 LARGEST_INTEGER = 2**31 - 1
 """Largest whole number that Blender's properties hold."""
@@ -19,6 +19,12 @@ LARGEST_INTEGER = 2**31 - 1
 SMALLEST_NUMBER = float(np.finfo(np.float32).tiny)
 LARGEST_NUMBER = float(np.finfo(np.float32).max)
 """Bounds of the sizes that Blender's single precision holds; what is not 0 has to lie between them."""
+
+SHORTEST_LENGTH_M = 0.001
+"""Least size of anything solid: Bullet cannot tell contacts apart on bodies that are smaller still."""
+
+ROUNDING = 1e-9
+"""Relative slack where lengths are compared that a user would add up in decimals."""
 
 LONGEST_SHOWN_TEXT = 60
 LINE_BREAKING_CATEGORIES = {"Cc", "Cs", "Zl", "Zp"}
@@ -106,9 +112,16 @@ class Table:
 
 
 def subtable_class(item: Field) -> type[Table] | None:
-    """Dataclass of the table that a field holds, none for a field that holds a plain value."""
+    """Dataclass of the table or tables that a field holds, none for a field that holds a plain value."""
     held = _type_held(item)
+    if get_origin(held) is tuple:
+        held = get_args(held)[0]
     return held if isinstance(held, type) and issubclass(held, Table) else None
+
+
+def holds_many(item: Field) -> bool:
+    """Whether a field holds a list, of tables or of values."""
+    return get_origin(_type_held(item)) is tuple
 
 
 def key_fields(table_class: type[Table]) -> Iterator[Field]:
@@ -135,7 +148,7 @@ def key_name(table_class: type[Table], item: Field) -> str:
 def expected(item: Field) -> str:
     """What a key takes, in words, such as ``a number above 0 (m)``."""
     if subtable_class(item):
-        return "a table"
+        return "tables" if holds_many(item) else "a table"
     rule: Key = item.metadata["key"]
     held = _type_held(item)
     if held is bool:
@@ -160,6 +173,8 @@ def checked(item: Field, name: str, value: Any) -> Any:
     if value is None and NoneType in get_args(item.type):
         return None
     held = _type_held(item)
+    if table_class := subtable_class(item):
+        return _checked_tables(item, name, value, table_class)
     if get_origin(held) is tuple:
         return _checked_list(item, name, value)
     if held in (int, float):
@@ -167,6 +182,21 @@ def checked(item: Field, name: str, value: Any) -> Any:
     if not isinstance(value, held) or (held is str and not _is_text(value, item.metadata["key"].choices)):
         raise _unexpected(item, name, value)
     return value
+
+
+def check_exactly_one(table: Table, *names: str) -> None:
+    """See that one of several keys is given.
+
+    Raises
+    ------
+    ScenarioError
+        None is, or more than one.
+    """
+    given = [name for name in names if getattr(table, name) is not None]
+    if len(given) != 1:
+        state = "given together" if given else "all missing"
+        listed = " and ".join(f"{table.table}.{name}" for name in given or names)
+        raise ScenarioError(f"{listed} are {state}: expected exactly one of {', '.join(names)}")
 
 
 def shown(value: Any) -> str:
@@ -193,6 +223,16 @@ def _type_held(item: Field) -> Any:
 def _list_length(held: Any) -> int | None:
     kinds = get_args(held)
     return None if Ellipsis in kinds else len(kinds)
+
+
+def _checked_tables(item: Field, name: str, value: Any, table_class: type[Table]) -> Table | tuple[Table, ...]:
+    if not holds_many(item):
+        if not isinstance(value, table_class):
+            raise _unexpected(item, name, value)
+        return value
+    if not isinstance(value, list | tuple) or not all(isinstance(each, table_class) for each in value):
+        raise _unexpected(item, name, value)
+    return tuple(value)
 
 
 def _checked_list(item: Field, name: str, values: Any) -> tuple[float, ...]:

@@ -10,11 +10,11 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from .errors import ScenarioError
-from .scenario import Scenario
-from .scenario_key import (
+from ..errors import ScenarioError
+from .key import (
     Table,
     expected,
+    holds_many,
     is_required,
     key_fields,
     key_name,
@@ -22,6 +22,7 @@ from .scenario_key import (
     subtable_class,
     subtable_fields,
 )
+from .scenario import Scenario
 
 LIKENESS = 0.68
 """How much alike an unknown name and a suggestion are at least: radius_m is search_radius_m, but title is not time."""
@@ -122,10 +123,25 @@ def _subtables(table_class: type[Table], values: dict[str, Any]) -> dict[str, Ta
         if is_required(item) and item.name not in values:
             raise ScenarioError(f"{key_name(table_class, item)} is missing: expected a table")
     return {
-        item.name: _table(subtable_class(item), values[item.name])
+        item.name: (_tables if holds_many(item) else _table)(subtable_class(item), values[item.name])
         for item in subtable_fields(table_class)
         if item.name in values
     }
+
+
+def _tables(table_class: type[Table], values: Any) -> tuple[Table, ...]:
+    """Tables of a list, each written under its own ``[[name]]``; a complaint about one of several gives its number."""
+    if not isinstance(values, list):
+        raise ScenarioError(
+            f"{table_class.table} is {shown(values)}: expected tables, each under [[{table_class.table}]]"
+        )
+    tables = []
+    for number, each in enumerate(values, start=1):
+        try:
+            tables.append(_table(table_class, each))
+        except ScenarioError as error:
+            raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
+    return tuple(tables)
 
 
 def _refuse_unknown(table: str, values: dict[str, Any], known: Iterable[str]) -> None:
@@ -156,14 +172,18 @@ def _dotted(table: str, name: str) -> str:
     return f"{table}.{part}" if table else part
 
 
-def _table_lines(table: Table) -> Iterator[str]:
+def _table_lines(table: Table, heading: str = "[{}]") -> Iterator[str]:
     """Lines of a table and of the tables in it; a value or table that is not there has no line."""
-    yield f"[{table.table}]"
+    yield heading.format(table.table)
     for item in key_fields(type(table)):
         value = getattr(table, item.name)
         if value is not None:
             yield f"{item.name} = {toml_value(value)}"
     yield ""
     for item in subtable_fields(type(table)):
-        if inner := getattr(table, item.name):
+        inner = getattr(table, item.name)
+        if holds_many(item):
+            for each in inner:
+                yield from _table_lines(each, "[[{}]]")
+        elif inner:
             yield from _table_lines(inner)

@@ -1,0 +1,50 @@
+"""Surface, damping and rest of shards and ground."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..errors import ScenarioError
+from .key import Table, key
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ground(Table):
+    """The ground: flat and unyielding."""
+
+    table: ClassVar[str] = "ground"
+
+    friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ShardSettings(Table):
+    """Surface, damping and rest of the shards."""
+
+    table: ClassVar[str] = "shards"
+
+    friction: float = key("Coefficient of friction.", default=0.6, at_least=0)
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    collision_margin_m: float = key(
+        "Distance at which shards already touch.", default=0.0, unit="m", at_least=0, at_most=1
+    )
+    linear_damping: float = key("Share of the velocity lost in one second.", default=0.04, at_least=0, at_most=1)
+    angular_damping: float = key(
+        "Share of the angular velocity lost in one second.", default=0.1, at_least=0, at_most=1
+    )
+    use_deactivation: bool = key("Whether shards at rest fall asleep until something hits them.", default=True)
+    start_deactivated: bool = key(
+        "Whether shards sleep until something hits them; needs `use_deactivation`.", default=True
+    )
+    deactivation_linear_velocity_m_s: float = key(
+        "Velocity below which a shard is at rest.", default=0.4, unit="m/s", at_least=0
+    )
+    deactivation_angular_velocity_rad_s: float = key(
+        "Angular velocity below which a shard is at rest.", default=0.5, unit="rad/s", at_least=0
+    )
+
+    def _check_together(self) -> None:
+        if self.start_deactivated and not self.use_deactivation:
+            raise ScenarioError(
+                "shards.start_deactivated is true: expected false where shards.use_deactivation is false"
+            )

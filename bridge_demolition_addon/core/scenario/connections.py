@@ -1,0 +1,105 @@
+"""Which shards are connected, how, and what breaks a connection."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..errors import ScenarioError
+from ..gravity import STANDARD_GRAVITY_M_S2
+from ..strength import MATERIALS
+from .key import LARGEST_INTEGER, Table, check_exactly_one, key
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConnectionSettings(Table):
+    """Which shards are connected, how, and what breaks a connection."""
+
+    table: ClassVar[str] = "connections"
+
+    type: str = key(
+        "Kind of rigid-body constraint: `FIXED` holds everything, `POINT` a point, `HINGE` all but one rotation.",
+        default="HINGE",
+        choices=("FIXED", "POINT", "HINGE"),
+    )
+    method: str = key(
+        "Which shards are connected: those whose nearest vertices (`vertex`) or centres of mass (`centre`) lie within "
+        "`search_radius_m`, or those that share a face (`face`).",
+        default="vertex",
+        choices=("vertex", "centre", "face"),
+    )
+    search_radius_m: float | None = key(
+        "Distance up to which shards are connected. Needed for `vertex` and `centre`, not taken for `face`.",
+        default=None,
+        unit="m",
+        above=0,
+    )
+    limit_per_shard: int = key(
+        "Most connections of one shard; the nearest are kept.", default=50, at_least=1, at_most=LARGEST_INTEGER
+    )
+    breaking_force_n: float | None = key(
+        "Force that breaks a connection. Give this or `breaking_force_kgf`.", default=None, unit="N", above=0
+    )
+    breaking_force_kgf: float | None = key(
+        "Force that breaks a connection, 1 kgf = 9.80665 N. Give this or `breaking_force_n`.",
+        default=None,
+        unit="kgf",
+        above=0,
+    )
+    material: str | None = key(
+        "Material by whose strengths a connection breaks, under axial force, shear and bending together; with method "
+        "`face`, as it takes the area of the shared face. Give this, `breaking_force_n` or `breaking_force_kgf`.",
+        default=None,
+        choices=tuple(MATERIALS),
+    )
+    ductile_share: float = key(
+        "Part of a material's tensile strength that a connection keeps when it breaks, as reinforcement across the "
+        "crack; 0 for none.",
+        default=0.0,
+        at_least=0,
+        at_most=1,
+    )
+    ductile_elongation_m: float | None = key(
+        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share`, not taken without.",
+        default=None,
+        unit="m",
+        above=0,
+    )
+    warm_up_s: float = key(
+        "Time from the start in which no connection breaks, so that the bridge settles under its own weight.",
+        default=0.0,
+        unit="s",
+        at_least=0,
+    )
+    foundation: bool = key("Whether shards that stand on the ground are connected to it.", default=True)
+
+    @property
+    def breaking_force_newton(self) -> float | None:
+        """Force that breaks a connection, N, whichever unit it was given in; None for a material."""
+        if self.material is not None:
+            return None
+        if self.breaking_force_n is not None:
+            return self.breaking_force_n
+        return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
+
+    def _check_together(self) -> None:
+        check_exactly_one(self, "breaking_force_n", "breaking_force_kgf", "material")
+        if self.material is not None and self.method != "face":
+            raise ScenarioError(
+                f'connections.material is "{self.material}": expected method "face" with it, found "{self.method}"'
+            )
+        if self.ductile_share > 0.0 and self.material is None:
+            raise ScenarioError(
+                f"connections.ductile_share is {self.ductile_share}: expected 0 where connections.material is not given"
+            )
+        if (self.ductile_share > 0.0) != (self.ductile_elongation_m is not None):
+            raise ScenarioError(
+                f"connections.ductile_elongation_m is {self.ductile_elongation_m}: expected a number above 0 (m) with "
+                f"a connections.ductile_share above 0, and none with {self.ductile_share}"
+            )
+        if self.method == "face" and self.search_radius_m is not None:
+            raise ScenarioError(
+                f'connections.search_radius_m is {self.search_radius_m}: expected none with method "face"'
+            )
+        if self.method != "face" and self.search_radius_m is None:
+            raise ScenarioError(
+                f'connections.search_radius_m is missing: expected a number above 0 (m) with method "{self.method}"'
+            )

@@ -1,0 +1,54 @@
+"""How long is simulated, and in which steps."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..errors import ScenarioError
+from ..time_step import TimeStep
+from .key import Table, key
+
+MOST_FRAMES = 1_000_000
+"""Blender's timeline ends at frame 1 048 574; a run needs a few frames of it before time begins."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimeSettings(Table):
+    """How long is simulated, and in which steps."""
+
+    table: ClassVar[str] = "time"
+
+    duration_s: float = key("Simulated time.", unit="s", above=0)
+    frames_per_second: int = key("Blender's frame rate.", default=24, unit="1/s", at_least=1, at_most=32767)
+    frames_per_second_base: float = key(
+        "Divisor of the frame rate: 30 with a base of 1.001 is 29.97 frames per second.",
+        default=1.0,
+        above=0,
+        at_most=1_000_000,
+    )
+    substeps_per_frame: int = key("Steps of the physics in one frame.", default=10, at_least=1, at_most=1000)
+    solver_iterations: int = key(
+        "Passes over all connections and contacts in one sub-step; more make a stiffer bridge.",
+        default=10,
+        at_least=1,
+        at_most=1000,
+    )
+    time_scale: float = key(
+        "Simulated seconds in one second of animation: below 1 is slow motion.", default=1.0, above=0, at_most=100
+    )
+
+    @property
+    def step(self) -> TimeStep:
+        """Frames and sub-steps that these settings give."""
+        return TimeStep(self.frames_per_second, self.frames_per_second_base, self.substeps_per_frame, self.time_scale)
+
+    @property
+    def frames(self) -> int:
+        """Whole frames that cover the duration."""
+        return self.step.frames(self.duration_s)
+
+    def _check_together(self) -> None:
+        if self.duration_s / self.step.frame_s > MOST_FRAMES or not 1 <= self.frames <= MOST_FRAMES:
+            raise ScenarioError(
+                f"time.duration_s is {self.duration_s}: expected 1 to {MOST_FRAMES} frames, "
+                f"each of {self.step.frame_s:.3g} s"
+            )
