@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-_FRAME_NOISE = 1e-6
+FRAME_NOISE = 1e-6
 """Part of a frame that rounding may add to a duration without a frame being added for it."""
 
 
@@ -44,4 +44,4 @@ class TimeStep:
 
     def frames(self, duration_s: float) -> int:
         """Whole frames that cover a simulated duration."""
-        return math.ceil(duration_s / self.frame_s - _FRAME_NOISE)
+        return math.ceil(duration_s / self.frame_s - FRAME_NOISE)

@@ -85,7 +85,7 @@ def test_every_key_has_a_meaning():
 
 def test_every_key_with_a_unit_carries_it_in_its_name():
     in_names = {"m": "_m", "s": "_s", "kg": "_kg", "kg/m³": "_kg_m3", "N": "_n", "kgf": "_kgf", "px": "_px"}
-    in_names |= {"m/s": "_m_s", "rad/s": "_rad_s", "1/s": "_per_second"}
+    in_names |= {"ms": "_ms", "m/s": "_m_s", "rad/s": "_rad_s", "1/s": "_per_second"}
     for table_class in all_tables(Scenario):
         for item in key_fields(table_class):
             unit = item.metadata["key"].unit

@@ -3,16 +3,17 @@
 from pathlib import Path
 
 from bridge_demolition_addon.core.scenario import Scenario
-from bridge_demolition_addon.core.scenario.key import key_fields, subtable_class, subtable_fields
+from bridge_demolition_addon.core.scenario.key import holds_many, key_fields, subtable_class, subtable_fields
 from bridge_demolition_addon.core.scenario.reference import scenario_reference
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "scenario.md"
 
 
-def all_tables(table_class):
-    yield table_class
+def all_tables(table_class, brackets="[{}]"):
+    """Every table with its heading in a file."""
+    yield brackets.format(table_class.table), table_class
     for item in subtable_fields(table_class):
-        yield from all_tables(subtable_class(item))
+        yield from all_tables(subtable_class(item), "[[{}]]" if holds_many(item) else "[{}]")
 
 
 def test_the_document_is_up_to_date():
@@ -24,8 +25,8 @@ def test_the_document_is_up_to_date():
 def test_every_key_has_a_row_of_four_cells():
     sections = scenario_reference().split("\n## ")[1:]
     tables = list(all_tables(Scenario))
-    assert [section.splitlines()[0] for section in sections] == [f"[{table_class.table}]" for table_class in tables]
-    for section, table_class in zip(sections, tables, strict=True):
+    assert [section.splitlines()[0] for section in sections] == [heading for heading, _ in tables]
+    for section, (_, table_class) in zip(sections, tables, strict=True):
         rows = [line for line in section.splitlines() if line.startswith("| `")]
         assert [row.split("`")[1] for row in rows] == [item.name for item in key_fields(table_class)]
         assert {row.count(" | ") for row in rows} == {3}

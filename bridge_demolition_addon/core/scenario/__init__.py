@@ -5,6 +5,7 @@ The deck lies on the pier caps, or on the piers where there are no caps. One mod
 """
 
 from .ball import Ball
+from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge, Deck, PierCaps, Piers
 from .connections import ConnectionSettings
@@ -15,7 +16,9 @@ from .time import TimeSettings
 
 __all__ = [
     "Ball",
+    "BlastSettings",
     "Bridge",
+    "ChargeSettings",
     "ConnectionSettings",
     "Deck",
     "FractureSettings",

@@ -3,15 +3,18 @@
 from dataclasses import dataclass, field
 from typing import ClassVar
 
+from ..blast.charges import Charge
 from ..errors import ScenarioError
+from ..timeline import Timeline
 from .ball import Ball
+from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
-from .key import LARGEST_INTEGER, ROUNDING, Table, key
+from .key import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .output import PictureSettings, RecordingSettings
-from .time import TimeSettings
+from .time import MOST_FRAMES, TimeSettings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,16 +37,50 @@ class Scenario(Table):
     connections: ConnectionSettings
     shards: ShardSettings = field(default_factory=ShardSettings)
     ball: Ball | None = None
+    blast: BlastSettings = field(default_factory=BlastSettings)
+    charges: tuple[ChargeSettings, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
 
+    @property
+    def placed_charges(self) -> tuple[Charge, ...]:
+        """The charges, in their order."""
+        return tuple(each.charge(number) for number, each in enumerate(self.charges, start=1))
+
+    @property
+    def timeline(self) -> Timeline:
+        """The frames of the run, shorter ones around detonations where that is asked for."""
+        frame_s = self.time.step.frame_s
+        slow_motions = self.blast.slow_motions(self.placed_charges, frame_s)
+        return Timeline.of(frame_s, self.time.duration_s, slow_motions)
+
     def _check_together(self) -> None:
+        self._check_charges()
         if self.ball:
             self._check_release(self.ball)
             self._check_target(self.ball)
 
+    def _check_charges(self) -> None:
+        charges = self.placed_charges
+        names = [charge.name for charge in charges]
+        for name in names:
+            if names.count(name) > 1:
+                raise ScenarioError(f"charges.name is {shown(name)} for {names.count(name)} charges: expected one each")
+        for charge in charges if self.blast.explosion else ():
+            detonation_s = self.blast.start_s + charge.delay_s
+            if detonation_s >= self.time.duration_s:
+                raise ScenarioError(
+                    f"{charge.name} detonates at {detonation_s:g} s (blast.start_s and its charges.delay_ms): "
+                    f"expected less than time.duration_s, {self.time.duration_s:g} (s)"
+                )
+        slow_s = sum(motion.duration_s for motion in self.blast.slow_motions(charges, self.time.step.frame_s))
+        if slow_s and slow_s / self.blast.slow_frame_ms * 1000.0 + self.time.frames > MOST_FRAMES:
+            raise ScenarioError(
+                f"blast.slow_frame_ms is {self.blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"
+            )
+
     def _check_release(self, ball: Ball) -> None:
-        if self.time.step.frames(ball.release_time_s) >= self.time.frames:
+        if self.timeline.frames_until(ball.release_time_s) >= len(self.timeline):
             raise ScenarioError(
                 f"ball.release_time_s is {ball.release_time_s}: "
                 f"expected less than time.duration_s, {self.time.duration_s} (s), "

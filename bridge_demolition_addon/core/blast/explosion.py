@@ -1,0 +1,198 @@
+"""What several charges do to several bodies in every step of a simulation, while the bodies move and turn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .charges import Charge, ChargeArrays
+from .hulls import ConvexHulls
+from .models import BlastModel
+from .projection import lines_of_blast, projected_areas
+from .pulses import Loading, Pulses, blast_pulses, impulse_between
+from .shielding import visible_shares
+from .wave import scaled_distance
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BlastOptions:
+    """How blast loads are reckoned.
+
+    Attributes
+    ----------
+    start_s
+        Simulated time at which a charge without delay detonates.
+    model, loading, constant_decay
+        As for `blast_pulses`.
+    shielding
+        Whether a body that others hide from a charge gets less.
+    """
+
+    start_s: float = 0.0
+    model: BlastModel = BlastModel.KINGERY_BULMASH
+    loading: Loading = Loading.INCIDENT
+    shielding: bool = False
+    constant_decay: float | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StepLoads:
+    """Loads of one step of time: k pairs of a body and a charge that loads it, structure of arrays.
+
+    Attributes
+    ----------
+    bodies, charges
+        (k,) which body and which charge.
+    stand_offs_m, scaled_distances
+        (k,) from the charge to the body's centre when the charge detonated, in m and m/kg^(1/3).
+    areas_m2
+        (k,) area that the body shows to the charge, times the share of it that stands free.
+    directions
+        (k, 3) unit vectors from the charge to the body when the charge detonated.
+    peaks_pa
+        (k,) peak overpressure of the pulse.
+    pressure_impulses_pa_s
+        (k,) the overpressure's integral over this step.
+    impulses_ns
+        (k,) impulse that the body gets along the direction in this step.
+    """
+
+    bodies: np.ndarray
+    charges: np.ndarray
+    stand_offs_m: np.ndarray
+    scaled_distances: np.ndarray
+    areas_m2: np.ndarray
+    directions: np.ndarray
+    peaks_pa: np.ndarray
+    pressure_impulses_pa_s: np.ndarray
+    impulses_ns: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+    def vectors(self, count: int) -> np.ndarray:
+        """Impulse (count, 3) in N·s on each of so many bodies, of all charges together."""
+        sums = np.zeros((count, 3))
+        np.add.at(sums, self.bodies, self.impulses_ns[:, None] * self.directions)
+        return sums
+
+
+class Explosion:
+    """Charges and the bodies around them, through time.
+
+    A charge finds out where the bodies are when it detonates: its front is faster than they are by far. The areas they
+    show to it follow their turning.
+
+    Parameters
+    ----------
+    charges
+        The c charges.
+    hulls
+        Convex hulls of n bodies.
+    options
+        How loads are reckoned.
+    """
+
+    def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, options: BlastOptions):
+        self.charges = tuple(charges)
+        self._arrays = ChargeArrays.of(self.charges)
+        self._detonations_s = options.start_s + self._arrays.delays_s
+        self._hulls, self._options = hulls, options
+        shape = (len(hulls), len(self.charges))
+        self._detonated = np.zeros(shape[1], bool)
+        self._pulses = Pulses(np.full(shape, np.inf), np.zeros(shape), np.zeros(shape), np.zeros(shape))
+        self._stand_offs = np.zeros(shape)
+        self._directions = np.zeros((*shape, 3))
+        self._shares = np.ones(shape)
+
+    def loads(self, start_s: float, end_s: float, centres: np.ndarray, rotations: np.ndarray) -> StepLoads:
+        """Exact loads of a step of time.
+
+        Parameters
+        ----------
+        start_s, end_s
+            Simulated time at its beginning and at its end.
+        centres, rotations
+            (n, 3) where the bodies' centres of mass are at its beginning, m, and (n, 3, 3) how they are turned.
+        """
+        self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
+        pulses = self._pulses
+        during = (pulses.peaks_pa > 0.0) & (pulses.arrivals_s < end_s) & (start_s < pulses.ends_s)
+        bodies, charges = np.nonzero(during)
+        if not len(bodies):
+            return _no_loads()
+        active = np.unique(charges)
+        pairs = bodies, np.searchsorted(active, charges)
+        areas = projected_areas(self._hulls, rotations, self._directions[:, active])[pairs]
+        areas = areas * self._shares[bodies, charges]
+        pressure_impulses = impulse_between(_columns(pulses, active), start_s, end_s)[pairs]
+        return StepLoads(
+            bodies=bodies,
+            charges=charges,
+            stand_offs_m=self._stand_offs[bodies, charges],
+            scaled_distances=scaled_distance(self._stand_offs[bodies, charges], self._arrays.tnt_kg[charges]),
+            areas_m2=areas,
+            directions=self._directions[bodies, charges],
+            peaks_pa=pulses.peaks_pa[bodies, charges],
+            pressure_impulses_pa_s=pressure_impulses,
+            impulses_ns=pressure_impulses * areas,
+        )
+
+    def is_over(self, time_s: float) -> bool:
+        """Whether nothing is loaded from a time on."""
+        return bool(self._detonated.all() and (self._pulses.ends_s <= time_s).all())
+
+    def _detonate(self, columns: np.ndarray, centres: np.ndarray, rotations: np.ndarray) -> None:
+        """Fix lines, pulses and shares of some charges (k,) as the bodies are now."""
+        if not len(columns):
+            return
+        sources = self._arrays.places_m[columns]
+        stand_offs, directions = lines_of_blast(sources, centres)
+        options = self._options
+        pulses = blast_pulses(
+            stand_offs,
+            self._arrays.tnt_kg[columns],
+            self._detonations_s[columns],
+            [self._arrays.bursts[column] for column in columns],
+            model=options.model,
+            loading=options.loading,
+            constant_decay=options.constant_decay,
+        )
+        for name in Pulses.__dataclass_fields__:
+            getattr(self._pulses, name)[:, columns] = getattr(pulses, name)
+        self._stand_offs[:, columns], self._directions[:, columns] = stand_offs, directions
+        if options.shielding:
+            self._shares[:, columns] = visible_shares(self._hulls, centres, rotations, sources)
+        self._detonated[columns] = True
+
+
+def added(first: StepLoads, second: StepLoads) -> StepLoads:
+    """Loads of two steps of time that follow each other, as those of one step.
+
+    What does not stay the same in between, the area, is the mean that the impulses have met.
+    """
+    if not len(first) or not len(second):
+        return first if len(first) else second
+    both = StepLoads(*(np.concatenate((getattr(first, name), getattr(second, name))) for name in _COLUMNS))
+    pairs, rows, groups = np.unique(
+        np.column_stack((both.bodies, both.charges)), axis=0, return_index=True, return_inverse=True
+    )
+    impulses = np.bincount(groups.ravel(), both.impulses_ns, len(pairs))
+    pressures = np.bincount(groups.ravel(), both.pressure_impulses_pa_s, len(pairs))
+    areas = np.divide(impulses, pressures, where=pressures > 0.0, out=both.areas_m2[rows])
+    once = StepLoads(*(getattr(both, name)[rows] for name in _COLUMNS))
+    return replace(once, impulses_ns=impulses, pressure_impulses_pa_s=pressures, areas_m2=areas)
+
+
+_COLUMNS = tuple(StepLoads.__dataclass_fields__)
+
+
+def _no_loads() -> StepLoads:
+    nothing, none = np.zeros(0), np.zeros(0, int)
+    return StepLoads(none, none, nothing, nothing, nothing, np.zeros((0, 3)), nothing, nothing, nothing)
+
+
+def _columns(pulses: Pulses, columns: np.ndarray) -> Pulses:
+    return Pulses(*(getattr(pulses, name)[:, columns] for name in Pulses.__dataclass_fields__))

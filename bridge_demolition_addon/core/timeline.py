@@ -1,0 +1,103 @@
+"""The frames of a run, each as long as it is: some of them shortened, so that what lasts milliseconds can be seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .time_step import FRAME_NOISE
+
+
+@dataclass(frozen=True, slots=True)
+class SlowMotion:
+    """A span of simulated time in which frames are shorter than elsewhere.
+
+    Attributes
+    ----------
+    start_s, duration_s
+        When it begins, and how long it lasts, simulated time.
+    frame_s
+        Simulated time of one of its frames.
+    """
+
+    start_s: float
+    duration_s: float
+    frame_s: float
+
+    @property
+    def end_s(self) -> float:
+        """When it is over, s."""
+        return self.start_s + self.duration_s
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Timeline:
+    """Frames in their order.
+
+    Attributes
+    ----------
+    frame_lengths_s
+        (k,) simulated time that each frame adds.
+    """
+
+    frame_lengths_s: np.ndarray
+
+    @classmethod
+    def of(cls, frame_s: float, duration_s: float, slow_motions: Sequence[SlowMotion] = ()) -> Timeline:
+        """Frames that cover a duration, in slow motion where that is asked for.
+
+        Slow motion begins exactly when it is asked for: the frame before it is cut short. Where two meet, the first one
+        is as long as the other lasts.
+        """
+        lengths: list[np.ndarray] = []
+        time = 0.0
+        for each in _merged(slow_motions):
+            if each.start_s >= duration_s:
+                break
+            lengths.append(_frames_exactly(frame_s, each.start_s - time))
+            count = max(1, _frames_over(each.frame_s, each.duration_s))
+            lengths.append(np.full(count, each.frame_s))
+            time = each.start_s + count * each.frame_s
+        lengths.append(np.full(max(0, _frames_over(frame_s, duration_s - time)), frame_s))
+        return cls(np.concatenate(lengths))
+
+    def __len__(self) -> int:
+        return len(self.frame_lengths_s)
+
+    @property
+    def ends_s(self) -> np.ndarray:
+        """(k,) simulated time at the end of each frame."""
+        return np.cumsum(self.frame_lengths_s)
+
+    def frames_until(self, time_s: float) -> int:
+        """Whole frames that it takes from the beginning to a simulated time."""
+        noise = FRAME_NOISE * self.frame_lengths_s
+        return int(np.searchsorted(self.ends_s + noise, time_s)) + (1 if time_s > 0.0 else 0)
+
+
+def _frames_over(frame_s: float, duration_s: float) -> int:
+    return math.ceil(duration_s / frame_s - FRAME_NOISE)
+
+
+def _frames_exactly(frame_s: float, duration_s: float) -> np.ndarray:
+    """Frames of a length, the last one cut short so that together they are exactly a duration."""
+    count = max(0, _frames_over(frame_s, duration_s))
+    lengths = np.full(count, frame_s)
+    if count:
+        lengths[-1] = duration_s - (count - 1) * frame_s
+    return lengths
+
+
+def _merged(slow_motions: Sequence[SlowMotion]) -> list[SlowMotion]:
+    """In the order of time, those that meet as one, in the shorter frames of the two."""
+    merged: list[SlowMotion] = []
+    for each in sorted(slow_motions, key=lambda motion: motion.start_s):
+        if merged and each.start_s <= merged[-1].end_s:
+            last = merged.pop()
+            end = max(last.end_s, each.end_s)
+            each = SlowMotion(last.start_s, end - last.start_s, min(last.frame_s, each.frame_s))
+        merged.append(each)
+    return merged
