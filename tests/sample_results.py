@@ -79,6 +79,7 @@ def hanging_chain() -> Results:
         rotations=np.broadcast_to(np.eye(3), (5, 4, 3, 3)).copy(),
         velocities_m_s=velocities,
         asleep=asleep,
+        blast_impulses_ns=np.zeros((5, 4, 3)),
         connection_names=np.array(["Connection", "Connection.001"]),
         pairs=PAIRS,
         points_m=POINTS,

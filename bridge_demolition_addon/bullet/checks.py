@@ -23,6 +23,8 @@ from .layout import (
 )
 from .memory import read, read_pointer, read_value
 
+_LONGEST_S = 1e9
+
 _FLOAT32 = 1e-6
 """Relative spacing of the 32-bit values in Blender, with room for one rounding more."""
 
@@ -107,6 +109,7 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
 
     _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)
     _expect_member(f"activation state {name}", value("i", offsets.activation), ACTIVATION_STATES)
+    _expect_time(f"time {name} at rest", value("d", offsets.deactivation_time))
     _expect(f"internal type {name}", value("i", offsets.internal_type), RIGID_BODY)
     _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
     _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)
@@ -174,6 +177,11 @@ def _expect(what: str, found: object, expected: object) -> None:
 def _expect_close(what: str, found: float, expected: float) -> None:
     if not abs(found - expected) <= _FLOAT32 * max(1.0, abs(expected)):
         raise LayoutError(f"{what} is {found:g}, not {expected:g}")
+
+
+def _expect_time(what: str, found: float) -> None:
+    if not 0.0 <= found <= _LONGEST_S:
+        raise LayoutError(f"{what} is {found:g} s")
 
 
 def _expect_member(what: str, found: int, expected: Iterable[int]) -> None:

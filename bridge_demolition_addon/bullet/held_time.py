@@ -1,9 +1,12 @@
-"""Letting no time pass in the frame in which Blender makes its Bullet world.
+"""Setting how much time passes in the coming frame.
 
-Blender takes the first step in the same breath as it makes the world, before anything can be asked of that world. With
-a time scale of 0 it makes the world and takes no step. The time scale is written into the evaluated copy of the scene
-only: setting it through Python would touch the user's scene, and would mark the point cache as outdated, so that
-nothing could be played back afterwards.
+Blender takes the first step in the same breath as it makes its Bullet world, before anything can be asked of that
+world. With a time scale of 0 it makes the world and takes no step. And where the time scale is animated, Blender may
+simulate a frame before it has animated it: nothing in its order of work forbids that.
+
+So the time scale is written before each such frame, into the evaluated copy of the scene only: setting it through
+Python would touch the user's scene, and would mark the point cache as outdated, so that nothing could be played back
+afterwards.
 """
 
 from __future__ import annotations
@@ -15,8 +18,8 @@ from .layout import platform_layout
 from .memory import write_float
 
 
-def hold_time(scene: bpy.types.Scene) -> None:
-    """Let no simulated time pass in the coming frame.
+def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
+    """Let the coming frame have a time scale; with 0 no simulated time passes in it.
 
     Raises
     ------
@@ -24,7 +27,7 @@ def hold_time(scene: bpy.types.Scene) -> None:
         Memory is not as expected; nothing has been written.
     """
     for world in _evaluated_worlds(scene):
-        _write_time_scale(world, 0.0)
+        _write_time_scale(world, time_scale)
 
 
 def time_is_held(depsgraph: bpy.types.Depsgraph) -> bool:

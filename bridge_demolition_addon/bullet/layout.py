@@ -72,6 +72,11 @@ class BodyLayout:
         return self.user_pointer - 72
 
     @property
+    def deactivation_time(self) -> int:
+        """How long the body has been slow, behind its state of activation."""
+        return self.activation + 8
+
+    @property
     def ignored_bodies_count(self) -> int:
         """Length of the list of bodies that this one does not collide with."""
         return self.user_pointer + 60
@@ -284,7 +289,10 @@ MICROSOFT = replace(
 RIGID_BODY = 2
 """Bullet's internal type of a rigid body (btCollisionObject::CO_RIGID_BODY)."""
 
-SLEEPING = frozenset({2, 5})
+AWAKE, ASLEEP = 1, 2
+"""Activation states of a body that is simulated, and of one that rests until something wakes it."""
+
+SLEEPING = frozenset({ASLEEP, 5})
 """Activation states in which a body is not simulated: asleep and disabled."""
 
 ACTIVATION_STATES = frozenset({1, 2, 3, 4, 5})

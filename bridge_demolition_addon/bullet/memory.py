@@ -92,6 +92,11 @@ def write_bytes(addresses: np.ndarray, value: int) -> None:
     _BYTES[_indices(addresses, 1)] = value
 
 
+def write_integers(addresses: np.ndarray, values: np.ndarray | int) -> None:
+    """Write 32-bit integers to checked addresses (n,)."""
+    _INTEGERS[_indices(addresses, 4)] = values
+
+
 def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | int) -> None:
     """Write pointers to checked addresses."""
     _POINTERS[_indices(addresses, 8)] = pointers

@@ -19,7 +19,7 @@ from ..scene.world import scene_time_step
 from . import checks
 from .contacts import ContactReader, Contacts
 from .ignored_collisions import IgnoredCollisions
-from .layout import SLEEPING, Layout, platform_layout
+from .layout import ASLEEP, AWAKE, SLEEPING, Layout, platform_layout
 from .memory import (
     gather_doubles,
     gather_integers,
@@ -28,6 +28,7 @@ from .memory import (
     read_value,
     write_bytes,
     write_doubles,
+    write_integers,
     write_pointers,
     write_vectors,
 )
@@ -107,7 +108,9 @@ class BulletWorld:
         self._dynamics = dynamics
         return WorldState.KNOWN if known else WorldState.NEW
 
-    def call_around_substeps(self, before: Callable[[float], None], after: Callable[[float], None]) -> None:
+    def call_around_substeps(
+        self, before: Callable[[float], None], after: Callable[[float], None] | None = None
+    ) -> None:
         """Have functions called before and after every sub-step of this world, with the sub-step's length in s.
 
         They are called from whatever thread simulates, while Blender's data is in use: they must not touch bpy, and
@@ -115,8 +118,8 @@ class BulletWorld:
         """
         world = self._layout.world
         for field, action in ((world.before_step, before), (world.after_step, after)):
-            callback = _callback(action)
-            write_pointers(self._dynamics + field, ctypes.cast(callback, ctypes.c_void_p).value)
+            address = ctypes.cast(_callback(action), ctypes.c_void_p).value if action else 0
+            write_pointers(self._dynamics + field, address)
 
     def take_substep(self) -> float:
         """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
@@ -155,6 +158,23 @@ class BulletWorld:
             fields = self._body_addresses[named] + np.uint64(self._layout.body.total_force + offset)
             write_vectors(fields, gather_doubles(fields, 3) + sums[named])
 
+    def wake(self, bodies: np.ndarray) -> None:
+        """Wake those of bodies (k,) that sleep, as Bullet does when something touches them.
+
+        To be called before a sub-step: Bullet has passed them by when it gave all others their weight, so they get it
+        here.
+        """
+        named = np.unique(bodies)
+        states = gather_integers(self._body_addresses[named] + np.uint64(self._layout.body.activation))
+        sleeping = named[states == ASLEEP]
+        if not len(sleeping):
+            return
+        addresses = self._body_addresses[sleeping]
+        write_integers(addresses + np.uint64(self._layout.body.activation), AWAKE)
+        write_doubles(addresses + np.uint64(self._layout.body.deactivation_time), 0.0)
+        weights = gather_doubles(addresses + np.uint64(self._layout.body.gravity), 3)
+        self.add_forces(sleeping, weights, np.zeros_like(weights))
+
     def asleep(self) -> np.ndarray:
         """Whether each body (n,) is asleep; what can never move is not."""
         states = gather_integers(self._body_addresses + np.uint64(self._layout.body.activation))
@@ -185,14 +205,19 @@ class BulletWorld:
 
     def hold_connections(self) -> None:
         """Let no connection break at its threshold, until `release_connections`."""
-        fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.breaking_threshold)
-        self._thresholds = gather_doubles(fields)[:, 0]
-        write_doubles(fields, np.inf)
+        self._holds_connections = True
+        self._write_thresholds()
 
     def release_connections(self) -> None:
         """Let connections break at their thresholds again."""
-        fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.breaking_threshold)
-        write_doubles(fields, self._thresholds)
+        self._holds_connections = False
+        self._write_thresholds()
+
+    def scale_thresholds(self, factor: float) -> None:
+        """Let connections break at a multiple of the thresholds that Blender gave them."""
+        if factor != self._threshold_factor:
+            self._threshold_factor = factor
+            self._write_thresholds()
 
     def intact(self) -> np.ndarray:
         """Whether each connection (m,) exists and has not broken."""
@@ -289,6 +314,8 @@ class BulletWorld:
         self._body_addresses, self._connection_addresses = body_addresses, connection_addresses
         self._exists = self._connection_addresses != 0
         self._forbids_collision, self._ignored = forbids_collision, ignored
+        self._thresholds = gather_doubles(self._threshold_fields())[:, 0]
+        self._threshold_factor, self._holds_connections = 1.0, False
         dispatcher = read_pointer(dynamics + self._layout.world.dispatcher)
         self._contact_reader = ContactReader(self._layout, dispatcher, body_addresses)
         self._ignored_rows = np.cumsum(forbids_collision) - 1
@@ -325,6 +352,13 @@ class BulletWorld:
         by_object = dict(zip(self.bodies, body_addresses.tolist(), strict=True))
         checks.check_connections(self._layout, existing, by_object)
         return np.array(addresses, np.uint64)
+
+    def _threshold_fields(self) -> np.ndarray:
+        return self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.breaking_threshold)
+
+    def _write_thresholds(self) -> None:
+        values = np.inf if self._holds_connections else self._thresholds * self._threshold_factor
+        write_doubles(self._threshold_fields(), values)
 
     def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
         fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.joint_feedback)

@@ -8,6 +8,9 @@ from ..core.scenario import Ball, Bridge, ConnectionSettings, Scenario, TimeSett
 from ..core.scenario.file import read_scenario
 from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 
+MOST_FIELDS = 300
+"""Force fields up to which they cost less than the rest of a frame: Blender holds every one against every body."""
+
 
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
@@ -27,10 +30,12 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     yield scenario.title
     yield from _section("Bridge", _bridge_facts(scenario.bridge))
     yield from _section("Members", _member_facts(scenario.bridge))
-    yield from _section("Time", _time_facts(scenario.time))
+    yield from _section("Time", _time_facts(scenario))
     yield from _section("Shards and connections", _connection_facts(scenario))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
+    if scenario.charges:
+        yield from _section("Charges", _charge_facts(scenario))
 
 
 def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:
@@ -60,9 +65,12 @@ def _volume_and_mass(volume_m3: float, density_kg_m3: float) -> str:
     return f"{volume_m3:9.3f} m³ {volume_m3 * density_kg_m3 / 1000.0:10.3f} t"
 
 
-def _time_facts(time: TimeSettings) -> Iterator[tuple[str, str]]:
+def _time_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    time, timeline = scenario.time, scenario.timeline
     yield "duration", f"{time.duration_s:g} s"
-    yield "frames", f"{time.frames} of {time.step.frame_s:.6g} s"
+    shortest = timeline.frame_lengths_s.min()
+    slowed = "" if shortest > 0.999 * time.step.frame_s else f", down to {shortest:.3g} s around detonations"
+    yield "frames", f"{len(timeline)} of {time.step.frame_s:.6g} s{slowed}"
     yield "sub-step", f"{time.step.substep_s:.6g} s, {time.substeps_per_frame} in a frame"
 
 
@@ -100,3 +108,24 @@ def _ball_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
     yield "fall time", f"{ball.fall_time_s:.3f} s, so it hits the deck at {impact_time_s:.3f} s{late}"
     yield "impact speed", f"{ball.impact_speed_m_s:.2f} m/s"
     yield "impact energy", f"{ball.mass_kg * ball.impact_speed_m_s**2 / 2000.0:.1f} kJ"
+
+
+def _charge_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    blast, charges = scenario.blast, scenario.placed_charges
+    if not blast.explosion:
+        yield "explosion", "not ticked: nothing goes off"
+    for charge in charges:
+        place = ", ".join(f"{value:g}" for value in charge.place_m)
+        worth = "" if charge.explosive == "TNT" else f" = {charge.tnt_kg:.3g} kg of TNT"
+        detonation_s = blast.start_s + charge.delay_s
+        yield charge.name, f"{charge.mass_kg:g} kg of {charge.explosive}{worth} at ({place}) m, {detonation_s:.4g} s"
+    yield "all", f"{sum(charge.mass_kg for charge in charges):g} kg"
+    yield "model", f"{blast.model}, {blast.loading} pressure{', with shielding' if blast.shielding else ''}"
+    if blast.apply == "fields":
+        yield "applied by", f"force fields{_fields_are_slow(scenario.fracture.shards)}"
+    else:
+        yield "applied", "directly in every sub-step"
+
+
+def _fields_are_slow(shards: int) -> str:
+    return f'; with {shards} shards these are slow, and blast.apply = "direct" is not' if shards > MOST_FIELDS else ""

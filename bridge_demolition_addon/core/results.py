@@ -42,6 +42,8 @@ class Results:
     body_signed_2019_n
         (k, n) mean of what the add-on of 2019 calls the contact force: the numbers that Bullet keeps of its
         connections, added or taken off with their signs. For comparison only.
+    blast_impulses_ns
+        (k, n, 3) impulse of all blasts in the frame; it is no part of the forces.
     stresses_pa, von_mises_pa
         (k, n, 3, 3) average stress of each body under its mean loads, tension positive, and (k, n) its equivalent
         stress in the sub-step in which all loads together were largest.
@@ -77,6 +79,7 @@ class Results:
     body_peak_sums_n: np.ndarray
     body_contact_impulses_ns: np.ndarray
     body_signed_2019_n: np.ndarray
+    blast_impulses_ns: np.ndarray
     stresses_pa: np.ndarray
     von_mises_pa: np.ndarray
     connection_names: np.ndarray

@@ -38,6 +38,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "largest_resultant": _largest_force(results, results.body_peaks_n),
         "largest_force_sum": _largest_force(results, results.body_peak_sums_n),
         "largest_throw": _largest_throw(results),
+        "blast": _blast(results),
     }
 
 
@@ -103,6 +104,22 @@ def _connections(results: Results) -> dict[str, Any]:
             "intact": intact.tolist(),
             "broken": (len(results.connection_names) - intact).tolist(),
         },
+    }
+
+
+def _blast(results: Results) -> dict[str, Any] | None:
+    """Impulse of the blast on all bodies together and on the one that got most; None where there was none."""
+    impulses = results.blast_impulses_ns.sum(axis=0)
+    sizes = np.linalg.norm(impulses, axis=1)
+    if not sizes.any():
+        return None
+    loaded = np.flatnonzero(results.blast_impulses_ns.any(axis=(1, 2)))
+    return {
+        "first_load": _moment(results, int(loaded[0])),
+        "last_load": _moment(results, int(loaded[-1])),
+        "bodies": int((sizes > 0.0).sum()),
+        "impulse_Ns": impulses.sum(axis=0).tolist(),
+        "largest": {"impulse_Ns": float(sizes.max()), "body": str(results.body_names[sizes.argmax()])},
     }
 
 

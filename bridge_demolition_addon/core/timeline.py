@@ -49,15 +49,16 @@ class Timeline:
     def of(cls, frame_s: float, duration_s: float, slow_motions: Sequence[SlowMotion] = ()) -> Timeline:
         """Frames that cover a duration, in slow motion where that is asked for.
 
-        Slow motion begins exactly when it is asked for: the frame before it is cut short. Where two meet, the first one
-        is as long as the other lasts.
+        Slow motion begins exactly when it is asked for. Towards it each frame is half as long as the one before: a
+        solver that was content to leave a small speed in a long step would have to stop it at once in a short one, with
+        a force as many times larger as the step is shorter. Where two slow motions meet, they are one.
         """
         lengths: list[np.ndarray] = []
         time = 0.0
         for each in _merged(slow_motions):
             if each.start_s >= duration_s:
                 break
-            lengths.append(_frames_exactly(frame_s, each.start_s - time))
+            lengths.append(_frames_slowing_down(frame_s, each.frame_s, each.start_s - time))
             count = max(1, _frames_over(each.frame_s, each.duration_s))
             lengths.append(np.full(count, each.frame_s))
             time = each.start_s + count * each.frame_s
@@ -82,13 +83,19 @@ def _frames_over(frame_s: float, duration_s: float) -> int:
     return math.ceil(duration_s / frame_s - FRAME_NOISE)
 
 
-def _frames_exactly(frame_s: float, duration_s: float) -> np.ndarray:
-    """Frames of a length, the last one cut short so that together they are exactly a duration."""
-    count = max(0, _frames_over(frame_s, duration_s))
+def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float) -> np.ndarray:
+    """Frames that together are exactly a duration, at first of one length, at last halved again and again."""
+    halvings = max(0, math.ceil(math.log2(frame_s / slow_frame_s)) - 1)
+    halved = frame_s / 2.0 ** np.arange(1, halvings + 1)
+    room_s = duration_s - halved.sum()
+    if room_s < 0.0:  # not enough time to slow down in: as much of it as there is
+        halved = halved[np.cumsum(halved[::-1])[::-1] <= duration_s]
+        room_s = duration_s - halved.sum()
+    count = max(0, _frames_over(frame_s, room_s))
     lengths = np.full(count, frame_s)
     if count:
-        lengths[-1] = duration_s - (count - 1) * frame_s
-    return lengths
+        lengths[-1] = room_s - (count - 1) * frame_s
+    return np.concatenate((lengths, halved))
 
 
 def _merged(slow_motions: Sequence[SlowMotion]) -> list[SlowMotion]:

@@ -43,6 +43,22 @@ def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]
 
 
+def triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3), scaled as the body is, and triangles (t, 3) of a body's mesh."""
+    mesh = body.data
+    mesh.calc_loop_triangles()
+    vertices = np.empty(3 * len(mesh.vertices), np.float32)
+    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.vertices.foreach_get("co", vertices)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    return vertices.reshape(-1, 3).astype(float) * np.array(body.matrix_world.to_scale()), triangles.reshape(-1, 3)
+
+
+def hull_points(body: bpy.types.Object) -> np.ndarray:
+    """Vertices (v, 3) of a body's mesh, scaled as the body is, from its origin, which Bullet takes for its centre."""
+    return triangulated(body)[0]
+
+
 def create_shard_template(world: bpy.types.RigidBodyWorld, settings: ShardSettings) -> bpy.types.Object:
     """Body that all shards are copied from; to be removed afterwards."""
     template = _rigid_body(world, bpy.data.meshes.new("Shard"), Kind.SHARD, "CONVEX_HULL")

@@ -8,11 +8,15 @@ import bpy
 
 from ..core.bridge import deck_top
 from ..core.model import Model
-from ..core.scenario import ConnectionSettings, Scenario
+from ..core.scenario import BlastSettings, ConnectionSettings, Scenario
 from ..core.strength import MATERIALS, Ductility
-from .bodies import create_ball, create_ground, create_shard_template, create_shards
+from .bodies import bodies_of, create_ball, create_ground, create_shard_template, create_shards
 from .breaking import Breaking, keep_breaking
+from .charges import create_charges
 from .connections import create_connection_template, create_connections
+from .explosion import Apply, ExplosionSettings, keep_explosion
+from .force_fields import build_force_objects
+from .slow_motion import animate_time_scale
 from .world import START_FRAME, create_world, off_scene
 
 FIRST_STEP_FRAME = START_FRAME + 2
@@ -36,6 +40,11 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, shard_template, model.shards, model.centres_m, model.masses_kg)
         create_connections(connections, connection_template, model.connections, shards, ground, model.second_moments_m4)
+    create_charges(scene, scenario.placed_charges)
+    keep_explosion(scene, _explosion(scenario.blast))
+    if scenario.charges and scenario.blast.apply == Apply.FIELDS:
+        build_force_objects(scene, bodies_of(scene))
+    animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
     bpy.data.batch_remove((shard_template, shard_template.data, connection_template))
 
 
@@ -47,14 +56,18 @@ def _breaking(settings: ConnectionSettings) -> Breaking:
     return Breaking(MATERIALS[settings.material], settings.warm_up_s, ductility)
 
 
+def _explosion(settings: BlastSettings) -> ExplosionSettings:
+    return ExplosionSettings(settings.explosion, Apply(settings.apply), settings.options)
+
+
 def last_frame(scenario: Scenario) -> int:
     """Frame at which a scenario's duration is over."""
-    return FIRST_STEP_FRAME - 1 + scenario.time.frames
+    return FIRST_STEP_FRAME - 1 + len(scenario.timeline)
 
 
 def release_frame(scenario: Scenario) -> int:
     """First frame towards which the ball falls freely."""
-    return FIRST_STEP_FRAME + scenario.time.step.frames(scenario.ball.release_time_s)
+    return FIRST_STEP_FRAME + scenario.timeline.frames_until(scenario.ball.release_time_s)
 
 
 def _ground_half_size(scenario: Scenario) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..core.solids import volumes_and_centres
-from .bodies import kind_of
+from .bodies import kind_of, triangulated
 from .connections import sections_of
 
 
@@ -80,19 +80,8 @@ def _pairs(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.O
 
 
 def _volumes(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
-    meshes = [_triangulated(body) for body in bodies]
+    meshes = [triangulated(body) for body in bodies]
     solid = [row for row, (_, triangles) in enumerate(meshes) if len(triangles)]
     volumes = np.zeros(len(meshes))
     volumes[solid] = abs(volumes_and_centres([meshes[row][0] for row in solid], [meshes[row][1] for row in solid])[0])
     return volumes
-
-
-def _triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3), scaled as the body is, and triangles (t, 3) of a body's mesh."""
-    mesh = body.data
-    mesh.calc_loop_triangles()
-    vertices = np.empty(3 * len(mesh.vertices), np.float32)
-    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.vertices.foreach_get("co", vertices)
-    mesh.loop_triangles.foreach_get("vertices", triangles)
-    return vertices.reshape(-1, 3).astype(float) * np.array(body.matrix_world.to_scale()), triangles.reshape(-1, 3)

@@ -11,6 +11,7 @@ from typing import Self
 
 import numpy as np
 
+from ..core.blast.explosion import StepLoads
 from ..core.motion import throw, travel
 from ..core.stress import principal_stresses
 from ..scene.inventory import Inventory
@@ -49,6 +50,24 @@ BREAKING_COLUMNS = (
     "bending_y_Nm",
     "bending_z_Nm",
 )
+EXPLOSION_COLUMNS = (
+    "frame",
+    "time_s",
+    "body",
+    "charge",
+    "stand_off_m",
+    "scaled_distance_m_kg13",
+    "projected_area_m2",
+    "direction_x",
+    "direction_y",
+    "direction_z",
+    "peak_pressure_Pa",
+    "mean_pressure_Pa",
+    "force_x_N",
+    "force_y_N",
+    "force_z_N",
+    "impulse_Ns",
+)
 
 _STEP_MARK = "\0"
 
@@ -62,9 +81,11 @@ class Logs:
         Existing folder; logs that are there are replaced.
     inventory
         The bodies and connections that the logs are about.
+    charges
+        Names of the charges, where there is a blast.
     """
 
-    def __init__(self, folder: Path, inventory: Inventory):
+    def __init__(self, folder: Path, inventory: Inventory, charges: Sequence[str] = ()):
         names = inventory.body_names.tolist()
         self._inventory = inventory
         self._forces = BodyLog(folder / "force_log.csv", FORCE_COLUMNS, names)
@@ -72,6 +93,7 @@ class Logs:
         self._breaking = (folder / "breaking_log.csv").open("w", encoding="utf-8", newline="")
         self._breaking.write(_csv_text(*BREAKING_COLUMNS) + "\n")
         self._breaking.flush()
+        self._explosion = ExplosionLog(folder / "explosion_log.csv", names, charges) if charges else None
         self._first_places: np.ndarray | None = None
 
     def write_frame(self, frame: dict) -> None:
@@ -103,17 +125,72 @@ class Logs:
                 self._breaking.write(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
         self._breaking.flush()
 
+    def write_blast(self, frame: dict, loads: StepLoads, frame_s: float) -> None:
+        """Log the blast loads of a frame that is that long."""
+        self._explosion.write(frame["frames"], frame["times_s"], frame_s, loads)
+
     def close(self, last_frame: dict | None) -> None:
         """Log where everything is at last, if there was a frame, and close the files."""
         if last_frame:
             self._write_places(last_frame)
-        for each in (self._forces, self._debris, self._breaking):
-            each.close()
+        for each in (self._forces, self._debris, self._breaking, self._explosion):
+            if each:
+                each.close()
 
     def _write_places(self, frame: dict) -> None:
         first, last = self._first_places, frame["places_m"]
         values = np.column_stack((last, travel(first, last), throw(first, last)))
         self._debris.write(frame["frames"], frame["times_s"], values)
+
+
+class ExplosionLog:
+    """CSV file with one line per body, charge and frame in which the charge loads the body.
+
+    Pressure and force are means over the frame's simulated time.
+
+    Parameters
+    ----------
+    path
+        File to write; one that is there is replaced.
+    bodies, charges
+        Names of the n bodies and c charges.
+    """
+
+    def __init__(self, path: Path, bodies: Sequence[str], charges: Sequence[str]):
+        self._bodies = [_csv_text(name) for name in bodies]
+        self._charges = [_csv_text(name) for name in charges]
+        self._file = path.open("w", encoding="utf-8", newline="")
+        self._file.write(",".join(EXPLOSION_COLUMNS) + "\n")
+        self._file.flush()
+
+    def write(self, frame: int, time_s: float, frame_s: float, loads: StepLoads) -> None:
+        """Add the loads of a frame that ends at a time and is that long."""
+        if not len(loads):
+            return
+        forces = loads.impulses_ns / frame_s
+        columns = (
+            loads.stand_offs_m,
+            loads.scaled_distances,
+            loads.areas_m2,
+            loads.directions,
+            loads.peaks_pa,
+            loads.pressure_impulses_pa_s / frame_s,
+            forces[:, None] * loads.directions,
+            loads.impulses_ns,
+        )
+        values = (np.column_stack(columns) + 0.0).tolist()
+        names = zip(loads.bodies.tolist(), loads.charges.tolist(), strict=True)
+        lines = [
+            f"{frame},{time_s:.9g},{self._bodies[body]},{self._charges[charge]},"
+            + ",".join(f"{value:.9g}" for value in row)
+            for (body, charge), row in zip(names, values, strict=True)
+        ]
+        self._file.write("\n".join(lines) + "\n")
+        self._file.flush()
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
 
 
 class BodyLog:

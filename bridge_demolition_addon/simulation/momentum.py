@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.frame_loads import FrameLoads
 from ..scene.inventory import Inventory
-from ..scene.world import scene_time_step
+from ..scene.slow_motion import time_step_at
 
 READING = "change of momentum between frames"
 
@@ -36,13 +36,13 @@ class MomentumReader:
 
     def read_frame(self, depsgraph: bpy.types.Depsgraph) -> dict[str, np.ndarray | float]:
         """The frame just evaluated, one on from the last."""
-        step = scene_time_step(self._scene)
+        step = time_step_at(self._scene, self._scene.frame_current)
         matrices = np.array([body.evaluated_get(depsgraph).matrix_world for body in self._bodies])
         places = matrices[:, :3, 3]
         rotations = matrices[:, :3, :3] / np.linalg.norm(matrices[:, :3, :3], axis=1)[:, None]
         loads = self._no_loads()
         substep = 0.0
-        if self._places is not None:
+        if self._places is not None and step.frame_s > 0.0:
             substep = step.substep_s
             self.elapsed_s += step.frame_s
             velocities = (places - self._places) / step.frame_s

@@ -15,6 +15,7 @@ RESULT_FILES = (
     "force_log.csv",
     "debris_log.csv",
     "breaking_log.csv",
+    "explosion_log.csv",
     "results.npz",
     "force_over_time.png",
     "scene.blend",

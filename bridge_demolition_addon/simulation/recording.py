@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ..bullet.held_time import hold_time, release_time, time_is_held
+from ..bullet.held_time import release_time, set_time_scale, time_is_held
 from ..bullet.world import BulletWorld, WorldState
 from ..core.errors import LayoutError, SimulationError
 from ..core.results import Results
@@ -17,6 +17,8 @@ from ..scene.bodies import bodies_of
 from ..scene.breaking import breaking_of
 from ..scene.connections import connections_of
 from ..scene.inventory import Inventory, take_inventory
+from ..scene.slow_motion import time_is_animated, time_step_at
+from .blast import Blast, goes_off
 from .logs import Logs
 from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
@@ -72,24 +74,20 @@ class Recording:
         self._substeps: SubstepRecorder | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
+        self._blast: Blast | None = None
         self._frames: list[dict[str, np.ndarray | float]] = []
 
     def before_frame(self) -> None:
-        """Let no time pass in the frame in which Blender makes its world.
-
-        The world's first step otherwise happens in the same breath as its making, before anything can be asked of it.
+        """Set how much time passes in the coming frame, and what explodes in it.
 
         Raises
         ------
         SimulationError
-            As for `before_update`.
+            As for `before_update`; or time is animated and cannot be set.
         """
         self.before_update()
-        if self.scene.frame_current == self._start_frame + 1 and not self.distrust:
-            try:
-                hold_time(self.scene)
-            except LayoutError as error:
-                self.distrust = error
+        self._set_time()
+        self._prepare_blast()
 
     def before_update(self) -> None:
         """See whether all that is recorded is still there, while Bullet still has what was removed just now.
@@ -129,6 +127,8 @@ class Recording:
 
     def close(self) -> None:
         """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
+        if self._blast:
+            self._blast.rest()
         self._world.release()
         if self._logs:
             self._logs.close(self._frames[-1] if self._frames else None)
@@ -143,6 +143,11 @@ class Recording:
     def broken(self) -> int:
         """Connections broken by now."""
         return int((~self._frames[-1]["intact"]).sum()) if self._frames else 0
+
+    @property
+    def lost_blast_loads(self) -> int:
+        """How often a body has left the reach of its force field within a frame, and lost a part of its load."""
+        return self._blast.left if self._blast else 0
 
     @property
     def seconds(self) -> float:
@@ -205,7 +210,39 @@ class Recording:
         self._frames.clear()
         self._inventory = take_inventory(self._bodies, ())
         self._momentum = MomentumReader(self.scene, self._bodies, self._inventory)
-        self._logs = Logs(self.folder, self._inventory)
+        self._begin_blast(None)
+
+    def _begin_blast(self, world: BulletWorld | None) -> None:
+        """Set up what explodes, and the logs of it and of everything else."""
+        if self._blast:
+            self._blast.rest()
+        self._blast = Blast(self.scene, self._bodies, self._inventory, world) if goes_off(self.scene) else None
+        charges = [charge.name for charge in self._blast.charges] if self._blast else ()
+        self._logs = Logs(self.folder, self._inventory, charges)
+
+    def _set_time(self) -> None:
+        """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""
+        coming, animated = self.scene.frame_current, time_is_animated(self.scene)
+        world_is_made = coming == self._start_frame + 1 and not self.distrust
+        if not world_is_made and not animated:
+            return
+        try:
+            set_time_scale(self.scene, 0.0 if world_is_made else time_step_at(self.scene, coming).time_scale)
+        except LayoutError as error:
+            if animated:
+                raise SimulationError(f"an animated time scale cannot be followed, as {error}: remove it") from error
+            self.distrust = error
+
+    def _prepare_blast(self) -> None:
+        """Load the coming frame, if it follows on the last one recorded."""
+        if not self._blast:
+            return
+        last, coming = self._frames[-1] if self._frames else None, self.scene.frame_current
+        if last is None or coming != last["frames"] + 1:
+            self._blast.rest()
+            return
+        frame_s = time_step_at(self.scene, coming).frame_s
+        self._blast.before_frame(last["times_s"], frame_s, last["places_m"], last["rotations"])
 
     def _objects(self) -> bytes:
         """What tells the objects in the world from all others, quickly."""
@@ -249,10 +286,12 @@ class Recording:
         """Note what stays the same throughout, and start anew."""
         self._frames.clear()
         self._inventory = take_inventory(self._bodies, self._connections)
-        self._substeps = SubstepRecorder(self._world, self._inventory, breaking_of(self.scene))
-        if self._every_substep:
-            self._world.call_around_substeps(self._substeps.before_substep, self._substeps.after_substep)
-        self._logs = Logs(self.folder, self._inventory)
+        self._begin_blast(self._world)
+        normal_substep_s = time_step_at(self.scene, self._start_frame).substep_s
+        breaking = breaking_of(self.scene)
+        self._substeps = SubstepRecorder(self._world, self._inventory, breaking, self._blast, normal_substep_s)
+        after = self._substeps.after_substep if self._every_substep else None
+        self._world.call_around_substeps(self._substeps.before_substep, after)
 
     def _record_first_frame(self, substep_s: float) -> None:
         """A frame in which no time passed, or else one whose loads were not asked for in time."""
@@ -288,8 +327,13 @@ class Recording:
         self._keep(frame)
 
     def _keep(self, frame: dict[str, np.ndarray | float]) -> None:
+        frame["blast_impulses_ns"] = np.zeros_like(frame["places_m"])
+        frame_s = frame["times_s"] - (self._frames[-1]["times_s"] if self._frames else 0.0)
         self._frames.append(frame)
         self._logs.write_frame(frame)
+        if self._blast and frame_s > 0.0:
+            loads, frame["blast_impulses_ns"] = self._blast.after_frame(frame["places_m"])
+            self._logs.write_blast(frame, loads, frame_s)
 
 
 def _some(names: Sequence[str]) -> str:

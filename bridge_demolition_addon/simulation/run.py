@@ -86,6 +86,7 @@ def run_scenario(
         progress.stage(f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}")
     results = recording.results()
     summary = _summary(scenario, model, scene, results, interrupted)
+    summary["charges"] = _charges(scenario, recording)
     summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
     progress.stage("writing the results")
     keep_results(folder, results, summary)
@@ -168,8 +169,37 @@ def _summary(
     }
 
 
+def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
+    """What exploded when, and whether all of it reached the bodies; None where nothing did."""
+    charges = [charge for charge in scenario.placed_charges if charge.mass_kg > 0.0]
+    if not scenario.blast.explosion or not charges:
+        return None
+    times = [scenario.blast.start_s + charge.delay_s for charge in charges]
+    columns = zip(charges, times, strict=True)
+    return {
+        "charges": [
+            {
+                "name": charge.name,
+                "place_m": charge.place_m,
+                "mass_kg": charge.mass_kg,
+                "explosive": charge.explosive,
+                "tnt_kg": charge.tnt_kg,
+                "detonation_s": time,
+            }
+            for charge, time in columns
+        ],
+        "mass_kg": sum(charge.mass_kg for charge in charges),
+        "largest_mass_at_once_kg": max(
+            sum(charge.mass_kg for charge, other in zip(charges, times, strict=True) if other == time) for time in times
+        ),
+        "applied_by": scenario.blast.apply,
+        "loads_cut_short": recording.lost_blast_loads,
+    }
+
+
 def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
-    """Pictures at the start, at the impact (or else at the largest force) and at the end."""
-    moment = summary["impact"] or summary["largest_force_sum"] or {"frame": scene.frame_end}
+    """Pictures at the start, at the impact (or else the blast, or the largest force) and at the end."""
+    blast = summary["blast"] and summary["blast"]["last_load"]
+    moment = summary["impact"] or blast or summary["largest_force_sum"] or {"frame": scene.frame_end}
     for name, frame in zip(PICTURES, (START_FRAME, moment["frame"], scene.frame_end), strict=True):
         render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")

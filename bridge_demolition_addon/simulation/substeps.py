@@ -14,6 +14,7 @@ from ..core.section_forces import SectionForces, section_forces
 from ..core.strength import rectangular_sections, utilisation
 from ..scene.breaking import Breaking
 from ..scene.inventory import Inventory
+from .blast import Blast
 from .load_reader import LoadReader
 from .ties import Ties
 
@@ -38,6 +39,10 @@ class SubstepRecorder:
         Its bodies and connections.
     breaking
         How connections break.
+    blast
+        What explodes, or None.
+    threshold_step_s
+        Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
 
     Attributes
     ----------
@@ -49,11 +54,19 @@ class SubstepRecorder:
         What went wrong in a sub-step; nothing is taken down after it.
     """
 
-    def __init__(self, world: BulletWorld, inventory: Inventory, breaking: Breaking):
+    def __init__(
+        self,
+        world: BulletWorld,
+        inventory: Inventory,
+        breaking: Breaking,
+        blast: Blast | None,
+        threshold_step_s: float,
+    ):
         self.elapsed_s = 0.0
         self.seconds = 0.0
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
+        self._blast, self._threshold_step_s = blast, threshold_step_s
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
         self._ties = None
         if breaking.ductility:
@@ -71,10 +84,14 @@ class SubstepRecorder:
 
     def before_substep(self, substep_s: float) -> None:
         """Prepare a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
-        if self.error or not self._ties:
+        if self.error:
             return
         try:
-            self._ties.before_substep(substep_s)
+            self._world.scale_thresholds(substep_s / self._threshold_step_s)
+            if self._ties:
+                self._ties.before_substep(substep_s)
+            if self._blast:
+                self._blast.before_substep(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
 

@@ -122,7 +122,7 @@ class Explosion:
         during = (pulses.peaks_pa > 0.0) & (pulses.arrivals_s < end_s) & (start_s < pulses.ends_s)
         bodies, charges = np.nonzero(during)
         if not len(bodies):
-            return _no_loads()
+            return no_loads()
         active = np.unique(charges)
         pairs = bodies, np.searchsorted(active, charges)
         areas = projected_areas(self._hulls, rotations, self._directions[:, active])[pairs]
@@ -140,9 +140,12 @@ class Explosion:
             impulses_ns=pressure_impulses * areas,
         )
 
-    def is_over(self, time_s: float) -> bool:
-        """Whether nothing is loaded from a time on."""
-        return bool(self._detonated.all() and (self._pulses.ends_s <= time_s).all())
+    def is_quiet(self, start_s: float, end_s: float) -> bool:
+        """Whether it is known, before looking at the bodies, that nothing is loaded between two times."""
+        if (~self._detonated & (self._detonations_s < end_s)).any():
+            return False
+        pulses = self._pulses
+        return not ((pulses.peaks_pa > 0.0) & (pulses.arrivals_s < end_s) & (start_s < pulses.ends_s)).any()
 
     def _detonate(self, columns: np.ndarray, centres: np.ndarray, rotations: np.ndarray) -> None:
         """Fix lines, pulses and shares of some charges (k,) as the bodies are now."""
@@ -168,6 +171,12 @@ class Explosion:
         self._detonated[columns] = True
 
 
+def no_loads() -> StepLoads:
+    """Loads of a step in which there are none."""
+    nothing, none = np.zeros(0), np.zeros(0, int)
+    return StepLoads(none, none, nothing, nothing, nothing, np.zeros((0, 3)), nothing, nothing, nothing)
+
+
 def added(first: StepLoads, second: StepLoads) -> StepLoads:
     """Loads of two steps of time that follow each other, as those of one step.
 
@@ -187,11 +196,6 @@ def added(first: StepLoads, second: StepLoads) -> StepLoads:
 
 
 _COLUMNS = tuple(StepLoads.__dataclass_fields__)
-
-
-def _no_loads() -> StepLoads:
-    nothing, none = np.zeros(0), np.zeros(0, int)
-    return StepLoads(none, none, nothing, nothing, nothing, np.zeros((0, 3)), nothing, nothing, nothing)
 
 
 def _columns(pulses: Pulses, columns: np.ndarray) -> Pulses:

@@ -57,20 +57,23 @@ class ConvexHulls:
         return np.maximum.reduceat(distances, self.vertex_starts[:-1]) if len(self) else np.zeros(0)
 
 
-def convex_hulls(bodies: Sequence[np.ndarray]) -> ConvexHulls:
+def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = None) -> ConvexHulls:
     """Convex hulls of bodies.
 
     Parameters
     ----------
     bodies
         Vertices (v, 3) of each body, m, in its own axes from its centre of mass.
+    names
+        What each body is called where it is refused; by default its number.
 
     Raises
     ------
     GeometryError
         A body has no volume.
     """
-    meshes = [_hull(np.asarray(vertices, float), number) for number, vertices in enumerate(bodies)]
+    called = range(len(bodies)) if names is None else map(repr, names)
+    meshes = [_hull(np.asarray(vertices, float), name) for name, vertices in zip(called, bodies, strict=True)]
     faces = [_faces(vertices[triangles]) for vertices, triangles in meshes]
     planes = np.concatenate([np.zeros((0, 4)), *(planes for planes, _ in faces)])
     return ConvexHulls(
@@ -83,7 +86,7 @@ def convex_hulls(bodies: Sequence[np.ndarray]) -> ConvexHulls:
     )
 
 
-def _hull(points: np.ndarray, number: int) -> tuple[np.ndarray, np.ndarray]:
+def _hull(points: np.ndarray, name: int | str) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (v, 3) and triangles (t, 3) of the convex hull of points."""
     if len(points) >= 4 and np.isfinite(points).all():
         hull = Manifold.hull_points(points)
@@ -91,7 +94,7 @@ def _hull(points: np.ndarray, number: int) -> tuple[np.ndarray, np.ndarray]:
         if hull.volume() > THINNEST * np.ptp(points, axis=0).max() ** 3:
             mesh = hull.to_mesh64()
             return mesh.vert_properties[:, :3], mesh.tri_verts
-    raise GeometryError(f"body {number} has no volume: expected finite vertices that do not lie in one plane")
+    raise GeometryError(f"body {name} has no volume: expected finite vertices that do not lie in one plane")
 
 
 def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

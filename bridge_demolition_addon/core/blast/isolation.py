@@ -1,0 +1,72 @@
+"""How far a force field may reach so that it pushes its own body and no other.
+
+A field that pushes along one direction, within a cylinder about that direction, is told apart from its neighbours by
+the cylinder's radius and its two ends. The body has to stay inside while it moves in a frame, and every other body
+outside; so each reach is a part of the way to whatever is nearest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+SHARE_OF_WAY = 0.45
+"""Part of the way to a neighbour that a field reaches: less than half, as the neighbour may come nearer too."""
+
+WIDEST_M = 5.0
+LONGEST_M = 20.0
+"""Reaches where no neighbour is near: more than a body moves in a frame."""
+
+_PAIRS_AT_ONCE = 2_000_000
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Reaches:
+    """Cylinders about the centres of k bodies.
+
+    Attributes
+    ----------
+    radii_m
+        (k,) radius.
+    ahead_m, behind_m
+        (k,) length along the direction and against it.
+    """
+
+    radii_m: np.ndarray
+    ahead_m: np.ndarray
+    behind_m: np.ndarray
+
+    def hold(self, moves_m: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Whether bodies that have moved (k, 3), m, are still inside their cylinders about directions (k, 3)."""
+        along = np.einsum("ki,ki->k", moves_m, directions)
+        across = np.linalg.norm(moves_m - along[:, None] * directions, axis=1)
+        return (across < self.radii_m) & (along < self.ahead_m) & (along > -self.behind_m)
+
+
+def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.ndarray) -> Reaches:
+    """Reaches of fields on some bodies, so that none holds the centre of another.
+
+    Parameters
+    ----------
+    bodies, directions
+        (k,) the bodies that are pushed, and (k, 3) unit vectors along which.
+    centres
+        (n, 3) centres of mass of all bodies, m.
+    """
+    reaches = Reaches(np.full(len(bodies), WIDEST_M), np.full(len(bodies), LONGEST_M), np.full(len(bodies), WIDEST_M))
+    rows = max(1, _PAIRS_AT_ONCE // max(1, len(centres)))
+    for first in range(0, len(bodies), rows):
+        block = slice(first, first + rows)
+        between = centres[None] - centres[bodies[block], None]
+        squares = np.einsum("kni,kni->kn", between, between)
+        squares[np.arange(len(squares)), bodies[block]] = np.inf
+        along = np.einsum("kni,ki->kn", between, directions[block])
+        radii = np.minimum(WIDEST_M, SHARE_OF_WAY * np.sqrt(squares.min(axis=1, initial=np.inf)))
+        in_line = squares - along**2 < (2.0 * radii[:, None]) ** 2  # it may come nearer from the side as well
+        ahead = np.where(in_line & (along > 0.0), along, np.inf).min(axis=1, initial=np.inf)
+        behind = np.where(in_line & (along <= 0.0), -along, np.inf).min(axis=1, initial=np.inf)
+        reaches.radii_m[block] = radii
+        reaches.ahead_m[block] = np.minimum(LONGEST_M, SHARE_OF_WAY * ahead)
+        reaches.behind_m[block] = np.minimum(WIDEST_M, SHARE_OF_WAY * behind)
+    return reaches

@@ -1,0 +1,40 @@
+"""Blocks and charges, whose loads are known from tables and integrals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from blocks import Blocks
+
+from bridge_demolition_addon.core.blast.charges import Charge
+from bridge_demolition_addon.core.blast.explosion import BlastOptions
+from bridge_demolition_addon.scene.bodies import bodies_of
+from bridge_demolition_addon.scene.charges import create_charges
+from bridge_demolition_addon.scene.explosion import Apply, ExplosionSettings, keep_explosion
+from bridge_demolition_addon.scene.force_fields import build_force_objects
+
+IMPULSE_AT_5_PA_S = 40.62
+"""Incident impulse of 1 kg of TNT in free air at Z = 5 m/kg^(1/3); Kingery and Bulmash (1984), as ConWep prints it."""
+
+ARRIVAL_AT_5_S, END_AT_5_S = 8.995e-3, 8.995e-3 + 3.333e-3
+"""When its pressure begins and ends; the same source."""
+
+
+def charge(name: str, place_m: Sequence[float], mass_kg: float, delay_s: float = 0.0) -> Charge:
+    """A charge of TNT in free air."""
+    return Charge(name=name, place_m=tuple(place_m), mass_kg=mass_kg, delay_s=delay_s)
+
+
+def set_off(blocks: Blocks, charges: Sequence[Charge], apply: str, explosion: bool = True, **options: float) -> None:
+    """Place charges among blocks and have them go off."""
+    create_charges(blocks.scene, charges)
+    keep_explosion(blocks.scene, ExplosionSettings(explosion, Apply(apply), BlastOptions(**options)))
+    if apply == "fields":
+        build_force_objects(blocks.scene, bodies_of(blocks.scene))
+
+
+def weightless(**time: float) -> Blocks:
+    """Blocks that nothing moves but a blast."""
+    blocks = Blocks(**time)
+    blocks.scene.gravity = (0.0, 0.0, 0.0)
+    return blocks
