@@ -10,6 +10,12 @@ import numpy as np
 
 from .time_step import FRAME_NOISE
 
+SLOWING = 0.8
+"""Length of a frame over the one before it on the way into slow motion: forces rise to 1.6 times for some sub-steps."""
+
+_FEWEST_BETWEEN = 8
+"""Frames between two slow motions: enough to slow down again, and to be divided evenly."""
+
 
 @dataclass(frozen=True, slots=True)
 class SlowMotion:
@@ -49,13 +55,14 @@ class Timeline:
     def of(cls, frame_s: float, duration_s: float, slow_motions: Sequence[SlowMotion] = ()) -> Timeline:
         """Frames that cover a duration, in slow motion where that is asked for.
 
-        Slow motion begins exactly when it is asked for. Towards it each frame is half as long as the one before: a
-        solver that was content to leave a small speed in a long step would have to stop it at once in a short one, with
-        a force as many times larger as the step is shorter. Where two slow motions meet, they are one.
+        Slow motion begins exactly when it is asked for, and frames shorten towards it by `SLOWING` each. Bullet pulls
+        connections that have given way together again with a force that goes with 1 / step², so that a bridge that
+        has settled in long steps would be torn apart by short ones that came all at once. For the same reason the time
+        before is divided evenly, and slow motions with less than `_FEWEST_BETWEEN` frames in between are one.
         """
         lengths: list[np.ndarray] = []
         time = 0.0
-        for each in _merged(slow_motions):
+        for each in _merged(slow_motions, _FEWEST_BETWEEN * frame_s):
             if each.start_s >= duration_s:
                 break
             lengths.append(_frames_slowing_down(frame_s, each.frame_s, each.start_s - time))
@@ -84,25 +91,20 @@ def _frames_over(frame_s: float, duration_s: float) -> int:
 
 
 def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float) -> np.ndarray:
-    """Frames that together are exactly a duration, at first of one length, at last halved again and again."""
-    halvings = max(0, math.ceil(math.log2(frame_s / slow_frame_s)) - 1)
-    halved = frame_s / 2.0 ** np.arange(1, halvings + 1)
-    room_s = duration_s - halved.sum()
-    if room_s < 0.0:  # not enough time to slow down in: as much of it as there is
-        halved = halved[np.cumsum(halved[::-1])[::-1] <= duration_s]
-        room_s = duration_s - halved.sum()
+    """Frames that together are exactly a duration, at first of one length, at last shorter and shorter."""
+    steps = max(0, math.ceil(math.log(slow_frame_s / frame_s, SLOWING)) - 1)
+    slowing = frame_s * SLOWING ** np.arange(1, steps + 1)
+    slowing = slowing[np.cumsum(slowing[::-1])[::-1] <= duration_s]  # as many as there is time for
+    room_s = duration_s - slowing.sum()
     count = max(0, _frames_over(frame_s, room_s))
-    lengths = np.full(count, frame_s)
-    if count:
-        lengths[-1] = room_s - (count - 1) * frame_s
-    return np.concatenate((lengths, halved))
+    return np.concatenate((np.full(count, room_s / max(1, count)), slowing))
 
 
-def _merged(slow_motions: Sequence[SlowMotion]) -> list[SlowMotion]:
-    """In the order of time, those that meet as one, in the shorter frames of the two."""
+def _merged(slow_motions: Sequence[SlowMotion], least_gap_s: float) -> list[SlowMotion]:
+    """In the order of time, those with too small a gap in between as one, in the shorter frames of the two."""
     merged: list[SlowMotion] = []
     for each in sorted(slow_motions, key=lambda motion: motion.start_s):
-        if merged and each.start_s <= merged[-1].end_s:
+        if merged and each.start_s < merged[-1].end_s + least_gap_s:
             last = merged.pop()
             end = max(last.end_s, each.end_s)
             each = SlowMotion(last.start_s, end - last.start_s, min(last.frame_s, each.frame_s))

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What blast loads cost in a frame, next to Blender's bare step and to the way of 2019, in the same run.
+
+A deck in 250 to 2000 shards hangs between its piers, all awake, with two charges below it. Three kinds of frames are
+timed: all shards loaded at once, as in a frame of a 24th of a second; a twentieth of them, as in slow motion; and none,
+which is what every other frame of the run costs. The way of 2019 keeps three tube fields for each body switched on and
+adds up each body's area in Python, face by face.
+"""
+
+import statistics
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from bridge_demolition_addon.core.blast.charges import Charge
+from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion
+from bridge_demolition_addon.core.model import build_model
+from bridge_demolition_addon.core.scenario import (
+    Bridge,
+    ConnectionSettings,
+    Deck,
+    FractureSettings,
+    Piers,
+    Scenario,
+    ShardSettings,
+    TimeSettings,
+)
+from bridge_demolition_addon.scene.bodies import bodies_of
+from bridge_demolition_addon.scene.charges import create_charges
+from bridge_demolition_addon.scene.demolition import build_demolition
+from bridge_demolition_addon.scene.explosion import Apply, ExplosionSettings, keep_explosion
+from bridge_demolition_addon.scene.force_fields import build_force_objects
+from bridge_demolition_addon.scene.world import START_FRAME
+from bridge_demolition_addon.simulation import blast, handlers
+from bridge_demolition_addon.simulation.recording import Recording
+
+FRAMES = 3
+"""Of each kind."""
+
+COUNTS = (250, 500, 1000, 2000)
+WAY_OF_2019_UP_TO = 500
+"""Shards; with 1000, its 3000 fields take minutes for a frame."""
+
+FEW = 20
+"""One shard in so many is loaded in frames of slow motion."""
+
+CHARGES = (
+    Charge(name="west", place_m=(7.0, 0.0, 1.0), mass_kg=1e-6),
+    Charge(name="east", place_m=(22.0, 0.0, 1.0), mass_kg=1e-6),
+)
+"""So small that they load every shard and move none: the frames to compare do the same work otherwise."""
+
+DECK = Scenario(
+    title="bench",
+    time=TimeSettings(duration_s=10.0),
+    bridge=Bridge(
+        span_lengths_m=(29.0,),
+        density_kg_m3=2400.0,
+        deck=Deck(width_m=12.0, thickness_m=1.0, overhang_m=0.5),
+        piers=Piers(column_length_m=1.0, column_width_m=12.0, height_m=3.0),
+    ),
+    fracture=FractureSettings(shards=1000),
+    connections=ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, breaking_force_n=1e9),
+    shards=ShardSettings(use_deactivation=False, start_deactivated=False),
+)
+
+
+class SteadyLoads(Explosion):
+    """Loads some bodies in every frame, as if charges went off in each."""
+
+    every = 1
+
+    def loads(self, start_s, end_s, centres, rotations):
+        found = super().loads(0.0, 1.0, centres, rotations)
+        chosen = found.bodies % self.every == 0
+        return replace(found, **{name: getattr(found, name)[chosen] for name in found.__dataclass_fields__})
+
+    def is_quiet(self, start_s, end_s):
+        return not self.every
+
+
+def main() -> None:
+    """Print the seconds of a frame and their ratio to the bare step, for each number of shards."""
+    blast.Explosion = SteadyLoads
+    print(f"{'shards':>7}{'frame':>24}{'ms':>10}{'of bare step':>14}")
+    for count in COUNTS:
+        bare = _bare(count)
+        _show(count, "bare step", bare, bare)
+        for apply in Apply:
+            for name, every in (("all loaded", 1), ("one in 20", FEW), ("none", 0)):
+                _show(count, f"{apply.value}, {name}", _with_blast(count, apply, every), bare)
+        if count <= WAY_OF_2019_UP_TO:
+            _show(count, "way of 2019", _way_of_2019(count), bare)
+
+
+def _show(count: int, name: str, seconds: float, bare: float) -> None:
+    print(f"{count:>7}{name:>24}{1e3 * seconds:>10.1f}{seconds / bare:>14.2f}", flush=True)
+
+
+def _scene(count: int, apply: Apply | None) -> bpy.types.Scene:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scenario = replace(DECK, fracture=FractureSettings(shards=count))
+    scene = bpy.context.scene
+    build_demolition(scene, scenario, build_model(scenario))
+    if apply:
+        create_charges(scene, CHARGES)
+        keep_explosion(scene, ExplosionSettings(True, apply, BlastOptions()))
+        if apply is Apply.FIELDS:
+            build_force_objects(scene, bodies_of(scene))
+    return scene
+
+
+def _frames(scene: bpy.types.Scene) -> float:
+    """Median time of the frames after those in which Blender makes its world."""
+    first = START_FRAME + 3
+    for frame in range(START_FRAME, first):
+        scene.frame_set(frame)
+    times = []
+    for frame in range(first, first + FRAMES):
+        began = time.perf_counter()
+        scene.frame_set(frame)
+        times.append(time.perf_counter() - began)
+    return statistics.median(times)
+
+
+def _bare(count: int) -> float:
+    return _frames(_scene(count, None))
+
+
+def _with_blast(count: int, apply: Apply, every: int) -> float:
+    """What blast adds to a bare step: loads are taken down in neither."""
+    SteadyLoads.every = every
+    scene = _scene(count, apply)
+    handlers.start(recording := _Unrecorded(scene, Path()))
+    seconds = _frames(scene)
+    handlers.stop()
+    if recording.error:
+        raise recording.error
+    return seconds
+
+
+class _Unrecorded(Recording):
+    """A recording that applies the blast and keeps next to nothing, so that little more than the blast is timed."""
+
+    def __init__(self, scene: bpy.types.Scene, folder: Path):
+        super().__init__(scene, folder, every_substep=False)
+
+    def _keep(self, frame):
+        self._frames.append(frame)
+
+    def _begin_blast(self, world):
+        self._blast = blast.Blast(self.scene, self._bodies, self._inventory, world)
+        self._logs = _NoLogs()
+
+
+class _NoLogs:
+    def write_breaks(self, *_):
+        pass
+
+    def close(self, _):
+        pass
+
+
+def _way_of_2019(count: int) -> float:
+    """Three tube fields per body, each body's area by a loop over its faces, in every frame."""
+    scene = _scene(count, None)
+    shards = [body for body in bodies_of(scene) if body.rigid_body.type == "ACTIVE"]
+    bpy.ops.object.effector_add(type="FORCE")
+    template = bpy.context.object
+    template.field.falloff_type, template.field.use_max_distance, template.field.use_radial_max = "TUBE", True, True
+    template.field.distance_max, template.field.radial_max, template.field.strength = 5.0, 2.0, 1e-9
+    fields = [template.copy() for _ in shards for _ in range(3)]
+    collection = bpy.data.collections.new("Fields")
+    for field in fields:
+        collection.objects.link(field)
+    scene.collection.children.link(collection)
+    source = np.array(CHARGES[0].place_m)
+
+    def before(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
+        for row, body in enumerate(shards):
+            place = body.matrix_world.translation
+            direction = (np.array(place) - source) / np.linalg.norm(np.array(place) - source)
+            area = 0.0
+            for polygon in body.data.polygons:
+                area += 0.5 * abs(float(np.array(polygon.normal) @ direction)) * polygon.area
+            for field in fields[3 * row : 3 * row + 3]:
+                field.location, field.field.strength = place, 1e-9 * area
+
+    bpy.app.handlers.frame_change_pre.append(before)
+    seconds = _frames(scene)
+    bpy.app.handlers.frame_change_pre.remove(before)
+    return seconds
+
+
+if __name__ == "__main__":
+    main()
