@@ -88,7 +88,7 @@ def _connection_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
 
 
 def _strength_facts(strength: Strength) -> Iterator[tuple[str, str]]:
-    for kind in ("compression", "tension", "shear", "bending"):
+    for kind in ("compression", "tension", "shear", "torsion", "bending"):
         yield f"in {kind}", f"{getattr(strength, f'{kind}_pa') / NEWTON_PER_SQUARE_MILLIMETRE:g} N/mm²"
 
 

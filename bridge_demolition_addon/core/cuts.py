@@ -120,6 +120,22 @@ class Cuts:
         return section_forces(axes, total.of(pulls), total.of(turns)), cut_areas, cut_moments
 
 
+def worst_around(pairs: np.ndarray, used: np.ndarray, is_shard: np.ndarray) -> np.ndarray:
+    """Which connections (k,) between pairs (k, 2) use more than any other that shares a shard with them.
+
+    Parameters
+    ----------
+    pairs, used
+        (k, 2) connected bodies, and (k,) utilisations.
+    is_shard
+        (n,) bodies that count; connections to any other, such as the ground, do not compete over it.
+    """
+    most = np.full(len(is_shard), -np.inf)
+    np.maximum.at(most, pairs.ravel(), np.repeat(used, 2))
+    most[~is_shard] = -np.inf
+    return used >= most[pairs].max(axis=1)
+
+
 class _Totals:
     """Sums over the entries of each owner."""
 

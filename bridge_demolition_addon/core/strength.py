@@ -29,6 +29,8 @@ class Strength:
         Axial force by area.
     shear_pa
         Shear force by area: the mean over the section, which codes of practice give their shear strengths for.
+    torsion_pa
+        Torsional moment by torsion modulus: the shear stress at the edge of an uncracked section.
     bending_pa
         Bending moment by elastic section modulus: the stress that an uncracked section would have at its edge.
 
@@ -41,6 +43,7 @@ class Strength:
     compression_pa: float | np.ndarray
     tension_pa: float | np.ndarray
     shear_pa: float | np.ndarray
+    torsion_pa: float | np.ndarray
     bending_pa: float | np.ndarray
 
     def __post_init__(self) -> None:
@@ -50,22 +53,26 @@ class Strength:
                 raise ScenarioError(f"{each.name} of a strength is {value}: expected a positive number")
 
     @classmethod
-    def in_n_mm2(cls, compression: float, tension: float, shear: float, bending: float) -> Strength:
+    def in_n_mm2(cls, compression: float, tension: float, shear: float, torsion: float, bending: float) -> Strength:
         """Strength from numbers in N/mm²."""
-        return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * each for each in (compression, tension, shear, bending)))
+        return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * each for each in (compression, tension, shear, torsion, bending)))
 
 
 MATERIALS = {
-    "concrete": Strength.in_n_mm2(compression=35.0, tension=3.5, shear=0.9, bending=3.5),
-    "reinforced concrete column": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=1.55, bending=12.6),
-    "reinforced concrete slab": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, bending=12.6),
-    "reinforced concrete wall": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, bending=12.6),
-    "masonry": Strength.in_n_mm2(compression=10.0, tension=0.2, shear=0.5, bending=0.1),
-    "steel": Strength.in_n_mm2(compression=235.0, tension=235.0, shear=135.7, bending=235.0),
+    "concrete": Strength.in_n_mm2(compression=35.0, tension=3.5, shear=0.9, torsion=3.5, bending=3.5),
+    "reinforced concrete column": Strength.in_n_mm2(
+        compression=35.0, tension=5.2, shear=1.55, torsion=5.2, bending=12.6
+    ),
+    "reinforced concrete slab": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, torsion=5.2, bending=12.6),
+    "reinforced concrete wall": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, torsion=5.2, bending=12.6),
+    "masonry": Strength.in_n_mm2(compression=10.0, tension=0.2, shear=0.5, torsion=0.2, bending=0.1),
+    "steel": Strength.in_n_mm2(compression=235.0, tension=235.0, shear=135.7, torsion=135.7, bending=235.0),
 }
 """Strengths to start from where none were measured.
 
 Compression, tension and shear of concrete and masonry are those of the Bullet Constraints Builder 3.6.5 (K. Kostack).
+Torsion, for which it has none, is tension: a section that is twisted cracks where its shear stress, which in pure shear
+is the principal tensile stress, gets to the tensile strength (EN 1992-1-1:2004, 6.3.2 (5)).
 Two of its numbers are not stresses in N/mm² and are not taken as such:
 
 - It gives bending as moment by area, in N·m/mm², which is a stress for one depth of section only. Here, plain concrete
@@ -173,12 +180,18 @@ def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Secti
     return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
 
 
+def strength_at(strength: Strength, rows: np.ndarray) -> Strength:
+    """The strength of some connections (k,), of a strength for all or for each of them."""
+    values = (np.asarray(getattr(strength, item.name)) for item in fields(Strength))
+    return Strength(*(value[rows] if value.ndim else value for value in values))
+
+
 def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> np.ndarray:
     """How much of its strength each connection uses, (m,); above 1 it breaks.
 
     - Stretched edge: axial tension by its strength plus bending by its own; compression relieves it.
     - Pressed edge: compression plus bending, by the strength in compression.
-    - Shear: the mean of shear and the edge stress of torsion, added, by the strength in shear.
+    - Shear: the mean of shear by its strength plus the edge stress of torsion by its own.
 
     The larger of the two edges acts together with shear as √(edge² + shear²). For steel that is the yield criterion of
     von Mises, EN 1993-1-1:2005, equation 6.1. For joints that are pulled apart it is the quadratic criterion of nominal
@@ -204,8 +217,8 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
     axial = forces.axial_n / sections.areas_m2
     moments = np.einsum("mji,mj->mi", sections.directions, forces.bending_nm)
     bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
-    shear = np.hypot(*forces.shear_n.T) / sections.areas_m2
-    shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3
+    shear = np.hypot(*forces.shear_n.T) / sections.areas_m2 / strength.shear_pa
+    shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3 / strength.torsion_pa
     stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
     pressed = (bending - axial) / strength.compression_pa
-    return np.hypot(np.maximum(stretched, pressed), shear / strength.shear_pa)
+    return np.hypot(np.maximum(stretched, pressed), shear)

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..bullet.world import BulletWorld
+from ..core.cuts import Cuts, worst_around
 from ..core.frame_loads import FrameLoads, SubstepLoads
 from ..core.section_forces import SectionForces, section_forces
-from ..core.strength import rectangular_sections, utilisation
+from ..core.strength import rectangular_sections, strength_at, utilisation
 from ..scene.breaking import Breaking
 from ..scene.inventory import Inventory
 from .blast import Blast
@@ -76,6 +77,7 @@ class SubstepRecorder:
             world.hold_connections()
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
+        self._cuts = Cuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
         self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._breaks: list[Breaks] = []
@@ -144,12 +146,35 @@ class SubstepRecorder:
             self._is_warming_up = False
             self._world.release_connections()
         if self._breaking.strength:
-            forces = self._section_forces(loads, np.arange(len(self._intact)))
-            overloaded = utilisation(forces, self._sections, self._breaking.strength) > 1.0
-            rows = np.flatnonzero(overloaded & self._intact)
+            rows = self._overloaded(loads)
             self._world.break_connections(rows)
             if self._ties and len(rows):
                 self._ties.add(rows, loads.connection_points_m[rows])
+
+    def _overloaded(self, loads: SubstepLoads) -> np.ndarray:
+        """Connections (k,) to break: overloaded by themselves and as parts of their cuts, and each the worst around.
+
+        When one breaks, its neighbours share its load anew: they are judged again after the next sub-step.
+        """
+        strength, inventory = self._breaking.strength, self._inventory
+        forces = self._section_forces(loads, np.arange(len(self._intact)))
+        rows = np.flatnonzero((utilisation(forces, self._sections, strength) > 1.0) & self._intact)
+        if not len(rows):
+            return rows
+        cut_loads, areas, second_moments = self._cuts.sections(
+            rows,
+            self._intact,
+            loads.connection_forces_n,
+            loads.connection_moments_nm,
+            loads.connection_points_m,
+            self._reader.section_axes(loads.rotations, rows),
+            inventory.areas_m2,
+            inventory.second_moments_m4,
+        )
+        of_both_cuts = strength_at(strength, np.concatenate((rows, rows)))
+        used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
+        used = used.reshape(2, -1).mean(axis=0)
+        return rows[(used > 1.0) & worst_around(inventory.pairs[rows], used, inventory.masses_kg > 0.0)]
 
     def _section_forces(self, loads: SubstepLoads, rows: np.ndarray) -> SectionForces:
         """Loads of some connections (r,) in their own axes."""

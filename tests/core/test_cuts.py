@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.cuts import Cuts
+from bridge_demolition_addon.core.cuts import Cuts, worst_around
 from bridge_demolition_addon.core.section_forces import section_axes
 from bridge_demolition_addon.core.strength import Strength, rectangular_sections, utilisation
 
@@ -55,7 +55,7 @@ def test_load_is_that_of_the_section_however_it_is_shared(shares):
     assert loads.axial_n[:2] == pytest.approx(90e3)
     assert loads.shear_n[:2] == pytest.approx(np.tile([0.0, -60e3], (2, 1)))
     assert loads.bending_nm[:2] == pytest.approx(np.tile([120e3, 0.0], (2, 1)))
-    strength = Strength.in_n_mm2(compression=1e9, tension=10.0, shear=1e9, bending=10.0)
+    strength = Strength.in_n_mm2(compression=1e9, tension=10.0, shear=1e9, torsion=1e9, bending=10.0)
     used = utilisation(loads, rectangular_sections(areas, second_moments), strength)[0]
     # By hand: N/A + M/W with W = b h² / 6.
     assert used == pytest.approx((90e3 / 0.4 + 120e3 / (WIDTH / 6.0)) / 10e6, rel=1e-6)
@@ -90,3 +90,17 @@ def test_no_rows_and_no_connections():
     assert len(areas) == len(moments) == len(loads.axial_n) == 0
     empty = Cuts.between(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.ones(2, bool))
     assert empty.starts.tolist() == [0]
+
+
+def test_the_worst_around_each_shard_is_found():
+    pairs = np.array([(1, 2), (2, 3), (3, 4), (0, 4), (0, 1)])
+    is_shard = np.array([False, True, True, True, True])
+    # 3-4 is the worst of both its shards; 1-2 of both of its, as 2-3 uses less; ground joints compete over no ground.
+    assert worst_around(pairs, np.array([5.0, 4.0, 9.0, 1.0, 2.0]), is_shard).tolist() == [
+        True,
+        False,
+        True,
+        False,
+        False,
+    ]
+    assert worst_around(pairs[3:], np.array([1.0, 2.0]), is_shard).tolist() == [True, True]

@@ -16,7 +16,7 @@ from bridge_demolition_addon.core.strength import (
     weaker,
 )
 
-STRENGTH = Strength.in_n_mm2(compression=40.0, tension=4.0, shear=2.0, bending=5.0)
+STRENGTH = Strength.in_n_mm2(compression=40.0, tension=4.0, shear=2.0, torsion=2.0, bending=5.0)
 
 # A square of 2 m: area 4 m², W = 8/6 m³.
 SQUARE = square_sections(np.array([4.0]))
@@ -121,7 +121,7 @@ def test_cutting_a_section_into_parts_keeps_its_edge_stress_in_bending(parts):
     side = depth / parts
     middle = (depth - side) / 2
     stress_in_middle, stress_over_part = edge_stress * middle / (depth / 2), edge_stress * (side / 2) / (depth / 2)
-    strength = Strength.in_n_mm2(compression=40.0, tension=5.0, shear=2.0, bending=5.0)
+    strength = Strength.in_n_mm2(compression=40.0, tension=5.0, shear=2.0, torsion=2.0, bending=5.0)
     outermost = used(
         square_sections(np.array([side**2])),
         strength,
@@ -166,13 +166,13 @@ def test_presets_make_sense(name):
 def test_every_connection_can_have_a_strength_of_its_own():
     forces = SectionForces(np.full(3, 4e6), np.zeros((3, 2)), np.zeros(3), np.zeros((3, 2)))
     sections = square_sections(np.full(3, 4.0))
-    materials = [STRENGTH, Strength.in_n_mm2(40, 2, 2, 5)]
+    materials = [STRENGTH, Strength.in_n_mm2(40, 2, 2, 2, 5)]
     strength = strengths_of(materials, np.array([1, 0, 1]))
     assert utilisation(forces, sections, strength) == pytest.approx([1 / 2, 1 / 4, 1 / 2])
 
 
 def test_a_joint_is_as_weak_as_the_weaker_side():
-    joint = weaker(Strength(4.0, 3.0, 2.0, 1.0), Strength(1.0, 2.0, 3.0, np.array([0.5, 4.0])))
+    joint = weaker(Strength(4.0, 3.0, 2.0, 2.0, 1.0), Strength(1.0, 2.0, 3.0, 1.0, np.array([0.5, 4.0])))
     assert (joint.compression_pa, joint.tension_pa, joint.shear_pa) == (1, 2, 2)
     assert joint.bending_pa.tolist() == [0.5, 1.0]
 
@@ -191,7 +191,7 @@ def test_no_connections():
 @pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf, np.array([1.0, 0.0])])
 def test_impossible_strengths_are_refused(value):
     with pytest.raises(ScenarioError, match="tension_pa"):
-        Strength(1.0, value, 1.0, 1.0)
+        Strength(1.0, value, 1.0, 1.0, 1.0)
 
 
 @pytest.mark.parametrize("share, elongation", [(-0.1, 0.1), (1.1, 0.1), (np.nan, 0.1), (0.5, -0.1), (0.5, np.nan)])
