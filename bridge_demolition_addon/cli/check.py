@@ -95,6 +95,8 @@ def _strength_facts(strength: Strength) -> Iterator[tuple[str, str]]:
 def _method(connections: ConnectionSettings) -> str:
     if connections.method == "face":
         return "shards that share a face"
+    if connections.method == "nearest":
+        return f"each with its {connections.neighbours} nearest"
     places = {"vertex": "nearest vertices", "centre": "centres of mass"}
     return f"{places[connections.method]} within {connections.search_radius_m:g} m"
 

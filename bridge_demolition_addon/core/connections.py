@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .fracture import Shard, SharedFaces
+from .proximity import blocks, boxes_that_meet, nearest_points, points_within, ranges
 
 GROUND = -1
 """Stands for the ground where a connection names its second body."""
@@ -15,8 +16,8 @@ GROUND = -1
 _LEVEL_TOLERANCE_M = 1e-6
 """How far a face may lie off the ground and still stand on it: rounding of coordinates of some hundred metres."""
 
-_DISTANCES_AT_ONCE = 4_000_000
-"""Distances computed in one array operation: their differences in three axes take 100 MB."""
+_ROUNDING = 1e-9
+"""How much further than a radius vertices are looked at, in m and as a part of the radius."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,8 @@ class Connections:
     areas
         (m,) area of the shared face, m²; 0 where the two share none.
     normals
-        (m, 3) unit vectors from the first body to the second, at right angles to the shared face.
+        (m, 3) unit vectors from the first body to the second, at right angles to the shared face; without one, along the
+        line between their centres of mass, and upwards where these coincide.
     """
 
     pairs: np.ndarray
@@ -64,7 +66,7 @@ def connect(
     pairs = limited(pairs, distances, limit_per_shard, len(centres))
     pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
     points = centres[pairs].mean(axis=1)
-    normals = _unit(centres[pairs[:, 1]] - centres[pairs[:, 0]])
+    normals = _directions(centres[pairs[:, 1]] - centres[pairs[:, 0]])
     areas = np.zeros(len(pairs))
     rows, face_rows = _matching_rows(pairs, faces.pairs, len(centres))
     points[rows] = faces.centres[face_rows]
@@ -80,22 +82,32 @@ def neighbours_by_face(faces: SharedFaces) -> tuple[np.ndarray, np.ndarray]:
 
 def neighbours_by_centre(centres: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (k, 2) of shards whose centres of mass (n, 3) lie within a radius, and their distances (k,) in m."""
-    rows = max(1, _DISTANCES_AT_ONCE // max(1, len(centres)))
-    found_pairs, found_distances = [np.zeros((0, 2), int)], [np.zeros(0)]
-    for start in range(0, len(centres), rows):
-        block = centres[start : start + rows]
-        distances = np.linalg.norm(block[:, None] - centres[None], axis=2)
-        first, second = np.nonzero(distances <= radius_m)
-        once = first + start < second
-        found_pairs.append(np.column_stack((first + start, second))[once])
-        found_distances.append(distances[first, second][once])
-    return np.concatenate(found_pairs), np.concatenate(found_distances)
+    return points_within(centres, radius_m)
+
+
+def neighbours_by_count(centres: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k, 2) of shards, one of them among those nearest to the other, and their distances (k,) in m.
+
+    Parameters
+    ----------
+    centres
+        (n, 3) centres of mass, m.
+    count
+        How many of its nearest each shard is connected with; it may be among the nearest of more.
+    """
+    others, distances = nearest_points(centres, count)
+    pairs = np.sort(np.column_stack((np.repeat(np.arange(len(centres)), others.shape[1]), others.ravel())), axis=1)
+    pairs, rows = np.unique(pairs, axis=0, return_index=True)
+    return pairs, distances.ravel()[rows]
 
 
 def neighbours_by_vertex(shards: Sequence[Shard], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (k, 2) of shards whose nearest vertices lie within a radius, and their distances (k,) in m."""
-    candidates = _boxes_within(shards, radius_m)
-    distances = np.array([_vertex_distance(shards[i].vertices, shards[j].vertices) for i, j in candidates])
+    corners = _Corners.of(shards)
+    candidates = boxes_that_meet(corners.lower, corners.upper, radius_m)
+    counts = np.diff(corners.bounds)[candidates].prod(axis=1)
+    found = [corners.distances(candidates[part], radius_m) for part in blocks(counts)]
+    distances = np.concatenate([np.zeros(0), *found])
     near = distances <= radius_m
     return candidates[near], distances[near]
 
@@ -106,10 +118,12 @@ def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shar
     Pairs at the same distance are taken in order of their shards, so that the result is reproducible.
     """
     order = np.lexsort((pairs[:, 1], pairs[:, 0], distances))
-    taken = np.zeros(shard_count, int)
+    pairs = pairs[order]
+    if np.bincount(pairs.ravel(), minlength=1).max() <= limit_per_shard:
+        return pairs
+    taken = [0] * shard_count
     kept = []
-    for row in order:
-        first, second = pairs[row]
+    for row, (first, second) in enumerate(pairs.tolist()):
         if taken[first] < limit_per_shard and taken[second] < limit_per_shard:
             taken[first] += 1
             taken[second] += 1
@@ -145,21 +159,43 @@ def _standing_face(shard: Shard) -> tuple[float, np.ndarray]:
     return total, centre
 
 
-def _boxes_within(shards: Sequence[Shard], radius_m: float) -> np.ndarray:
-    """Pairs (k, 2) of shards whose bounding boxes come within a radius in every direction."""
-    low = np.array([shard.vertices.min(axis=0) for shard in shards])
-    high = np.array([shard.vertices.max(axis=0) for shard in shards]) + radius_m
-    found = [np.zeros((0, 2), int)]
-    for index in range(len(shards) - 1):
-        others = np.arange(index + 1, len(shards))
-        near = ((low[others] <= high[index]) & (low[index] <= high[others])).all(axis=1)
-        found.append(np.column_stack((np.full(near.sum(), index), others[near])))
-    return np.concatenate(found)
+@dataclass(frozen=True, eq=False, slots=True)
+class _Corners:
+    """Vertices (v, 3) of all shards, where those of each begin: `bounds` (n + 1,), and the shards' boxes (n, 3)."""
 
+    vertices: np.ndarray
+    bounds: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
 
-def _vertex_distance(first: np.ndarray, second: np.ndarray) -> float:
-    difference = first[:, None] - second[None]
-    return float(np.sqrt(np.einsum("ijk,ijk->ij", difference, difference).min()))
+    @classmethod
+    def of(cls, shards: Sequence[Shard]) -> _Corners:
+        return cls(
+            vertices=np.concatenate([np.zeros((0, 3)), *(shard.vertices for shard in shards)]),
+            bounds=np.cumsum([0] + [len(shard.vertices) for shard in shards]),
+            lower=np.array([shard.vertices.min(axis=0) for shard in shards]).reshape(-1, 3),
+            upper=np.array([shard.vertices.max(axis=0) for shard in shards]).reshape(-1, 3),
+        )
+
+    def distances(self, pairs: np.ndarray, radius_m: float) -> np.ndarray:
+        """Distances (k,) between the nearest vertices of pairs (k, 2) of shards; inf where surely beyond a radius."""
+        row, first = self._near_box(pairs[:, 0], pairs[:, 1], radius_m)
+        other_row, second = self._near_box(pairs[:, 1], pairs[:, 0], radius_m)
+        counts = np.bincount(other_row, minlength=len(pairs))
+        of_first, place = ranges((np.cumsum(counts) - counts)[row], counts[row])
+        row = row[of_first]
+        difference = self.vertices[first[of_first]] - self.vertices[second[place]]
+        squares = np.full(len(pairs), np.inf)
+        np.minimum.at(squares, row, np.einsum("ij,ij->i", difference, difference))
+        return np.sqrt(squares)
+
+    def _near_box(self, shards: np.ndarray, others: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+        """Row k and vertex of shards[k], for all its vertices within a radius of the box of others[k]."""
+        row, vertex = ranges(self.bounds[shards], np.diff(self.bounds)[shards])
+        reach = radius_m * (1.0 + _ROUNDING) + _ROUNDING
+        places, other = self.vertices[vertex], others[row]
+        near = ((places >= self.lower[other] - reach) & (places <= self.upper[other] + reach)).all(axis=1)
+        return row[near], vertex[near]
 
 
 def _matching_rows(pairs: np.ndarray, face_pairs: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -169,5 +205,7 @@ def _matching_rows(pairs: np.ndarray, face_pairs: np.ndarray, count: int) -> tup
     return rows, face_rows
 
 
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
+def _directions(vectors: np.ndarray) -> np.ndarray:
+    """Unit vectors (k, 3) along vectors (k, 3); upwards where one has no length."""
+    lengths = np.linalg.norm(vectors, axis=1)[:, None]
+    return np.divide(vectors, lengths, out=np.tile([0.0, 0.0, 1.0], (len(vectors), 1)), where=lengths > 0.0)

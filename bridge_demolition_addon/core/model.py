@@ -123,5 +123,7 @@ def _connections(
             pairs, distances = connecting.neighbours_by_centre(centres, settings.search_radius_m)
         case "vertex":
             pairs, distances = connecting.neighbours_by_vertex(shards, settings.search_radius_m)
+        case "nearest":
+            pairs, distances = connecting.neighbours_by_count(centres, settings.neighbours)
     between = connecting.connect(centres, faces, pairs, distances, settings.limit_per_shard)
     return connecting.joined([between, connecting.foundations(shards)]) if settings.foundation else between

@@ -6,6 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
+from .proximity import boxes_that_meet, ranges
+
 OPPOSITE_COSINE = -1 + 1e-6
 """Two faces look at each other when the cosine between their normals is below this: they lean by less than 0.08°."""
 
@@ -106,7 +108,7 @@ def touching_faces(meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np
     """
     lower = np.array([mesh.vertices.min(axis=0) for mesh in meshes]).reshape(-1, 3)
     upper = np.array([mesh.vertices.max(axis=0) for mesh in meshes]).reshape(-1, 3)
-    pairs = _overlapping_boxes(lower, upper, tolerance_m)
+    pairs = boxes_that_meet(lower, upper, tolerance_m)
     if member is not None:
         pairs = pairs[np.asarray(member)[pairs[:, 0]] != np.asarray(member)[pairs[:, 1]]]
     patches = [_no_patches()]
@@ -155,13 +157,6 @@ def triangle_areas_and_normals(corners: np.ndarray) -> tuple[np.ndarray, np.ndar
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(doubled, axis=1)
     return length / 2, np.divide(doubled, length[:, None], out=np.zeros_like(doubled), where=length[:, None] > 0)
-
-
-def ranges(starts: np.ndarray, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """For every row k the numbers starts[k] ... starts[k] + counts[k] - 1, one after the other, and each one's row."""
-    rows = np.repeat(np.arange(len(counts)), counts)
-    firsts = np.cumsum(counts) - counts
-    return rows, np.arange(len(rows)) - firsts[rows] + starts[rows]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -227,21 +222,6 @@ def _triangles_in_box(
     row, triangle = ranges(surface.bounds[meshes], surface.bounds[meshes + 1] - surface.bounds[meshes])
     meets = ((surface.lower[triangle] <= upper[row]) & (surface.upper[triangle] >= lower[row])).all(axis=1)
     return row[meets], triangle[meets]
-
-
-def _overlapping_boxes(lower: np.ndarray, upper: np.ndarray, tolerance: float) -> np.ndarray:
-    """Pairs (k, 2), the smaller index first, of boxes that are no further apart than the tolerance."""
-    if len(lower) < 2:
-        return np.zeros((0, 2), dtype=np.int64)
-    axis = int(np.argmax(upper.max(axis=0) - lower.min(axis=0)))
-    order = np.argsort(lower[:, axis], kind="stable")
-    after = np.arange(1, len(order) + 1)
-    reached = np.searchsorted(lower[order, axis], upper[order, axis] + tolerance, side="right")
-    one, other = ranges(after, np.maximum(reached - after, 0))
-    pairs = np.sort(np.column_stack([order[one], order[other]]), axis=1)
-    first, second = pairs.T
-    meets = (lower[first] <= upper[second] + tolerance) & (lower[second] <= upper[first] + tolerance)
-    return pairs[meets.all(axis=1)]
 
 
 def _left_of_line(polygons: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from bridge_demolition_addon.core.connections import (
     joined,
     limited,
     neighbours_by_centre,
+    neighbours_by_count,
     neighbours_by_face,
     neighbours_by_vertex,
 )
@@ -61,6 +62,48 @@ def test_neighbours_by_centre_of_more_shards_than_one_block_takes():
     pairs, distances = neighbours_by_centre(line(2500), 1.0)
     assert pairs.tolist() == [[index, index + 1] for index in range(2499)]
     assert (distances == 1.0).all()
+
+
+@pytest.mark.parametrize("radius", (0.0, 0.1, 0.35, 1.0, 20.0))
+def test_neighbours_by_vertex_are_those_of_comparing_all_vertices(radius):
+    generator = np.random.default_rng(5)
+    sizes, places = generator.uniform(0.05, 0.4, (150, 3)), generator.uniform(-1.0, 1.0, (150, 3))
+    shards = [shard(box(size, place)) for size, place in zip(sizes, places, strict=True)]
+    corners = np.array([each.vertices for each in shards])
+    differences = corners[:, None, :, None] - corners[None, :, None, :]
+    apart = np.linalg.norm(differences, axis=4).min(axis=(2, 3))
+    first, second = np.nonzero(np.triu(apart <= radius, 1))
+    pairs, distances = neighbours_by_vertex(shards, radius)
+    np.testing.assert_array_equal(pairs, np.column_stack((first, second)))
+    np.testing.assert_allclose(distances, apart[first, second], atol=ROUNDING)
+
+
+def test_neighbours_by_count_in_a_line():
+    # At 0, 1, 3, 6 and 10 m: the nearest of each is the one before, and the first one's is the second.
+    centres = line(5)
+    centres[:, 0] = (0, 1, 3, 6, 10)
+    pairs, distances = neighbours_by_count(centres, 1)
+    assert pairs.tolist() == [[0, 1], [1, 2], [2, 3], [3, 4]]
+    assert distances.tolist() == [1.0, 2.0, 3.0, 4.0]
+    # With two, the one at 6 m takes those at 3 and 10, and the one at 10 m those at 6 and 3.
+    assert neighbours_by_count(centres, 2)[0].tolist() == [[0, 1], [0, 2], [1, 2], [2, 3], [2, 4], [3, 4]]
+
+
+@pytest.mark.parametrize("count", (4, 5, 1000))
+def test_neighbours_by_count_of_few_shards_are_all(count):
+    pairs, _ = neighbours_by_count(np.random.default_rng(0).random((5, 3)), count)
+    assert pairs.tolist() == [[i, j] for i in range(5) for j in range(i + 1, 5)]
+
+
+def test_shards_with_their_centres_in_one_place_are_connected_upwards():
+    # A cube in the hollow of a larger one: no face is shared where there is a gap all around.
+    hollow = trimesh.util.concatenate([box((3.0, 3.0, 3.0)), box((2.0, 2.0, 2.0))])
+    shards, centres = [shard(hollow), shard(box((1.0, 1.0, 1.0)))], np.zeros((2, 3))
+    connections = connect(centres, touching_faces(shards), *neighbours_by_centre(centres, 0.1), 5)
+    assert connections.pairs.tolist() == [[0, 1]]
+    assert connections.areas.tolist() == [0.0]
+    assert connections.normals.tolist() == [[0.0, 0.0, 1.0]]
+    assert connections.points.tolist() == [[0.0, 0.0, 0.0]]
 
 
 def test_neighbours_by_vertex_in_a_grid_are_all_that_touch():
@@ -183,6 +226,7 @@ def test_shards_without_neighbours_give_empty_arrays_of_the_right_shape(centres)
         neighbours_by_face(faces),
         neighbours_by_centre(centres, 1.0),
         neighbours_by_vertex(shards, 1.0),
+        neighbours_by_count(centres[:1], 3),
     ):
         between = connect(centres, faces, *neighbours, 5)
         assert shapes(between) == empty

@@ -211,6 +211,12 @@ def test_values_outside_their_limits_are_refused(table, values, text):
             "search_radius_m is missing: expected a number above 0 (m) with method",
         ),
         (CONNECTIONS, {"method": "face"}, 'connections.search_radius_m is 1.0: expected none with method "face"'),
+        (CONNECTIONS, {"neighbours": 4}, 'connections.neighbours is 4: expected none with method "vertex"'),
+        (
+            CONNECTIONS,
+            {"method": "nearest", "search_radius_m": None},
+            "connections.neighbours is missing: expected a whole number of at least 1 with method",
+        ),
         (SCENARIO.shards, {"use_deactivation": False}, "shards.start_deactivated is true: expected false"),
         (
             BRIDGE,

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..shared_faces import ranges
+from ..proximity import ranges
 from .hulls import ConvexHulls
 
 GRAZING_M = 1e-3

@@ -22,15 +22,23 @@ class ConnectionSettings(Table):
     )
     method: str = key(
         "Which shards are connected: those whose nearest vertices (`vertex`) or centres of mass (`centre`) lie within "
-        "`search_radius_m`, or those that share a face (`face`).",
+        "`search_radius_m`, those that share a face (`face`), or each with as many as `neighbours` says whose centres "
+        "of mass are nearest to its own (`nearest`).",
         default="vertex",
-        choices=("vertex", "centre", "face"),
+        choices=("vertex", "centre", "face", "nearest"),
     )
     search_radius_m: float | None = key(
-        "Distance up to which shards are connected. Needed for `vertex` and `centre`, not taken for `face`.",
+        "Distance up to which shards are connected. Needed for `vertex` and `centre`, not taken for the others.",
         default=None,
         unit="m",
         above=0,
+    )
+    neighbours: int | None = key(
+        "How many of its nearest each shard is connected with; a shard may be among the nearest of more. Needed for "
+        "`nearest`, not taken for the others.",
+        default=None,
+        at_least=1,
+        at_most=LARGEST_INTEGER,
     )
     limit_per_shard: int = key(
         "Most connections of one shard; the nearest are kept.", default=50, at_least=1, at_most=LARGEST_INTEGER
@@ -95,11 +103,13 @@ class ConnectionSettings(Table):
                 f"connections.ductile_elongation_m is {self.ductile_elongation_m}: expected a number above 0 (m) with "
                 f"a connections.ductile_share above 0, and none with {self.ductile_share}"
             )
-        if self.method == "face" and self.search_radius_m is not None:
-            raise ScenarioError(
-                f'connections.search_radius_m is {self.search_radius_m}: expected none with method "face"'
-            )
-        if self.method != "face" and self.search_radius_m is None:
-            raise ScenarioError(
-                f'connections.search_radius_m is missing: expected a number above 0 (m) with method "{self.method}"'
-            )
+        self._check_method("search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
+        self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
+
+    def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
+        """See that a key is given for the methods that need it, and for no others."""
+        value = getattr(self, name)
+        if self.method in methods and value is None:
+            raise ScenarioError(f'connections.{name} is missing: expected {wanted} with method "{self.method}"')
+        if self.method not in methods and value is not None:
+            raise ScenarioError(f'connections.{name} is {value}: expected none with method "{self.method}"')

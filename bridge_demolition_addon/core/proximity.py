@@ -1,0 +1,213 @@
+"""What lies near each other among thousands of points or boxes, found by sorting them into the cells of a grid."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+_MOST_CELLS = 2**20
+"""Cells along an axis, at most: the number of a cell in three axes then fits into 64 bits."""
+
+_SLACK = 1e-6
+"""Part of a radius that cells are larger by, so that rounding never hides a neighbour two cells away: far more than
+the 2**20 × 2**-52 to which a coordinate is known that is counted in cells."""
+
+_CELLS_PER_BOX = 30
+"""Cells that a box reaches into, in the mean, at most: 2 in each direction and room for some large ones."""
+
+_AT_ONCE = 2_000_000
+"""Candidates in one array operation: their differences in three axes take 50 MB."""
+
+_SAMPLE = 64
+"""Points that show how close points lie."""
+
+_GROWTH = 1.5
+"""Growth of a radius in which too few neighbours were found."""
+
+
+def ranges(starts: np.ndarray, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """For every row k the numbers starts[k] ... starts[k] + counts[k] - 1, one after the other, and each one's row."""
+    rows = np.repeat(np.arange(len(counts)), counts)
+    firsts = np.cumsum(counts) - counts
+    return rows, np.arange(len(rows)) - firsts[rows] + starts[rows]
+
+
+def blocks(counts: np.ndarray) -> Iterator[slice]:
+    """Slices of rows (k,), in order, each with as many as can be worked on at once by their counts, or one row."""
+    sums = np.cumsum(counts)
+    start, before = 0, 0
+    while start < len(counts):
+        end = max(start + 1, int(np.searchsorted(sums, before + _AT_ONCE, side="right")))
+        yield slice(start, end)
+        start, before = end, int(sums[end - 1])
+
+
+def boxes_that_meet(lower: np.ndarray, upper: np.ndarray, distance: float = 0.0) -> np.ndarray:
+    """Pairs of boxes that are no further apart than a distance in every direction.
+
+    Every box is noted in all cells that it reaches into, and boxes noted in the same cell are compared. A pair is taken
+    in the first cell that both are noted in, so that none is found twice.
+
+    Parameters
+    ----------
+    lower, upper
+        (n, 3) corners of the boxes.
+    distance
+        In the unit of the corners.
+
+    Returns
+    -------
+    numpy.ndarray
+        (k, 2) the smaller index first, in ascending order.
+    """
+    found = [np.zeros((0, 2), np.int64)]
+    if len(lower) > 1:
+        upper = upper + distance  # to one side is enough: half of the distance on either side comes to the same
+        low, key_of, boxes, keys = _boxes_in_cells(lower, upper)
+        places = np.arange(len(boxes))
+        others = np.searchsorted(keys, keys, side="right") - places - 1
+        for part in blocks(others):
+            row, place = ranges(places[part] + 1, others[part])
+            one, other = boxes[part][row], boxes[place]
+            first_cell = key_of(np.maximum(low[one], low[other])) == keys[place]
+            one, other = one[first_cell], other[first_cell]
+            meets = ((lower[one] <= upper[other]) & (lower[other] <= upper[one])).all(axis=1)
+            found.append(np.column_stack((np.minimum(one, other), np.maximum(one, other)))[meets])
+    pairs = np.concatenate(found)
+    return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+
+
+def points_within(points: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k, 2) of points (n, 3) no further apart than a radius, in ascending order, and their distances (k,)."""
+    found_pairs, found_distances = [np.zeros((0, 2), np.int64)], [np.zeros(0)]
+    if len(points) > 1:
+        for query, other, distances in _Grid.of(points, radius).near(np.arange(len(points))):
+            once = (query < other) & (distances <= radius)
+            found_pairs.append(np.column_stack((query, other))[once])
+            found_distances.append(distances[once])
+    pairs, distances = np.concatenate(found_pairs), np.concatenate(found_distances)
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    return pairs[order], distances[order]
+
+
+def nearest_points(points: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The points nearest to each point, nearest first and, at the same distance, the smaller index first.
+
+    Parameters
+    ----------
+    points
+        (n, 3).
+    count
+        How many for each; all others where there are no more.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        (n, c) indices of the nearest, and (n, c) how far away they are.
+    """
+    count = min(count, max(len(points) - 1, 0))
+    indices, distances = np.zeros((len(points), count), np.int64), np.zeros((len(points), count))
+    waiting = np.arange(len(points)) if count else np.zeros(0, np.int64)
+    radius = _likely_radius(points, count) if count else 0.0
+    while len(waiting):
+        served = [np.zeros(0, np.int64)]
+        for query, other, apart in _Grid.of(points, radius).near(waiting):
+            near = (query != other) & (apart <= radius)
+            served.append(_keep_nearest(query[near], other[near], apart[near], indices, distances))
+        waiting = np.setdiff1d(waiting, np.concatenate(served), assume_unique=True)
+        radius *= _GROWTH
+    return indices, distances
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Grid:
+    """Points (n, 3) sorted by the number of their cell, an empty layer of cells around them.
+
+    Attributes
+    ----------
+    points
+        The points.
+    keys
+        (n,) numbers of their cells.
+    steps
+        (9,) differences of these numbers to the rows of cells beside and around one.
+    order, sorted_keys
+        (n,) points in ascending order of their cells, and the numbers of these.
+    """
+
+    points: np.ndarray
+    keys: np.ndarray
+    steps: np.ndarray
+    order: np.ndarray
+    sorted_keys: np.ndarray
+
+    @classmethod
+    def of(cls, points: np.ndarray, radius: float) -> _Grid:
+        """Grid whose cells are as large as a radius."""
+        low = points.min(axis=0)
+        extent = float((points.max(axis=0) - low).max())
+        size = max(radius * (1.0 + _SLACK), extent / _MOST_CELLS) or 1.0
+        cells = np.floor((points - low) / size).astype(np.int64) + 1
+        _, across, along = cells.max(axis=0) + 2
+        keys = (cells[:, 0] * across + cells[:, 1]) * along + cells[:, 2]
+        beside = np.arange(-1, 2)
+        order = np.argsort(keys, kind="stable")
+        return cls(points, keys, ((beside[:, None] * across + beside) * along).ravel(), order, keys[order])
+
+    def near(self, queries: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Points (k,) among some queries, others (k,) in the cells around them, and distances (k,), block by block.
+
+        All others of a query are in the same block. The query itself is among them.
+        """
+        rows_of_cells = self.keys[queries][:, None] + self.steps
+        starts = np.searchsorted(self.sorted_keys, rows_of_cells - 1, side="left")
+        counts = np.searchsorted(self.sorted_keys, rows_of_cells + 1, side="right") - starts
+        for part in blocks(counts.sum(axis=1)):
+            row, place = ranges(starts[part].ravel(), counts[part].ravel())
+            query, other = queries[part][row // len(self.steps)], self.order[place]
+            yield query, other, np.linalg.norm(self.points[query] - self.points[other], axis=1)
+
+
+def _boxes_in_cells(lower: np.ndarray, upper: np.ndarray) -> tuple:
+    """Lowest cells (n, 3) of boxes, how to number a cell, and boxes (e,) with the numbers (e,) of cells, by number."""
+    origin, extent = lower.min(axis=0), float((upper.max(axis=0) - lower.min(axis=0)).max())
+    size = max(float(np.median((upper - lower).max(axis=1))), extent / _MOST_CELLS) or 1.0
+    while ((upper - lower) / size + 1.0).prod(axis=1).sum() > _CELLS_PER_BOX * len(lower):
+        size *= 2.0
+    low = np.floor((lower - origin) / size).astype(np.int64)
+    high = np.floor((upper - origin) / size).astype(np.int64)
+    _, across, along = high.max(axis=0) + 1
+
+    def key_of(cells: np.ndarray) -> np.ndarray:
+        return (cells[:, 0] * across + cells[:, 1]) * along + cells[:, 2]
+
+    counts = high - low + 1
+    boxes, place = ranges(np.zeros(len(lower), np.int64), counts.prod(axis=1))
+    place, upwards = np.divmod(place, counts[boxes, 2])
+    keys = key_of(low[boxes] + np.column_stack((*np.divmod(place, counts[boxes, 1]), upwards)))
+    order = np.argsort(keys, kind="stable")
+    return low, key_of, boxes[order], keys[order]
+
+
+def _likely_radius(points: np.ndarray, count: int) -> float:
+    """A radius in which some points have that many others; more than 0 unless all points are in one place."""
+    sample = points[:: max(1, len(points) // _SAMPLE)]
+    distances = np.linalg.norm(sample[:, None] - points[None], axis=2)
+    radius = float(np.partition(distances, count, axis=1)[:, count].min())
+    return max(radius, float(np.ptp(points, axis=0).max()) / _MOST_CELLS)
+
+
+def _keep_nearest(
+    query: np.ndarray, other: np.ndarray, apart: np.ndarray, indices: np.ndarray, distances: np.ndarray
+) -> np.ndarray:
+    """Enter the nearest others of all queries that have enough of them, and say which these are."""
+    order = np.lexsort((other, apart, query))
+    query, other, apart = query[order], other[order], apart[order]
+    served, starts, counts = np.unique(query, return_index=True, return_counts=True)
+    enough = counts >= indices.shape[1]
+    served, starts = served[enough], starts[enough]
+    rows = starts[:, None] + np.arange(indices.shape[1])
+    indices[served], distances[served] = other[rows], apart[rows]
+    return served
