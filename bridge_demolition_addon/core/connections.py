@@ -34,8 +34,8 @@ class Connections:
     areas
         (m,) area of the shared face, m²; 0 where the two share none.
     normals
-        (m, 3) unit vectors from the first body to the second, at right angles to the shared face; without one, along the
-        line between their centres of mass, and upwards where these coincide.
+        (m, 3) unit vectors from the first body to the second, at right angles to the shared face; without one, along
+        the line between their centres of mass, and upwards where these coincide.
     """
 
     pairs: np.ndarray

@@ -15,8 +15,8 @@ from manifold3d import Error, Manifold, Mesh64
 from trimesh import Trimesh
 
 from .errors import GeometryError
-from .sewing import sewn
 from .proximity import ranges
+from .sewing import sewn
 from .shared_faces import SharedFaces, overlaps, shared_faces, touching_faces, triangle_areas_and_normals
 from .solids import arrays_of, bodies, contains, from_manifold, mesh_of, to_manifold, volumes_and_centres
 from .voronoi import ConvexCell, convex_cells
