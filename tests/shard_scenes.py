@@ -8,11 +8,13 @@ import numpy as np
 from bridge_demolition_addon.core.connections import connect, neighbours_by_face
 from bridge_demolition_addon.core.face_sections import second_moments
 from bridge_demolition_addon.core.fracture import fracture
+from bridge_demolition_addon.core.joint import Joint
 from bridge_demolition_addon.core.scenario import ShardSettings, TimeSettings
 from bridge_demolition_addon.core.solids import box
-from bridge_demolition_addon.scene.bodies import create_shard_template, create_shards
+from bridge_demolition_addon.scene.bodies import create_shards
 from bridge_demolition_addon.scene.breaking import Breaking, keep_breaking
-from bridge_demolition_addon.scene.connections import create_connection_template, create_connections
+from bridge_demolition_addon.scene.connections import create_connections
+from bridge_demolition_addon.scene.joints import set_joints
 from bridge_demolition_addon.scene.world import create_world, off_scene
 
 DENSITY_KG_M3 = 2400.0
@@ -39,25 +41,21 @@ class ShardScene:
     def __init__(self, size_m, centre_m, shard_count, time: dict, breaking=None, breaking_force_newton=None):
         self.scene = bpy.context.scene
         settings = TimeSettings(duration_s=1.0, **time)
-        world = create_world(self.scene, settings, LAST_FRAME)
+        create_world(self.scene, settings, LAST_FRAME)
         self.fracture = fracture(box(size_m, centre_m), shard_count, seed=1)
         faces = self.fracture.faces
         connections = connect(self.fracture.centres, faces, *neighbours_by_face(faces), limit_per_shard=1000)
         moments = second_moments(
             self.fracture.shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
         )
-        impulse = None if breaking_force_newton is None else settings.step.impulse(breaking_force_newton)
         awake = ShardSettings(use_deactivation=False, start_deactivated=False)
-        shard_template = create_shard_template(world, awake)
-        connection_template = create_connection_template(world, "FIXED", impulse)
         keep_breaking(self.scene, breaking or Breaking())
         masses = DENSITY_KG_M3 * self.fracture.volumes
         with off_scene(self.scene) as (bodies, constraints):
             parts = (self.fracture.shards, self.fracture.centres, masses)
-            self.shards = create_shards(bodies, shard_template, *parts)
-            create_connections(constraints, connection_template, connections, self.shards, None, moments)
-        for template in (shard_template, connection_template):
-            bpy.data.objects.remove(template)
+            self.shards = create_shards(bodies, awake, *parts)
+            made = create_connections(constraints, connections, self.shards, None, moments)
+            set_joints(made, [Joint("FIXED", breaking_force_newton)], np.zeros(len(made), int), settings.step)
 
     def hold(self, is_held: np.ndarray) -> None:
         """Fix some of the shards (n,) in space."""

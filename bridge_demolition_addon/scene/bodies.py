@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from enum import StrEnum
 
 import bpy
@@ -12,6 +12,7 @@ import trimesh
 from ..core.fracture import Shard
 from ..core.scenario import Ball, Ground, ShardSettings
 from ..core.solids import box
+from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
 _GROUND_THICKNESS_M = 2.0
@@ -59,24 +60,10 @@ def hull_points(body: bpy.types.Object) -> np.ndarray:
     return triangulated(body)[0]
 
 
-def create_shard_template(world: bpy.types.RigidBodyWorld, settings: ShardSettings) -> bpy.types.Object:
-    """Body that all shards are copied from; to be removed afterwards."""
-    template = _rigid_body(world, bpy.data.meshes.new("Shard"), Kind.SHARD, "CONVEX_HULL")
-    rigid = template.rigid_body
-    _set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
-    rigid.linear_damping = settings.linear_damping
-    rigid.angular_damping = settings.angular_damping
-    rigid.use_deactivation = settings.use_deactivation
-    rigid.use_start_deactivated = settings.start_deactivated
-    rigid.deactivate_linear_velocity = settings.deactivation_linear_velocity_m_s
-    rigid.deactivate_angular_velocity = settings.deactivation_angular_velocity_rad_s
-    return template
-
-
 def create_shards(
     collection: bpy.types.Collection,
-    template: bpy.types.Object,
-    shards: Iterable[Shard],
+    settings: ShardSettings,
+    shards: Sequence[Shard],
     centres_m: np.ndarray,
     masses_kg: np.ndarray,
 ) -> list[bpy.types.Object]:
@@ -84,22 +71,37 @@ def create_shards(
 
     Parameters
     ----------
-    collection, template
-        Where the bodies go, and what they are copied from.
+    collection
+        Where the bodies go: that of a rigid-body world, best while `off_scene`.
+    settings
+        Surface, damping and rest of all of them.
     shards, centres_m, masses_kg
         For each of n shards its mesh, centre of mass (n, 3) and mass (n,).
     """
-    bodies = []
-    for number, (shard, centre, mass) in enumerate(zip(shards, centres_m, masses_kg, strict=True)):
-        mesh = bpy.data.meshes.new(f"Shard {number:05d}")
-        mesh.from_pydata(shard.vertices - centre, [], shard.triangles.tolist())
-        body = template.copy()
-        body.name, body.data, body.location = mesh.name, mesh, centre
+    names = numbered_names("Shard", len(shards), bpy.data.objects, bpy.data.meshes)
+    meshes = make_named(bpy.data.meshes, names, lambda name, _: bpy.data.meshes.new(name))
+    bodies = make_named(bpy.data.objects, names, lambda name, row: bpy.data.objects.new(name, meshes[row]))
+    columns = zip(bodies, shards, centres_m, masses_kg.tolist(), strict=True)
+    for number, (body, shard, centre, mass) in enumerate(columns):
+        body.data.from_pydata(shard.vertices - centre, [], shard.triangles.tolist())
+        body.location = centre
         body.color = (*(channel * _SHADES[number % len(_SHADES)] for channel in _CONCRETE), 1.0)
-        body.rigid_body.mass = mass
+        body[_KIND] = Kind.SHARD.value
         collection.objects.link(body)
-        bodies.append(body)
+        body.rigid_body.mass = mass
+        _set_shard(body.rigid_body, settings)
     return bodies
+
+
+def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> None:
+    rigid.collision_shape = "CONVEX_HULL"
+    _set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
+    rigid.linear_damping = settings.linear_damping
+    rigid.angular_damping = settings.angular_damping
+    rigid.use_deactivation = settings.use_deactivation
+    rigid.use_start_deactivated = settings.start_deactivated
+    rigid.deactivate_linear_velocity = settings.deactivation_linear_velocity_m_s
+    rigid.deactivate_angular_velocity = settings.deactivation_angular_velocity_rad_s
 
 
 def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:

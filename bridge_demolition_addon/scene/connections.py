@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..core.connections import GROUND, Connections
+from .naming import make_named, numbered_names
 
 _SYMBOL_SIZE_M = 0.1
 _AREA = "bda_area_m2"
@@ -44,46 +45,35 @@ def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
     return tuple(between.normalized()) if between.length else (0.0, 0.0, 1.0)
 
 
-def create_connection_template(world: bpy.types.RigidBodyWorld, kind: str, impulse: float | None) -> bpy.types.Object:
-    """Connection that all others are copied from; to be removed afterwards.
+def create_connections(
+    collection: bpy.types.Collection,
+    connections: Connections,
+    shards: Sequence[bpy.types.Object],
+    ground: bpy.types.Object | None,
+    second_moments_m4: np.ndarray,
+) -> list[bpy.types.Object]:
+    """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical.
 
     Parameters
     ----------
-    kind
-        Blender's type of constraint: FIXED, POINT or HINGE.
-    impulse
-        Breaking threshold, N·s in one sub-step; None for connections that Blender is not to break.
+    collection
+        Where they go: that of a rigid-body world's constraints, best while `off_scene`.
+    connections, second_moments_m4
+        The m connections, and (m, 2, 2) second moments of their areas.
+    shards, ground
+        The bodies that they hold together.
     """
-    template = bpy.data.objects.new("Connection", None)
-    template.empty_display_size = _SYMBOL_SIZE_M
-    world.constraints.objects.link(template)
-    constraint = template.rigid_body_constraint
-    constraint.type = kind
-    constraint.use_breaking = impulse is not None
-    if impulse is not None:
-        constraint.breaking_threshold = impulse
-    return template
-
-
-def create_connections(
-    collection: bpy.types.Collection,
-    template: bpy.types.Object,
-    connections: Connections,
-    shards: Sequence[bpy.types.Object],
-    ground: bpy.types.Object,
-    second_moments_m4: np.ndarray,
-) -> list[bpy.types.Object]:
-    """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical."""
-    objects = []
+    # Sorted behind the shards, of which there are many, see `make_named`.
+    names = numbered_names("Shard connection", len(connections), bpy.data.objects)
+    objects = make_named(bpy.data.objects, names, lambda name, _: bpy.data.objects.new(name, None))
     sections = (connections.areas.tolist(), connections.normals.tolist(), second_moments_m4.reshape(-1, 4).tolist())
-    columns = (connections.pairs, connections.points, *sections)
-    for (first, second), point, area, normal, moments in zip(*columns, strict=True):
-        connection = template.copy()  # keeps the name that Blender gives it: each renaming searches all names
+    columns = (connections.pairs.tolist(), connections.points.tolist(), *sections)
+    for connection, (first, second), point, area, normal, moments in zip(objects, *columns, strict=True):
+        connection.empty_display_size = _SYMBOL_SIZE_M
         connection.location = point
         connection[_AREA], connection[_NORMAL], connection[_SECOND_MOMENTS] = area, normal, moments
+        collection.objects.link(connection)
         constraint = connection.rigid_body_constraint
         constraint.object1 = shards[first]
         constraint.object2 = ground if second == GROUND else shards[second]
-        collection.objects.link(connection)
-        objects.append(connection)
     return objects

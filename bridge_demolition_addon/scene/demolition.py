@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 
 import bpy
+import numpy as np
 
 from ..core.bridge import deck_top
 from ..core.model import Model
 from ..core.scenario import BlastSettings, ConnectionSettings, Scenario
 from ..core.strength import MATERIALS, Ductility
-from .bodies import bodies_of, create_ball, create_ground, create_shard_template, create_shards
+from .bodies import bodies_of, create_ball, create_ground, create_shards
 from .breaking import Breaking, keep_breaking
 from .charges import create_charges
-from .connections import create_connection_template, create_connections
+from .connections import create_connections
 from .explosion import Apply, ExplosionSettings, keep_explosion
 from .force_fields import build_force_objects
+from .joints import set_joints
 from .slow_motion import animate_time_scale
 from .world import START_FRAME, create_world, off_scene
 
@@ -32,20 +34,16 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     ground = create_ground(world, _ground_half_size(scenario), scenario.ground)
     if scenario.ball:
         create_ball(world, scenario.ball, deck_top(scenario.bridge), START_FRAME, release_frame(scenario))
-    force = scenario.connections.breaking_force_newton
-    impulse = None if force is None else scenario.time.step.impulse(force)
     keep_breaking(scene, _breaking(scenario.connections))
-    shard_template = create_shard_template(world, scenario.shards)
-    connection_template = create_connection_template(world, scenario.connections.type, impulse)
     with off_scene(scene) as (bodies, connections):
-        shards = create_shards(bodies, shard_template, model.shards, model.centres_m, model.masses_kg)
-        create_connections(connections, connection_template, model.connections, shards, ground, model.second_moments_m4)
+        shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
+        made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
+        set_joints(made, [scenario.connections.joint], np.zeros(len(made), int), scenario.time.step)
     create_charges(scene, scenario.placed_charges)
     keep_explosion(scene, _explosion(scenario.blast))
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
-    bpy.data.batch_remove((shard_template, shard_template.data, connection_template))
 
 
 def _breaking(settings: ConnectionSettings) -> Breaking:

@@ -57,17 +57,16 @@ def keep_played_frames(scene: bpy.types.Scene) -> None:
 def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bpy.types.Collection]]:
     """The collections of bodies and of connections, taken off the scene while many objects are linked to them.
 
-    Every link to a collection that a scene shows brings the whole scene up to date, so that thousands of them take
-    time that grows with the square of their number.
+    What is linked to them becomes a body or a connection of the scene's world at once, as ever. But every link to a
+    collection that a scene shows has Blender go through all that is in it, so that thousands of them take a time that
+    grows with the square of their number.
     """
-    world = scene.rigidbody_world
-    bodies, connections = world.collection, world.constraints
-    world.collection = world.constraints = None
-    scene.collection.children.unlink(bodies)
-    scene.collection.children.unlink(connections)
+    bodies, connections = scene.rigidbody_world.collection, scene.rigidbody_world.constraints
+    shown = [each for each in (bodies, connections) if each in scene.collection.children[:]]
+    for each in shown:
+        scene.collection.children.unlink(each)
     try:
         yield bodies, connections
     finally:
-        scene.collection.children.link(bodies)
-        scene.collection.children.link(connections)
-        world.collection, world.constraints = bodies, connections
+        for each in shown:
+            scene.collection.children.link(each)

@@ -320,3 +320,27 @@ def test_unmarked_bodies_are_told_by_whether_they_move(blender, build):
         scene.rigidbody_world.collection.objects.link(body)
         body.rigid_body.type = kind
         assert kind_of(body) is expected
+
+
+def test_thresholds_of_a_built_scene_follow_its_step(build):
+    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
+
+    scene = build()
+    assert not rewrite_thresholds(scene)
+    scene.render.fps, scene.rigidbody_world.substeps_per_frame = 50, 4
+    assert rewrite_thresholds(scene)
+    for connection in connections(scene):
+        assert connection.rigid_body_constraint.breaking_threshold == pytest.approx(98_066.5 / 200, rel=SINGLE)
+
+
+def test_names_are_numbered_and_go_on_in_a_second_scene(blender, build):
+    first = build()
+    names = [body.name for body in bodies(first, "shard")]
+    assert names == [f"Shard {number:06d}" for number in range(30)]
+    assert [body.data.name for body in bodies(first, "shard")] == names
+    blender.context.window.scene = blender.data.scenes.new("Second")
+    second = build()
+    assert second != first
+    assert [body.name for body in bodies(second, "shard")] == [f"Shard {number:06d}" for number in range(30, 60)]
+    assert len(connections(second)) == len(connections(first)) == len(MODEL.connections)
+    assert not {each.name for each in connections(first)} & {each.name for each in connections(second)}

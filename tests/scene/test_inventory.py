@@ -107,16 +107,13 @@ def test_names_and_kinds(blocks):
 
 
 def made_connections(blender, blocks, shards, ground, connections, second_moments=None):
-    from bridge_demolition_addon.scene.connections import create_connection_template, create_connections
+    from bridge_demolition_addon.scene.connections import create_connections
     from bridge_demolition_addon.scene.world import off_scene
 
-    template = create_connection_template(blocks.world, "FIXED", 1.0)
     if second_moments is None:
         second_moments = np.zeros((len(connections), 2, 2))
     with off_scene(blocks.scene) as (_, collection):
-        made = create_connections(collection, template, connections, shards, ground, second_moments)
-    blender.data.objects.remove(template)
-    return made
+        return create_connections(collection, connections, shards, ground, second_moments)
 
 
 def test_connections_of_the_add_on_keep_their_sections(blender, blocks):

@@ -35,3 +35,67 @@ def test_hanging_block(blender, tmp_path, kind, step, share, holds):
         # It falls freely from the second sub-step on at the latest; half g·t² is what an ideal fall would give.
         assert sunk == pytest.approx(STANDARD_GRAVITY_M_S2 * elapsed**2 / 2, rel=0.1)
         np.testing.assert_array_equal(results.connection_forces_n[-1], 0.0)
+
+
+CHANGES = (
+    {"substeps_per_frame": 40},
+    {"fps": 60},
+    {"fps_base": 2.0},
+    {"time_scale": 0.25},
+    {"substeps_per_frame": 3, "fps": 48, "time_scale": 0.5},
+)
+
+
+def change_step(scene, change):
+    world = scene.rigidbody_world
+    for name, value in change.items():
+        setattr(scene.render if name.startswith("fps") else world, name, value)
+
+
+def hanging(share):
+    from bridge_demolition_addon.core.time_step import TimeStep
+    from bridge_demolition_addon.scene.thresholds import set_breaking_force
+
+    blocks = Blocks()
+    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG)
+    connection = blocks.connect("FIXED", (0, 0, 9.5), ceiling, block)
+    set_breaking_force(connection, share * WEIGHT_N, TimeStep(24, 1.0, 10, 1.0))
+    return blocks
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=lambda change: ", ".join(change))
+@pytest.mark.parametrize(("share", "holds"), ((0.95, False), (1.05, True)))
+def test_a_force_stays_what_it_is_when_the_step_changes(blender, tmp_path, share, holds, change):
+    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
+
+    blocks = hanging(share)
+    change_step(blocks.scene, change)
+    assert rewrite_thresholds(blocks.scene)
+    assert bool(blocks.play(tmp_path, 24).intact[-1][0]) is holds
+
+
+def test_a_threshold_that_was_not_rewritten_is_the_wrong_force(blender, tmp_path):
+    """Four times as many sub-steps make of 0.95 of the weight 3.8 times the weight: what rewriting is for."""
+    blocks = hanging(0.95)
+    change_step(blocks.scene, {"substeps_per_frame": 40})
+    assert blocks.play(tmp_path, 24).intact[-1][0]
+
+
+def test_nothing_is_written_where_the_step_is_the_same(blender):
+    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
+
+    blocks = hanging(1.0)
+    assert not rewrite_thresholds(blocks.scene)
+    change_step(blocks.scene, {"fps": 25})
+    assert rewrite_thresholds(blocks.scene)
+    assert not rewrite_thresholds(blocks.scene)
+
+
+def test_thresholds_that_somebody_set_stay(blender):
+    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
+
+    blocks = Blocks()
+    by_hand = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), 1.0), 240.0)
+    change_step(blocks.scene, {"fps": 60})
+    assert not rewrite_thresholds(blocks.scene)
+    assert by_hand.rigid_body_constraint.breaking_threshold == 1.0

@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from ..gravity import STANDARD_GRAVITY_M_S2
+from ..joint import Joint
 from ..strength import MATERIALS
 from .key import LARGEST_INTEGER, Table, check_exactly_one, key
 
@@ -87,6 +88,12 @@ class ConnectionSettings(Table):
         if self.breaking_force_n is not None:
             return self.breaking_force_n
         return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
+
+    @property
+    def joint(self) -> Joint:
+        """What all connections have in common."""
+        strength = None if self.material is None else MATERIALS[self.material]
+        return Joint(self.type, self.breaking_force_newton, strength)
 
     def _check_together(self) -> None:
         check_exactly_one(self, "breaking_force_n", "breaking_force_kgf", "material")

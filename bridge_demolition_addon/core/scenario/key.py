@@ -155,9 +155,7 @@ def expected(item: Field) -> str:
         return "true or false"
     if held is str:
         return "one of " + ", ".join(map(json.dumps, rule.choices)) if rule.choices else "a text on one line, not blank"
-    noun, nouns = ("a whole number", "whole numbers") if held is int else ("a number", "numbers")
-    if get_origin(held) is tuple:
-        noun = f"a list of {_list_length(held) or 'one or more'} {nouns}"
+    noun, _ = _nouns(held)
     unit = f"({rule.unit})" if rule.unit else ""
     return " ".join(part for part in (noun, rule.limits, unit) if part)
 
@@ -176,7 +174,7 @@ def checked(item: Field, name: str, value: Any) -> Any:
     if table_class := subtable_class(item):
         return _checked_tables(item, name, value, table_class)
     if get_origin(held) is tuple:
-        return _checked_list(item, name, value)
+        return _checked_list(item, name, held, value)
     if held in (int, float):
         return _checked_number(item, name, value)
     if not isinstance(value, held) or (held is str and not _is_text(value, item.metadata["key"].choices)):
@@ -235,11 +233,30 @@ def _checked_tables(item: Field, name: str, value: Any, table_class: type[Table]
     return tuple(value)
 
 
-def _checked_list(item: Field, name: str, values: Any) -> tuple[float, ...]:
-    length = _list_length(_type_held(item))
+def _nouns(held: Any) -> tuple[str, str]:
+    """What a type of values is called, one and several of them."""
+    if get_origin(held) is tuple:
+        of = f"of {_list_length(held) or 'one or more'} {_nouns(get_args(held)[0])[1]}"
+        return f"a list {of}", f"lists {of}"
+    return {int: ("a whole number", "whole numbers"), str: ("a text", "texts")}.get(held, ("a number", "numbers"))
+
+
+def _checked_list(item: Field, name: str, held: Any, values: Any) -> tuple[Any, ...]:
+    length = _list_length(held)
     if not isinstance(values, list | tuple) or len(values) != (length or max(len(values), 1)):
         raise _unexpected(item, name, values)
-    return tuple(_checked_number(item, f"{name}[{place}]", value) for place, value in enumerate(values))
+    kind = get_args(held)[0]
+    return tuple(_checked_element(item, f"{name}[{place}]", kind, value) for place, value in enumerate(values))
+
+
+def _checked_element(item: Field, name: str, kind: Any, value: Any) -> Any:
+    if get_origin(kind) is tuple:
+        return _checked_list(item, name, kind, value)
+    if kind is str:
+        if not isinstance(value, str) or not _is_text(value, item.metadata["key"].choices):
+            raise _unexpected(item, name, value)
+        return value
+    return _checked_number(item, name, value)
 
 
 def _checked_number(item: Field, name: str, value: Any) -> int | float:

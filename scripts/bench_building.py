@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How fast thousands of bodies and connections are built, next to the plain way, in the same run.
+
+The plain way copies a template for every body and for every connection, which Blender puts into the collection of the
+scene's rigid-body world by itself, and sets what differs. It gives them neither names of their own nor the sections
+that ours know, which would take longer still. Both are timed until all objects are there. Blender's first evaluation of
+the scene after that is its own work, and is shown beside.
+"""
+
+import math
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from bridge_demolition_addon.core.connections import Connections
+from bridge_demolition_addon.core.fracture import Shard
+from bridge_demolition_addon.core.joint import Joint
+from bridge_demolition_addon.core.scenario import Ground, ShardSettings, TimeSettings
+from bridge_demolition_addon.core.solids import box
+from bridge_demolition_addon.scene.bodies import create_ground, create_shards
+from bridge_demolition_addon.scene.connections import create_connections
+from bridge_demolition_addon.scene.joints import set_joints
+from bridge_demolition_addon.scene.world import create_world, off_scene
+
+SIZES = ((500, 2_250), (3_000, 13_500), (10_000, 45_000))
+PLAIN_SIZES = SIZES[:2]
+TIME = TimeSettings(duration_s=1.0)
+BREAKING_FORCE_N = 1e5
+
+
+def figures(sizes: Sequence = SIZES, plain_sizes: Sequence = PLAIN_SIZES, repeats: int = 3) -> dict[str, float]:
+    """Seconds for each number of bodies, ours and the plain way's, the best of some runs, ratios and our growth.
+
+    Returns
+    -------
+    dict
+        `building_<n>_s`, `building_<n>_plain_s`, `building_<n>_ratio`, `building_growth`, the exponent of our time over
+        the numbers of bodies from the smallest to the largest, and `first_evaluation_<n>_s`.
+    """
+    result: dict[str, float] = {}
+    for count, connection_count in sizes:
+        shards, connections = _structure(count, connection_count)
+        built, evaluated = np.min([_seconds(_ours, shards, connections) for _ in range(repeats)], axis=0)
+        result |= {f"building_{count}_s": built, f"first_evaluation_{count}_s": evaluated}
+        if (count, connection_count) in plain_sizes:
+            plain, _ = _seconds(_plain, shards, connections)
+            result |= {f"building_{count}_plain_s": plain, f"building_{count}_ratio": plain / built}
+    smallest, largest = sizes[0][0], sizes[-1][0]
+    times = result[f"building_{largest}_s"] / result[f"building_{smallest}_s"]
+    return result | {"building_growth": math.log(times) / math.log(largest / smallest)}
+
+
+def table(measured: dict[str, float]) -> str:
+    """The figures as lines for a person."""
+    lines = [f"{'bodies':>8}{'ours, s':>10}{'plain, s':>10}{'ratio':>8}{'first evaluation, s':>21}"]
+    for count in sorted(int(key.split("_")[2]) for key in measured if key.startswith("first_evaluation_")):
+        plain, ratio = measured.get(f"building_{count}_plain_s"), measured.get(f"building_{count}_ratio")
+        shown = f"{plain:>10.2f}{ratio:>8.1f}" if plain else f"{'':>18}"
+        ours, evaluation = measured[f"building_{count}_s"], measured[f"first_evaluation_{count}_s"]
+        lines.append(f"{count:>8}{ours:>10.2f}{shown}{evaluation:>21.2f}")
+    lines.append(f"our time grows with the number of bodies to the power of {measured['building_growth']:.2f}")
+    return "\n".join(lines)
+
+
+def _structure(count: int, connection_count: int) -> tuple[list[Shard], Connections]:
+    """Cubes in a row, each connected with the next ones."""
+    cube = box((0.9, 0.9, 0.9))
+    shards = [Shard(np.array(cube.vertices), np.array(cube.faces, np.int32))] * count
+    first = np.arange(connection_count) % count
+    pairs = np.column_stack((first, (first + 1 + np.arange(connection_count) // count) % count))
+    normals = np.tile([1.0, 0.0, 0.0], (connection_count, 1))
+    return shards, Connections(pairs, _places(count)[first], np.ones(connection_count), normals)
+
+
+def _places(count: int) -> np.ndarray:
+    return np.column_stack((np.arange(count, dtype=float), np.zeros(count), np.full(count, 5.0)))
+
+
+def _seconds(way: Callable, shards: list[Shard], connections: Connections) -> tuple[float, float]:
+    """Time for building, and for Blender's first evaluation after it."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    create_world(scene, TIME, 100)
+    ground = create_ground(scene.rigidbody_world, 100.0, Ground())
+    began = time.perf_counter()
+    way(scene, ground, shards, connections)
+    built = time.perf_counter()
+    bpy.context.view_layer.update()
+    return built - began, time.perf_counter() - built
+
+
+def _ours(scene: bpy.types.Scene, ground: bpy.types.Object, shards: list[Shard], connections: Connections) -> None:
+    places, masses = _places(len(shards)), np.full(len(shards), 100.0)
+    joints, moments = [Joint("FIXED", BREAKING_FORCE_N)], np.tile(np.eye(2), (len(connections), 1, 1))
+    with off_scene(scene) as (bodies, constraints):
+        made = create_shards(bodies, ShardSettings(), shards, places, masses)
+        held = create_connections(constraints, connections, made, ground, moments)
+        set_joints(held, joints, np.zeros(len(held), int), TIME.step)
+
+
+def _plain(scene: bpy.types.Scene, _ground: bpy.types.Object, shards: list[Shard], connections: Connections) -> None:
+    world = scene.rigidbody_world
+    body_template = bpy.data.objects.new("Shard", bpy.data.meshes.new("Shard"))
+    world.collection.objects.link(body_template)
+    body_template.rigid_body.collision_shape = "CONVEX_HULL"
+    connection_template = bpy.data.objects.new("Connection", None)
+    world.constraints.objects.link(connection_template)
+    constraint = connection_template.rigid_body_constraint
+    constraint.type, constraint.use_breaking = "FIXED", True
+    constraint.breaking_threshold = TIME.step.impulse(BREAKING_FORCE_N)
+    bodies = []
+    for shard, place in zip(shards, _places(len(shards)), strict=True):
+        body = body_template.copy()
+        body.data = bpy.data.meshes.new("Shard")
+        body.data.from_pydata(shard.vertices, [], shard.triangles.tolist())
+        body.location, body.rigid_body.mass = place, 100.0
+        bodies.append(body)
+    for (first, second), point in zip(connections.pairs.tolist(), connections.points, strict=True):
+        connection = connection_template.copy()
+        connection.location = point
+        constraint = connection.rigid_body_constraint
+        constraint.object1, constraint.object2 = bodies[first], bodies[second]
+    for template in (body_template, connection_template):
+        bpy.data.objects.remove(template)
+
+
+if __name__ == "__main__":
+    print(table(figures()))
