@@ -97,7 +97,7 @@ def _seconds(way: Callable, shards: list[Shard], connections: Connections) -> tu
 
 def _ours(scene: bpy.types.Scene, ground: bpy.types.Object, shards: list[Shard], connections: Connections) -> None:
     places, masses = _places(len(shards)), np.full(len(shards), 100.0)
-    joints, moments = [Joint("FIXED", BREAKING_FORCE_N)], np.tile(np.eye(2), (len(connections), 1, 1))
+    joints, moments = [Joint("FIXED", breaking_force_n=BREAKING_FORCE_N)], np.tile(np.eye(2), (len(connections), 1, 1))
     with off_scene(scene) as (bodies, constraints):
         made = create_shards(bodies, ShardSettings(), shards, places, masses)
         held = create_connections(constraints, connections, made, ground, moments)

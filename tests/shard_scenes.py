@@ -55,7 +55,8 @@ class ShardScene:
             parts = (self.fracture.shards, self.fracture.centres, masses)
             self.shards = create_shards(bodies, awake, *parts)
             made = create_connections(constraints, connections, self.shards, None, moments)
-            set_joints(made, [Joint("FIXED", breaking_force_newton)], np.zeros(len(made), int), settings.step)
+            joint = Joint("FIXED", breaking_force_n=breaking_force_newton)
+            set_joints(made, [joint], np.zeros(len(made), int), settings.step)
 
     def hold(self, is_held: np.ndarray) -> None:
         """Fix some of the shards (n,) in space."""

@@ -46,6 +46,10 @@ class Connections:
     def __len__(self) -> int:
         return len(self.pairs)
 
+    def only(self, kept: np.ndarray) -> Connections:
+        """Those connections (m,) that are kept."""
+        return Connections(self.pairs[kept], self.points[kept], self.areas[kept], self.normals[kept])
+
 
 def connect(
     centres: np.ndarray, faces: SharedFaces, pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from functools import partial
 
 import numpy as np
 
 from . import connections as connecting
 from .bridge import Member, bridge_density, bridge_members
+from .connection_rules import rules_of_pairs
 from .connections import Connections
 from .errors import GeometryError
 from .face_sections import second_moments
@@ -35,6 +38,8 @@ class Model:
         (n, 3) centre of mass of each shard.
     connections
         Connections between shards and to the ground.
+    joint_of_connection
+        (m,) what each connection has in common with others: index of one of the scenario's joints.
     second_moments_m4
         (m, 2, 2) second moments of area of the connections' faces; 0 for one without a face.
     """
@@ -46,6 +51,7 @@ class Model:
     masses_kg: np.ndarray
     centres_m: np.ndarray
     connections: Connections
+    joint_of_connection: np.ndarray
     second_moments_m4: np.ndarray
 
 
@@ -69,7 +75,10 @@ def build_model(scenario: Scenario) -> Model:
     member_of_shard = np.repeat(np.arange(len(members)), counts)
     centres = np.concatenate([part.centres for part in parts])
     faces = _all_faces([part.faces for part in parts], shards, member_of_shard, counts)
-    connections = _connections(scenario.connections, shards, centres, faces)
+    rules = scenario.connections.between
+    rules_of = partial(rules_of_pairs, rules, members, member_of_shard)
+    excluded = np.array([False, *(rule.none for rule in rules)])
+    connections = _connections(scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)])
     return Model(
         members=members,
         density_kg_m3=density,
@@ -78,6 +87,7 @@ def build_model(scenario: Scenario) -> Model:
         masses_kg=density * np.concatenate([part.volumes for part in parts]),
         centres_m=centres,
         connections=connections,
+        joint_of_connection=rules_of(connections.pairs),
         second_moments_m4=second_moments(
             shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
         ),
@@ -114,8 +124,13 @@ def _all_faces(
 
 
 def _connections(
-    settings: ConnectionSettings, shards: tuple[Shard, ...], centres: np.ndarray, faces: SharedFaces
+    settings: ConnectionSettings,
+    shards: tuple[Shard, ...],
+    centres: np.ndarray,
+    faces: SharedFaces,
+    allowed: Callable[[np.ndarray], np.ndarray],
 ) -> Connections:
+    """Connections between shards and to the ground, of those pairs (k, 2) that are allowed (k,)."""
     match settings.method:
         case "face":
             pairs, distances = connecting.neighbours_by_face(faces)
@@ -125,5 +140,9 @@ def _connections(
             pairs, distances = connecting.neighbours_by_vertex(shards, settings.search_radius_m)
         case "nearest":
             pairs, distances = connecting.neighbours_by_count(centres, settings.neighbours)
-    between = connecting.connect(centres, faces, pairs, distances, settings.limit_per_shard)
-    return connecting.joined([between, connecting.foundations(shards)]) if settings.foundation else between
+    kept = allowed(pairs)
+    between = connecting.connect(centres, faces, pairs[kept], distances[kept], settings.limit_per_shard)
+    if not settings.foundation:
+        return between
+    standing = connecting.foundations(shards)
+    return connecting.joined([between, standing.only(allowed(standing.pairs))])

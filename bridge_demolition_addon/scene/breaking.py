@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 
 import bpy
+import numpy as np
 
 from ..core.strength import Ductility, Strength
 
 _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
 _DUCTILITY = "bda_ductility"
+
+_UNBREAKABLE = Strength(*[1e300] * 4)
+"""Strength of a connection that no stress breaks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +25,7 @@ class Breaking:
     Attributes
     ----------
     strength
-        Of all connections that stand for an area; None where Blender's breaking threshold alone decides.
+        Of all connections that stand for an area, or of each; None where Blender's breaking threshold alone decides.
     warm_up_s
         Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
     ductility
@@ -42,8 +47,19 @@ def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
             del scene[name]
 
 
-def breaking_of(scene: bpy.types.Scene) -> Breaking:
-    """What was noted in a scene; in any other, Blender's threshold and no warm-up."""
+def set_strength(connection: bpy.types.Object, strength: Strength | None) -> None:
+    """Give a connection a strength of its own instead of the scene's; None lets no stress break it."""
+    connection[_STRENGTH] = astuple(strength or _UNBREAKABLE)
+
+
+def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:
+    """What was noted in a scene and with connections; in any other, Blender's threshold and no warm-up.
+
+    Where connections (m,) have strengths of their own, the strength has arrays (m,).
+    """
     strength = Strength(*scene[_STRENGTH]) if _STRENGTH in scene else None
+    if any(_STRENGTH in each for each in connections):
+        other = astuple(strength or _UNBREAKABLE)
+        strength = Strength(*np.array([tuple(each.get(_STRENGTH, other)) for each in connections]).T)
     ductility = Ductility(*scene[_DUCTILITY]) if _DUCTILITY in scene else None
     return Breaking(strength, scene.get(_WARM_UP, 0.0), ductility)

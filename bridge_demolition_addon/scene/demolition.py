@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import bpy
-import numpy as np
 
 from ..core.bridge import deck_top
 from ..core.model import Model
@@ -38,7 +37,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
-        set_joints(made, [scenario.connections.joint], np.zeros(len(made), int), scenario.time.step)
+        set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
     create_charges(scene, scenario.placed_charges)
     keep_explosion(scene, _explosion(scenario.blast))
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:

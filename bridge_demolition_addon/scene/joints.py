@@ -7,22 +7,23 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ..core.joint import Joint
+from ..core.joint import MOTIONS, Joint
 from ..core.time_step import TimeStep
+from .breaking import set_strength
 from .thresholds import set_breaking_force
 
 
 def set_joints(
     connections: Sequence[bpy.types.Object], joints: Sequence[Joint], joint_of_connection: np.ndarray, step: TimeStep
 ) -> None:
-    """Give every connection its kind, and its breaking threshold where a force breaks it.
+    """Give every connection its kind, and what breaks it.
 
     Parameters
     ----------
     connections
         The m connections.
     joints
-        The kinds of connections that there are.
+        The kinds of connections that there are. The strength of the first is the scene's, see `keep_breaking`.
     joint_of_connection
         (m,) which of them each connection is.
     step
@@ -30,6 +31,23 @@ def set_joints(
     """
     for connection, row in zip(connections, joint_of_connection.tolist(), strict=True):
         joint = joints[row]
-        connection.rigid_body_constraint.type = joint.type
+        _set_type(connection.rigid_body_constraint, joint)
         if joint.breaking_force_n is not None:
             set_breaking_force(connection, joint.breaking_force_n, step)
+        if joint.strength is not joints[0].strength:
+            set_strength(connection, joint.strength)
+
+
+def _set_type(constraint: bpy.types.RigidBodyConstraint, joint: Joint) -> None:
+    if joint.type != "GENERIC":
+        constraint.type = joint.type
+        return
+    # Blender's own GENERIC holds nothing in the first sub-step and takes it out on the second, with 2.2 times the
+    # weight that hangs from it. A spring of the second kind without any springs has no such start.
+    constraint.type, constraint.spring_type = "GENERIC_SPRING", "SPRING2"
+    for motion in MOTIONS:
+        verb, axis = motion.split()
+        name = f"{'lin' if verb == 'move' else 'ang'}_{axis}"
+        setattr(constraint, f"use_limit_{name}", motion not in joint.free)
+        setattr(constraint, f"limit_{name}_lower", 0.0)
+        setattr(constraint, f"limit_{name}_upper", 0.0)

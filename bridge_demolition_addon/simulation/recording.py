@@ -288,7 +288,7 @@ class Recording:
         self._inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self._world)
         normal_substep_s = time_step_at(self.scene, self._start_frame).substep_s
-        breaking = breaking_of(self.scene)
+        breaking = breaking_of(self.scene, self._connections)
         self._substeps = SubstepRecorder(self._world, self._inventory, breaking, self._blast, normal_substep_s)
         after = self._substeps.after_substep if self._every_substep else None
         self._world.call_around_substeps(self._substeps.before_substep, after)

@@ -8,6 +8,7 @@ from .ball import Ball
 from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge, Deck, PierCaps, Piers
+from .connection_between import ConnectionBetween
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
 from .output import PictureSettings, RecordingSettings
@@ -19,6 +20,7 @@ __all__ = [
     "BlastSettings",
     "Bridge",
     "ChargeSettings",
+    "ConnectionBetween",
     "ConnectionSettings",
     "Deck",
     "FractureSettings",

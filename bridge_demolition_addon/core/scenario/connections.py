@@ -5,9 +5,10 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from ..gravity import STANDARD_GRAVITY_M_S2
-from ..joint import Joint
-from ..strength import MATERIALS
-from .key import LARGEST_INTEGER, Table, check_exactly_one, key
+from ..joint import MOTIONS, TYPES, Joint
+from ..strength import MATERIALS, Strength
+from .connection_between import ConnectionBetween
+from .key import LARGEST_INTEGER, Table, check_exactly_one, key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,9 +18,15 @@ class ConnectionSettings(Table):
     table: ClassVar[str] = "connections"
 
     type: str = key(
-        "Kind of rigid-body constraint: `FIXED` holds everything, `POINT` a point, `HINGE` all but one rotation.",
+        "Kind of rigid-body constraint: `FIXED` holds everything, `POINT` a point, `HINGE` all but the rotation about "
+        "the vertical, `GENERIC` all but what is `free`.",
         default="HINGE",
-        choices=("FIXED", "POINT", "HINGE"),
+        choices=TYPES,
+    )
+    free: tuple[str, ...] | None = key(
+        'What a `GENERIC` connection lets happen, along and about the axes of the bridge: `["move x", "turn y"]`.',
+        default=None,
+        choices=MOTIONS,
     )
     method: str = key(
         "Which shards are connected: those whose nearest vertices (`vertex`) or centres of mass (`centre`) lie within "
@@ -79,6 +86,7 @@ class ConnectionSettings(Table):
         at_least=0,
     )
     foundation: bool = key("Whether shards that stand on the ground are connected to it.", default=True)
+    between: tuple[ConnectionBetween, ...] = ()
 
     @property
     def breaking_force_newton(self) -> float | None:
@@ -90,17 +98,21 @@ class ConnectionSettings(Table):
         return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
 
     @property
-    def joint(self) -> Joint:
-        """What all connections have in common."""
-        strength = None if self.material is None else MATERIALS[self.material]
-        return Joint(self.type, self.breaking_force_newton, strength)
+    def joints(self) -> tuple[Joint, ...]:
+        """What connections have in common: those that follow no rule, and those between the members of each rule."""
+        own = Joint(self.type, self.free or (), self.breaking_force_newton, _strength(self.material))
+        return (own, *(_joint_between(own, rule) for rule in self.between))
 
     def _check_together(self) -> None:
         check_exactly_one(self, "breaking_force_n", "breaking_force_kgf", "material")
-        if self.material is not None and self.method != "face":
-            raise ScenarioError(
-                f'connections.material is "{self.material}": expected method "face" with it, found "{self.method}"'
-            )
+        for each in (self, *self.between):
+            if each.material is not None and self.method != "face":
+                raise ScenarioError(
+                    f'{each.table}.material is "{each.material}": expected method "face" with it, found "{self.method}"'
+                )
+            kind = each.type or self.type
+            if each.free is not None and kind != "GENERIC":
+                raise ScenarioError(f'{each.table}.free is {shown(each.free)}: expected none with type "{kind}"')
         if self.ductile_share > 0.0 and self.material is None:
             raise ScenarioError(
                 f"connections.ductile_share is {self.ductile_share}: expected 0 where connections.material is not given"
@@ -120,3 +132,16 @@ class ConnectionSettings(Table):
             raise ScenarioError(f'connections.{name} is missing: expected {wanted} with method "{self.method}"')
         if self.method not in methods and value is not None:
             raise ScenarioError(f'connections.{name} is {value}: expected none with method "{self.method}"')
+
+
+def _joint_between(own: Joint, rule: ConnectionBetween) -> Joint:
+    kind = rule.type or own.type
+    free = own.free if rule.free is None and kind == own.type else rule.free or ()
+    force, strength = rule.breaking_force_newton, _strength(rule.material)
+    if force is None and strength is None:
+        force, strength = own.breaking_force_n, own.strength
+    return Joint(kind, free, force, strength)
+
+
+def _strength(material: str | None) -> Strength | None:
+    return None if material is None else MATERIALS[material]
