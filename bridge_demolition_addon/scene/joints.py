@@ -39,15 +39,22 @@ def set_joints(
 
 
 def _set_type(constraint: bpy.types.RigidBodyConstraint, joint: Joint) -> None:
-    if joint.type != "GENERIC":
+    if joint.type not in ("GENERIC", "GENERIC_SPRING"):
         constraint.type = joint.type
         return
     # Blender's own GENERIC holds nothing in the first sub-step and takes it out on the second, with 2.2 times the
-    # weight that hangs from it. A spring of the second kind without any springs has no such start.
+    # weight that hangs from it. A spring of the second kind, with no springs in it, has no such start. The springs of
+    # the first kind give way twice as far as their stiffness says.
     constraint.type, constraint.spring_type = "GENERIC_SPRING", "SPRING2"
+    springs = joint.springs
+    along = ("lin", "", springs.stiffness_n_m, springs.damping_ns_m)
+    about = ("ang", "ang_", springs.turning_stiffness_nm_rad, springs.turning_damping_nms_rad)
     for motion in MOTIONS:
         verb, axis = motion.split()
-        name = f"{'lin' if verb == 'move' else 'ang'}_{axis}"
-        setattr(constraint, f"use_limit_{name}", motion not in joint.free)
-        setattr(constraint, f"limit_{name}_lower", 0.0)
-        setattr(constraint, f"limit_{name}_upper", 0.0)
+        limit, spring, stiffness, damping = along if verb == "move" else about
+        setattr(constraint, f"use_limit_{limit}_{axis}", motion not in joint.free)
+        setattr(constraint, f"limit_{limit}_{axis}_lower", 0.0)
+        setattr(constraint, f"limit_{limit}_{axis}_upper", 0.0)
+        setattr(constraint, f"use_spring_{spring}{axis}", motion in joint.free and stiffness > 0.0)
+        setattr(constraint, f"spring_stiffness_{spring}{axis}", stiffness)
+        setattr(constraint, f"spring_damping_{spring}{axis}", damping)

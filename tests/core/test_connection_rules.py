@@ -9,6 +9,7 @@ import pytest
 from bridge_demolition_addon.core.connection_rules import rules_of_pairs
 from bridge_demolition_addon.core.connections import GROUND
 from bridge_demolition_addon.core.errors import ScenarioError
+from bridge_demolition_addon.core.joint import Springs
 from bridge_demolition_addon.core.model import build_model
 from bridge_demolition_addon.core.scenario import ConnectionBetween, ConnectionSettings
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
@@ -116,6 +117,21 @@ def test_joints_take_over_what_is_not_given():
     assert [joint.strength for joint in joints] == [concrete, concrete, concrete, None, steel]
 
 
+def test_springs_are_taken_over_together_or_not_at_all():
+    settings = ConnectionSettings(
+        type="GENERIC_SPRING",
+        free=("move z",),
+        stiffness_n_m=1e6,
+        method="face",
+        breaking_force_n=1.0,
+        between=(between("deck", "deck", breaking_force_n=2.0), between("pier", "deck", type="FIXED")),
+    )
+    own, same, fixed = settings.joints
+    assert own.springs == same.springs == Springs(stiffness_n_m=1e6)
+    assert own.free == same.free == ("move z",)
+    assert (fixed.free, fixed.springs) == ((), Springs())
+
+
 def test_rules_are_written_and_read_without_loss():
     scenario = with_rules(
         between("deck", "pier cap", type="GENERIC", free=("move x", "turn y"), breaking_force_n=5.0),
@@ -147,6 +163,18 @@ def test_rules_that_contradict_themselves_are_refused(rule, message):
             'between.free is .* expected none with type "FIXED"',
         ),
         ({"free": ("move x",)}, 'connections.free is .* expected none with type "FIXED"'),
+        ({"type": "GENERIC", "stiffness_n_m": 5.0}, 'stiffness_n_m is 5.0: expected none with type "GENERIC"'),
+        ({"type": "GENERIC_SPRING", "free": ("move x",)}, "stiffness_n_m is missing: expected it or"),
+        ({"type": "GENERIC_SPRING", "free": ("turn x",), "stiffness_n_m": 5.0}, 'stiffness_n_m is given: .* a "move"'),
+        (
+            {
+                "type": "GENERIC_SPRING",
+                "free": ("turn x", "move y"),
+                "stiffness_n_m": 5.0,
+                "turning_damping_nms_rad": 1,
+            },
+            "turning_damping_nms_rad is given: expected connections.turning_stiffness_nm_rad with it",
+        ),
         (
             {"between": (between("deck", "pier", material="steel"),), "method": "nearest", "neighbours": 3},
             'between.material is "steel": expected method "face"',

@@ -5,7 +5,7 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.joint import MOTIONS, Joint
+from bridge_demolition_addon.core.joint import MOTIONS, Joint, Springs
 from bridge_demolition_addon.core.strength import Strength
 
 # Blender keeps gravity in single precision.
@@ -125,3 +125,52 @@ def test_a_strength_of_its_own_without_one_of_the_scene(blender, tmp_path):
     weak = Strength(1e9, 0.95 * WEIGHT_N / area, 1e9, 1e9)
     join(blocks, made, Joint("FIXED", breaking_force_n=10.0 * WEIGHT_N), Joint("FIXED", strength=weak))
     assert blocks.play(tmp_path, 24).intact[-1].tolist() == [True, False]
+
+
+@pytest.mark.parametrize("stiffness", (20_000.0, 200_000.0))
+def test_a_weight_sinks_by_its_weight_over_the_stiffness(blender, tmp_path, stiffness):
+    blocks = Blocks()
+    hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
+    damped = Springs(stiffness, 0.6 * (stiffness * MASS_KG) ** 0.5)
+    join(blocks, [hanging], Joint("GENERIC_SPRING", ("move z",), damped))
+    results = blocks.play(tmp_path, 240)
+    assert 9.0 - results.places_m[-1, 1, 2] == pytest.approx(WEIGHT_N / stiffness, rel=STATICS)
+    np.testing.assert_allclose(results.connection_forces_n[-1][0], (0, 0, -WEIGHT_N), atol=STATICS * WEIGHT_N)
+
+
+def test_a_spring_that_is_too_stiff_for_the_step_is_softened_as_the_reference_says(blender, tmp_path):
+    blocks = Blocks()
+    hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
+    join(blocks, [hanging], Joint("GENERIC_SPRING", ("move z",), Springs(2e6, 8000.0)))
+    results = blocks.play(tmp_path, 240)
+    assert 9.0 - results.places_m[-1, 1, 2] == pytest.approx(WEIGHT_N / (MASS_KG * 240.0**2 / 16.0), rel=1e-5)
+
+
+def test_a_weight_swings_on_its_spring_in_the_time_of_an_oscillator(blender, tmp_path):
+    blocks, stiffness = Blocks(), 20_000.0
+    hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
+    join(blocks, [hanging], Joint("GENERIC_SPRING", ("move z",), Springs(stiffness)))
+    results = blocks.play(tmp_path, 240)
+    times, heights = results.times_s, results.places_m[:, 1, 2] - (9.0 - WEIGHT_N / stiffness)
+    falling = np.flatnonzero((heights[:-1] > 0.0) & (heights[1:] <= 0.0))
+    share = heights[falling] / (heights[falling] - heights[falling + 1])
+    crossings = times[falling] + share * (times[falling + 1] - times[falling])
+    # Crossings lie between frames a tenth of a period apart, along a chord; over 20 periods that is far below 0.1 %.
+    periods = np.diff(crossings)
+    assert len(periods) > 18
+    assert periods.mean() == pytest.approx(2.0 * np.pi * (MASS_KG / stiffness) ** 0.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("stiffness", (20_000.0, 200_000.0))
+def test_an_arm_turns_until_the_spring_carries_its_moment(blender, tmp_path, stiffness):
+    blocks, lever = Blocks(solver_iterations=50), np.array((1.25, 0.5, 0.0))
+    wall, arm = blocks.block((0, 0, 5)), blocks.block((0.5 + lever[0], lever[1], 5), MASS_KG)
+    turning = Springs(turning_stiffness_nm_rad=stiffness, turning_damping_nms_rad=0.02 * stiffness)
+    join(blocks, [blocks.connect("FIXED", (0.5, 0.0, 5), wall, arm)], Joint("GENERIC_SPRING", ("turn y",), turning))
+    results = blocks.play(tmp_path, 240)
+    angle = np.arcsin(-results.rotations[-1, 1][2, 0])
+    moment = lever[0] * np.cos(angle) * WEIGHT_N  # its own lever, shorter by as much as the arm has turned
+    # Ten seconds of damping leave some 1e-5 of the swing.
+    assert stiffness * angle == pytest.approx(moment, rel=1e-4)
+    assert results.connection_moments_nm[-1][0, 1] == pytest.approx(moment, rel=1e-4)
+    assert results.connection_moments_nm[-1][0, 0] == pytest.approx(-lever[1] * WEIGHT_N, rel=1e-4)

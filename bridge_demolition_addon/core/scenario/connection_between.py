@@ -1,21 +1,24 @@
 """Connections between certain members that are others than the rest."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import ClassVar
 
 from ..errors import ScenarioError
 from ..gravity import STANDARD_GRAVITY_M_S2
-from ..joint import MOTIONS, TYPES
 from ..strength import MATERIALS
-from .key import Table, key
+from .joint import JointSettings
+from .key import key
 
 GROUND_NAME = "ground"
 
+_JOINT = tuple(item.name for item in fields(JointSettings))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ConnectionBetween(Table):
+class ConnectionBetween(JointSettings):
     """Connections between two members, or two kinds of members, that differ from the others: bearings, joints, gaps.
-    What is not given is as in `[connections]`. The first of these tables that names both members counts.
+    What is not given is as in `[connections]`, but for `free` and the springs where any of
+    these or `type` is given. The first of these tables that names both members counts.
     """
 
     table: ClassVar[str] = "connections.between"
@@ -25,13 +28,6 @@ class ConnectionBetween(Table):
         '`["deck", "pier cap"]`. Twice the same for connections within a member.'
     )
     none: bool = key("Whether there are no connections between them at all; then nothing else is given.", default=False)
-    type: str | None = key("Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES)
-    free: tuple[str, ...] | None = key(
-        'What a `GENERIC` connection lets happen, along and about the axes of the bridge: `["move x", "turn y"]` for a '
-        "bearing that slides along the road and turns about the axis across it.",
-        default=None,
-        choices=MOTIONS,
-    )
     breaking_force_n: float | None = key("Force that breaks it.", default=None, unit="N", above=0)
     breaking_force_kgf: float | None = key(
         "Force that breaks it, 1 kgf = 9.80665 N.", default=None, unit="kgf", above=0
@@ -44,6 +40,11 @@ class ConnectionBetween(Table):
     )
 
     @property
+    def changes_joint(self) -> bool:
+        """Whether the type, what is free or the springs are given; then those of `[connections]` do not count."""
+        return any(getattr(self, name) is not None for name in _JOINT)
+
+    @property
     def breaking_force_newton(self) -> float | None:
         """Force that breaks it, N, whichever unit it was given in; None where none was given."""
         if self.breaking_force_kgf is not None:
@@ -54,7 +55,7 @@ class ConnectionBetween(Table):
         breaking = [
             name for name in ("breaking_force_n", "breaking_force_kgf", "material") if getattr(self, name) is not None
         ]
-        others = breaking + [name for name in ("type", "free") if getattr(self, name) is not None]
+        others = breaking + [name for name in _JOINT if getattr(self, name) is not None]
         if self.none and others:
             raise ScenarioError(f"{self.table}.none is true: expected nothing else but members, found {others[0]}")
         if len(breaking) > 1:

@@ -5,28 +5,24 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from ..gravity import STANDARD_GRAVITY_M_S2
-from ..joint import MOTIONS, TYPES, Joint
+from ..joint import TYPES, Joint
 from ..strength import MATERIALS, Strength
 from .connection_between import ConnectionBetween
-from .key import LARGEST_INTEGER, Table, check_exactly_one, key, shown
+from .joint import JointSettings
+from .key import LARGEST_INTEGER, check_exactly_one, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ConnectionSettings(Table):
+class ConnectionSettings(JointSettings):
     """Which shards are connected, how, and what breaks a connection."""
 
     table: ClassVar[str] = "connections"
 
     type: str = key(
         "Kind of rigid-body constraint: `FIXED` holds everything, `POINT` a point, `HINGE` all but the rotation about "
-        "the vertical, `GENERIC` all but what is `free`.",
+        "the vertical, `GENERIC` all but what is `free`, and `GENERIC_SPRING` has springs in what is.",
         default="HINGE",
         choices=TYPES,
-    )
-    free: tuple[str, ...] | None = key(
-        'What a `GENERIC` connection lets happen, along and about the axes of the bridge: `["move x", "turn y"]`.',
-        default=None,
-        choices=MOTIONS,
     )
     method: str = key(
         "Which shards are connected: those whose nearest vertices (`vertex`) or centres of mass (`centre`) lie within "
@@ -100,7 +96,7 @@ class ConnectionSettings(Table):
     @property
     def joints(self) -> tuple[Joint, ...]:
         """What connections have in common: those that follow no rule, and those between the members of each rule."""
-        own = Joint(self.type, self.free or (), self.breaking_force_newton, _strength(self.material))
+        own = Joint(self.type, self.free or (), self.springs, self.breaking_force_newton, _strength(self.material))
         return (own, *(_joint_between(own, rule) for rule in self.between))
 
     def _check_together(self) -> None:
@@ -110,9 +106,8 @@ class ConnectionSettings(Table):
                 raise ScenarioError(
                     f'{each.table}.material is "{each.material}": expected method "face" with it, found "{self.method}"'
                 )
-            kind = each.type or self.type
-            if each.free is not None and kind != "GENERIC":
-                raise ScenarioError(f'{each.table}.free is {shown(each.free)}: expected none with type "{kind}"')
+            if each is self or each.changes_joint:
+                each.check_type(each.type or self.type)
         if self.ductile_share > 0.0 and self.material is None:
             raise ScenarioError(
                 f"connections.ductile_share is {self.ductile_share}: expected 0 where connections.material is not given"
@@ -136,11 +131,11 @@ class ConnectionSettings(Table):
 
 def _joint_between(own: Joint, rule: ConnectionBetween) -> Joint:
     kind = rule.type or own.type
-    free = own.free if rule.free is None and kind == own.type else rule.free or ()
+    free, springs = (rule.free or (), rule.springs) if rule.changes_joint else (own.free, own.springs)
     force, strength = rule.breaking_force_newton, _strength(rule.material)
     if force is None and strength is None:
         force, strength = own.breaking_force_n, own.strength
-    return Joint(kind, free, force, strength)
+    return Joint(kind, free, springs, force, strength)
 
 
 def _strength(material: str | None) -> Strength | None:

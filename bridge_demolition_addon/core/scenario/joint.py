@@ -1,0 +1,69 @@
+"""What a connection holds, which all connections and those between certain members say in the same way."""
+
+from dataclasses import dataclass
+
+from ..errors import ScenarioError
+from ..joint import MOTIONS, TYPES, Springs
+from .key import Table, key, shown
+
+_STIFFENED = "Bullet softens what is stiffer than a 16th of the body's {} by the square of the sub-step."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointSettings(Table):
+    """The type of a connection, what is free in it, and its springs."""
+
+    type: str | None = key("Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES)
+    free: tuple[str, ...] | None = key(
+        "What a `GENERIC` or `GENERIC_SPRING` connection lets happen, along and about the axes of the bridge: "
+        '`["move x", "turn y"]` for a bearing that slides along the road and turns about the axis across it.',
+        default=None,
+        choices=MOTIONS,
+    )
+    stiffness_n_m: float | None = key(
+        f"Stiffness of a `GENERIC_SPRING` along its free axes. {_STIFFENED.format('mass')}",
+        default=None,
+        unit="N/m",
+        above=0,
+    )
+    damping_ns_m: float | None = key("Damping with it.", default=None, unit="N·s/m", at_least=0)
+    turning_stiffness_nm_rad: float | None = key(
+        f"Stiffness of a `GENERIC_SPRING` about its free axes. {_STIFFENED.format('moment of inertia')}",
+        default=None,
+        unit="N·m/rad",
+        above=0,
+    )
+    turning_damping_nms_rad: float | None = key("Damping with it.", default=None, unit="N·m·s/rad", at_least=0)
+
+    @property
+    def springs(self) -> Springs:
+        """The springs that are given."""
+        return Springs(*(getattr(self, name) or 0.0 for name in Springs.__slots__))
+
+    def check_type(self, kind: str) -> None:
+        """See that what is free and the springs go with the type of the connection.
+
+        Raises
+        ------
+        ScenarioError
+            They do not.
+        """
+        wrong = {"free": kind not in ("GENERIC", "GENERIC_SPRING")}
+        wrong |= {name: kind != "GENERIC_SPRING" for name in Springs.__slots__}
+        for name, is_wrong in wrong.items():
+            value = getattr(self, name)
+            if value is not None and is_wrong:
+                raise ScenarioError(f'{self.table}.{name} is {shown(value)}: expected none with type "{kind}"')
+        if kind != "GENERIC_SPRING":
+            return
+        free = " ".join(self.free or ())
+        for verb, stiffness, damping in (("move", *Springs.__slots__[:2]), ("turn", *Springs.__slots__[2:])):
+            if getattr(self, stiffness) is not None and verb not in free:
+                raise ScenarioError(f'{self.table}.{stiffness} is given: expected a "{verb}" in {self.table}.free')
+            if getattr(self, damping) is not None and getattr(self, stiffness) is None:
+                raise ScenarioError(f"{self.table}.{damping} is given: expected {self.table}.{stiffness} with it")
+        if not any(getattr(self, name) for name in Springs.__slots__):
+            raise ScenarioError(
+                f"{self.table}.stiffness_n_m is missing: expected it or {self.table}.turning_stiffness_nm_rad "
+                'with type "GENERIC_SPRING"'
+            )
