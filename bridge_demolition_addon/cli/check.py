@@ -85,6 +85,13 @@ def _connection_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
         force = connections.breaking_force_newton
         yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
         yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
+    yield from _rule_facts(connections)
+
+
+def _rule_facts(connections: ConnectionSettings) -> Iterator[tuple[str, str]]:
+    for rule, joint in zip(connections.between, connections.joints[1:], strict=True):
+        free = f", free: {', '.join(joint.free)}" if joint.free else ""
+        yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else joint.type + free}"
 
 
 def _strength_facts(strength: Strength) -> Iterator[tuple[str, str]]:

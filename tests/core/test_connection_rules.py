@@ -184,3 +184,19 @@ def test_rules_that_contradict_themselves_are_refused(rule, message):
 def test_rules_that_contradict_the_connections_are_refused(settings, message):
     with pytest.raises(ScenarioError, match=message):
         replace(SCENARIO.connections, **settings)
+
+
+def test_the_example_of_the_documentation_can_be_read_and_built():
+    root = Path(__file__).parents[2]
+    tables = (root / "docs" / "connections.md").read_text(encoding="utf-8").split("```toml")[1].split("```")[0]
+    example = (root / "examples" / "i235_one_span.toml").read_text(encoding="utf-8")
+    model = build_model(scenario_from_text(example + tables))
+    assert set(model.joint_of_connection.tolist()) == {0, 1, 3}
+
+
+def test_bda_check_lists_the_rules():
+    from bridge_demolition_addon.cli.check import scenario_facts
+
+    rules = (between("deck", "pier cap", type="GENERIC", free=("move x",)), between("pier 1", "ground", none=True))
+    found = [" ".join(line.split()) for line in scenario_facts(with_rules(*rules)) if "between" in line]
+    assert found == ["between deck and pier cap: GENERIC, free: move x", "between pier 1 and ground: none"]
