@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, fields
 
 import bpy
 import numpy as np
@@ -14,7 +14,7 @@ _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
 _DUCTILITY = "bda_ductility"
 
-_UNBREAKABLE = Strength(*[1e300] * 4)
+_UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
 """Strength of a connection that no stress breaks."""
 
 

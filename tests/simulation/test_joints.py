@@ -102,7 +102,7 @@ def test_each_connection_breaks_at_its_own_strength(blender, tmp_path):
         top, block = blocks.block((3 * number, 0, 10)), blocks.block((3 * number, 0, 9), MASS_KG)
         made.append(blocks.connect("FIXED", (3 * number, 0, 9.5), top, block))
         made[-1]["bda_area_m2"], made[-1]["bda_normal"] = area, (0.0, 0.0, -1.0)
-    strong, weak = (Strength(1e9, share * stress, 1e9, 1e9) for share in (1.05, 0.95))
+    strong, weak = (Strength(1e9, share * stress, 1e9, 1e9, 1e9) for share in (1.05, 0.95))
     keep_breaking(blocks.scene, Breaking(strong))
     join(
         blocks,
@@ -122,7 +122,7 @@ def test_a_strength_of_its_own_without_one_of_the_scene(blender, tmp_path):
         top, block = blocks.block((3 * number, 0, 10)), blocks.block((3 * number, 0, 9), MASS_KG)
         made.append(blocks.connect("FIXED", (3 * number, 0, 9.5), top, block))
         made[-1]["bda_area_m2"], made[-1]["bda_normal"] = area, (0.0, 0.0, -1.0)
-    weak = Strength(1e9, 0.95 * WEIGHT_N / area, 1e9, 1e9)
+    weak = Strength(1e9, 0.95 * WEIGHT_N / area, 1e9, 1e9, 1e9)
     join(blocks, made, Joint("FIXED", breaking_force_n=10.0 * WEIGHT_N), Joint("FIXED", strength=weak))
     assert blocks.play(tmp_path, 24).intact[-1].tolist() == [True, False]
 
