@@ -17,8 +17,7 @@ _SYMBOL_SIZE_M = 0.3
 
 def create_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
     """One empty per charge, at its place."""
-    collection = collection_for(scene, _ROLE)
-    return [_create(collection, charge) for charge in charges]
+    return [_create(collection_for(scene, _ROLE), charge) for charge in charges]
 
 
 def charge_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:

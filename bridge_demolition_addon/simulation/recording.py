@@ -18,6 +18,7 @@ from ..scene.breaking import breaking_of
 from ..scene.connections import connections_of
 from ..scene.inventory import Inventory, take_inventory
 from ..scene.slow_motion import time_is_animated, time_step_at
+from ..scene.thresholds import rewrite_thresholds
 from .blast import Blast, goes_off
 from .logs import Logs
 from .momentum import READING as READING_OF_MOTION
@@ -60,6 +61,7 @@ class Recording:
                 f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
                 "set the unit scale to 1 and build the scene in metres"
             )
+        rewrite_thresholds(scene)  # the step may have changed since the scene was built
         self.scene = scene
         self.folder = folder
         self.error: Exception | None = None

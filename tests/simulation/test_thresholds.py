@@ -5,6 +5,8 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.time_step import TimeStep
+from bridge_demolition_addon.scene.thresholds import rewrite_thresholds, set_breaking_force
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
@@ -53,9 +55,6 @@ def change_step(scene, change):
 
 
 def hanging(share):
-    from bridge_demolition_addon.core.time_step import TimeStep
-    from bridge_demolition_addon.scene.thresholds import set_breaking_force
-
     blocks = Blocks()
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG)
     connection = blocks.connect("FIXED", (0, 0, 9.5), ceiling, block)
@@ -66,24 +65,12 @@ def hanging(share):
 @pytest.mark.parametrize("change", CHANGES, ids=lambda change: ", ".join(change))
 @pytest.mark.parametrize(("share", "holds"), ((0.95, False), (1.05, True)))
 def test_a_force_stays_what_it_is_when_the_step_changes(blender, tmp_path, share, holds, change):
-    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
-
     blocks = hanging(share)
     change_step(blocks.scene, change)
-    assert rewrite_thresholds(blocks.scene)
     assert bool(blocks.play(tmp_path, 24).intact[-1][0]) is holds
 
 
-def test_a_threshold_that_was_not_rewritten_is_the_wrong_force(blender, tmp_path):
-    """Four times as many sub-steps make of 0.95 of the weight 3.8 times the weight: what rewriting is for."""
-    blocks = hanging(0.95)
-    change_step(blocks.scene, {"substeps_per_frame": 40})
-    assert blocks.play(tmp_path, 24).intact[-1][0]
-
-
 def test_nothing_is_written_where_the_step_is_the_same(blender):
-    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
-
     blocks = hanging(1.0)
     assert not rewrite_thresholds(blocks.scene)
     change_step(blocks.scene, {"fps": 25})
@@ -92,8 +79,6 @@ def test_nothing_is_written_where_the_step_is_the_same(blender):
 
 
 def test_thresholds_that_somebody_set_stay(blender):
-    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
-
     blocks = Blocks()
     by_hand = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), 1.0), 240.0)
     change_step(blocks.scene, {"fps": 60})
