@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -49,6 +49,11 @@ class Contacts:
     def impulses_ns(self) -> np.ndarray:
         """Whole impulse (k, 3) on the first body, N·s."""
         return self.normal_impulses_ns[:, None] * self.normals + self.tangential_impulses_ns
+
+    def without(self, bodies: np.ndarray) -> Contacts:
+        """The contacts of none of the bodies that a mask (n,) marks."""
+        kept = ~bodies[self.pairs].any(axis=1)
+        return Contacts(*(getattr(self, item.name)[kept] for item in fields(self)))
 
     def __len__(self) -> int:
         return len(self.pairs)

@@ -289,10 +289,12 @@ MICROSOFT = replace(
 RIGID_BODY = 2
 """Bullet's internal type of a rigid body (btCollisionObject::CO_RIGID_BODY)."""
 
-AWAKE, ASLEEP = 1, 2
-"""Activation states of a body that is simulated, and of one that rests until something wakes it."""
+AWAKE, WANTS_SLEEP, ASLEEP, DISABLED = 1, 3, 2, 5
+"""Activation states of a body that is simulated, that is about to rest, that rests until something wakes it, and of one
+that is not simulated whatever happens to it.
+"""
 
-SLEEPING = frozenset({ASLEEP, 5})
+SLEEPING = frozenset({ASLEEP, DISABLED})
 """Activation states in which a body is not simulated: asleep and disabled."""
 
 ACTIVATION_STATES = frozenset({1, 2, 3, 4, 5})

@@ -19,7 +19,7 @@ from ..scene.world import scene_time_step
 from . import checks
 from .contacts import ContactReader, Contacts
 from .ignored_collisions import IgnoredCollisions
-from .layout import ASLEEP, AWAKE, SLEEPING, Layout, platform_layout
+from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout, platform_layout
 from .memory import (
     gather_doubles,
     gather_integers,
@@ -32,6 +32,9 @@ from .memory import (
     write_pointers,
     write_vectors,
 )
+
+OUT_OF_REACH_M = 1000.0
+"""How far below its place a removed body stays."""
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
@@ -66,6 +69,11 @@ class BulletWorld:
         Objects with a rigid body, and objects with a rigid-body constraint. All arrays are in their order.
     layout
         Byte offsets; those of this platform unless given.
+
+    Attributes
+    ----------
+    removed
+        (n,) bodies that `remove_bodies` took away.
     """
 
     def __init__(
@@ -84,6 +92,7 @@ class BulletWorld:
         self._body_addresses = np.zeros(len(self.bodies), np.uint64)
         self._connection_addresses = np.zeros(len(self.connections), np.uint64)
         self._exists = np.zeros(len(self.connections), bool)
+        self.removed = np.zeros(len(self.bodies), bool)
         self._feedback = _aligned_doubles(len(self.connections))
 
     def bind(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
@@ -159,27 +168,26 @@ class BulletWorld:
             write_vectors(fields, gather_doubles(fields, 3) + sums[named])
 
     def wake(self, bodies: np.ndarray) -> None:
-        """Wake those of bodies (k,) that sleep, as Bullet does when something touches them.
+        """Wake those of bodies (k,) that sleep or are about to, as Bullet does when something touches them.
 
-        To be called before a sub-step: Bullet has passed them by when it gave all others their weight, so they get it
-        here.
+        To be called before a sub-step: Bullet has passed the sleeping ones by when it gave all others their weight, so
+        they get it here.
         """
         named = np.unique(bodies)
         states = gather_integers(self._body_addresses[named] + np.uint64(self._layout.body.activation))
+        drowsy = self._body_addresses[named[np.isin(states, (ASLEEP, WANTS_SLEEP))]]
+        write_integers(drowsy + np.uint64(self._layout.body.activation), AWAKE)
+        write_doubles(drowsy + np.uint64(self._layout.body.deactivation_time), 0.0)
         sleeping = named[states == ASLEEP]
         if not len(sleeping):
             return
-        addresses = self._body_addresses[sleeping]
-        write_integers(addresses + np.uint64(self._layout.body.activation), AWAKE)
-        write_doubles(addresses + np.uint64(self._layout.body.deactivation_time), 0.0)
-        weights = gather_doubles(addresses + np.uint64(self._layout.body.gravity), 3)
+        weights = gather_doubles(self._body_addresses[sleeping] + np.uint64(self._layout.body.gravity), 3)
         self.add_forces(sleeping, weights, np.zeros_like(weights))
 
     def asleep(self) -> np.ndarray:
         """Whether each body (n,) is asleep; what can never move is not."""
         states = gather_integers(self._body_addresses + np.uint64(self._layout.body.activation))
-        movable = gather_doubles(self._body_addresses + np.uint64(self._layout.body.inverse_mass))[:, 0] > 0.0
-        return np.isin(states, list(SLEEPING)) & movable
+        return np.isin(states, list(SLEEPING)) & self.can_move()
 
     def contacts(self) -> Contacts:
         """All contacts that carry a load; those between sleeping bodies keep the load they fell asleep with.
@@ -189,7 +197,9 @@ class BulletWorld:
         LayoutError
             Memory is not as expected.
         """
-        return self._contact_reader.read()
+        contacts = self._contact_reader.read()
+        # Two bodies that rest on each other keep their last contact when both are removed.
+        return contacts.without(self.removed) if self.removed.any() else contacts
 
     def applied_impulses(self) -> np.ndarray:
         """The one number (m,) that Bullet keeps of each connection: the impulse of its last solver row, N·s."""
@@ -202,6 +212,37 @@ class BulletWorld:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
         rows = rows[self._exists[rows]]
         write_bytes(self._connection_addresses[rows] + np.uint64(self._layout.constraint.enabled), 0)
+        self._feedback[rows] = 0.0  # Bullet would leave the last load of one whose bodies are not simulated any more
+
+    def weaken_connections(self, rows: np.ndarray, factor: float) -> None:
+        """Multiply the breaking thresholds of connections (k,)."""
+        rows = rows[self._exists[rows]]
+        self._thresholds[(np.cumsum(self._exists) - 1)[rows]] *= factor
+        self._write_thresholds()
+
+    def remove_bodies(self, rows: np.ndarray) -> None:
+        """Take bodies (k,) out of the simulation for good; their connections have to be broken.
+
+        Deleting them would crash Blender, which still points at them. They stay, disabled, out of reach of all others:
+        `OUT_OF_REACH_M` below their places.
+        """
+        addresses, body = self._body_addresses[rows], self._layout.body
+        origins = addresses + np.uint64(body.transform + 96)
+        write_vectors(origins, gather_doubles(origins, 3) - (0.0, 0.0, OUT_OF_REACH_M))
+        for field in (body.linear_velocity, body.angular_velocity):
+            write_vectors(addresses + np.uint64(field), np.zeros((len(rows), 3)))
+        write_integers(addresses + np.uint64(body.activation), DISABLED)
+        self.removed[rows] = True
+
+    def slow_down(self, bodies: np.ndarray, share: float) -> None:
+        """Multiply the velocities and angular velocities of bodies (k,) by a share."""
+        for offset in (self._layout.body.linear_velocity, self._layout.body.angular_velocity):
+            fields = self._body_addresses[bodies] + np.uint64(offset)
+            write_vectors(fields, share * gather_doubles(fields, 3))
+
+    def can_move(self) -> np.ndarray:
+        """Whether each body (n,) is free now: neither passive nor led by animation."""
+        return gather_doubles(self._body_addresses + np.uint64(self._layout.body.inverse_mass))[:, 0] > 0.0
 
     def hold_connections(self) -> None:
         """Let no connection break at its threshold, until `release_connections`."""
@@ -319,6 +360,7 @@ class BulletWorld:
         dispatcher = read_pointer(dynamics + self._layout.world.dispatcher)
         self._contact_reader = ContactReader(self._layout, dispatcher, body_addresses)
         self._ignored_rows = np.cumsum(forbids_collision) - 1
+        self.removed = np.zeros(len(self.bodies), bool)
         self._feedback[:] = 0.0
         starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)
         self._point_feedback_at(starts[self._exists])

@@ -1,15 +1,31 @@
 """``bda check``: what follows from a scenario, without running it."""
 
 import argparse
+import math
 from collections.abc import Iterator
 
 from ..core.bridge import bridge_density, bridge_members, deck_top
-from ..core.scenario import Ball, Bridge, ConnectionSettings, Scenario, TimeSettings
+from ..core.gravity import STANDARD_GRAVITY_M_S2
+from ..core.scenario import (
+    Ball,
+    BallCable,
+    Bridge,
+    Change,
+    ConnectionSettings,
+    Removal,
+    SawCut,
+    Scenario,
+    TimeSettings,
+    Weakening,
+)
 from ..core.scenario.file import read_scenario
 from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 
 MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender holds every one against every body."""
+
+
+_CHANGES = {Removal: "removal", SawCut: "saw cut", Weakening: "weakening"}
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -34,6 +50,8 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     yield from _section("Shards and connections", _connection_facts(scenario))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
+    if scenario.changes or scenario.jackhammers:
+        yield from _section("Sequence", _sequence_facts(scenario))
     if scenario.charges:
         yield from _section("Charges", _charge_facts(scenario))
 
@@ -109,13 +127,49 @@ def _method(connections: ConnectionSettings) -> str:
 
 
 def _ball_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
-    impact_time_s = ball.release_time_s + ball.fall_time_s
-    late = ", after the end of the run" if impact_time_s > time.duration_s else ""
     yield "mass", f"{ball.mass_kg / 1000.0:.3f} t"
     yield "diameter", f"{ball.diameter_m:.2f} m, so {ball.density_kg_m3:.0f} kg/m³"
+    yield from _swing_facts(ball, ball.cable) if ball.cable else _drop_facts(ball, time)
+
+
+def _sequence_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    """What is planned besides hits and charges, in order of time."""
+    steps = [(change.time_s, f"{_CHANGES[type(change)]}, {_where(change)}") for change in scenario.changes]
+    for hammer in scenario.jackhammers:
+        work = f"jackhammer until {hammer.end_time_s:g} s, at up to {hammer.largest_speed_m_s:.1f} m/s"
+        steps.append((hammer.start_time_s, work))
+    for time_s, text in sorted(steps):
+        yield f"{time_s:.3f} s", text
+
+
+def _where(change: Change) -> str:
+    members = ", ".join(change.members) if change.members else ""
+    corners = zip(change.lowest_corner_m or (), change.highest_corner_m or (), strict=True)
+    box = " by ".join(f"{low:g} to {high:g}" for low, high in corners)
+    return " in ".join(part for part in (members, box and f"{box} m") if part) or "everywhere"
+
+
+def _swing_facts(ball: Ball, cable: BallCable) -> Iterator[tuple[str, str]]:
+    yield "cable", f"{cable.length_m:.2f} m, let go {cable.angle_degrees:g}° from the vertical"
+    place = ", ".join(f"{value:.2f}" for value in cable.lowest_point_m)
+    period_s = cable.period_s(ball.diameter_m)
+    yield (
+        "swing to and fro",
+        f"{period_s:.3f} s, at its lowest ({place}) m at {ball.release_time_s + period_s / 4:.3f} s",
+    )
+    yield "largest speed", f"{cable.largest_speed_m_s:.2f} m/s"
+    yield "largest energy", f"{ball.mass_kg * cable.largest_speed_m_s**2 / 2000.0:.1f} kJ"
+
+
+def _drop_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
+    impact_time_s = ball.release_time_s + ball.fall_time_s
+    late = ", after the end of the run" if impact_time_s > time.duration_s else ""
     yield "clear drop height", f"{ball.drop_height_m:.2f} m"
     yield "fall time", f"{ball.fall_time_s:.3f} s, so it hits the deck at {impact_time_s:.3f} s{late}"
     yield "impact speed", f"{ball.impact_speed_m_s:.2f} m/s"
+    for number, hit in enumerate(ball.hits, start=2):
+        speed_m_s = math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * hit.drop_height_m)
+        yield f"hit {number}", f"at {hit.release_time_s + hit.fall_time_s:.3f} s, {speed_m_s:.2f} m/s"
     yield "impact energy", f"{ball.mass_kg * ball.impact_speed_m_s**2 / 2000.0:.1f} kJ"
 
 

@@ -88,5 +88,7 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {place}"
     if impact := summary["impact"]:
         yield "impact of the ball", f"{impact['time_s']:.3f} s, frame {impact['frame']}"
+    if summary["came_to_rest_s"] is not None:
+        yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s"
     if throw := summary["largest_throw"]:
         yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}"

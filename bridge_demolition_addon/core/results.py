@@ -28,7 +28,7 @@ class Results:
     substep_s
         (k,) length of the sub-steps that led to each frame; 0 for the first, in which no time passes.
     body_names, body_kinds, masses_kg, volumes_m3
-        (n,) names, kinds (shard, ball, ground), masses and volumes; both 0 for a body that never moves.
+        (n,) names, kinds (shard, ball, ground, tool, crane), masses and volumes; both 0 for a body that never moves.
     places_m, rotations, velocities_m_s
         (k, n, 3), (k, n, 3, 3) and (k, n, 3) at the end of each frame.
     asleep

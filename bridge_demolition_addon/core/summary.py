@@ -47,10 +47,29 @@ def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
     for ball in results.of_kind("ball"):
         moving = np.flatnonzero(results.velocities_m_s[:, ball].any(axis=1))
         if len(moving):
+            if len(results.of_kind("crane")):
+                return _first_push(results, ball, gravity_m_s2)
             released = max(0, moving[0] - 1)  # a ball that falls a few centimetres is hit in its very first step
             hit = first_hit(results.velocities_m_s[released:, ball], results.times_s[released:], gravity_m_s2)
             return None if hit is None else int(released) + hit
     return None
+
+
+def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
+    """When the warm-up had ended, and the largest speed of any shard then; None without one, or before its end."""
+    after = np.flatnonzero(results.times_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
+    if not warm_up_s or not len(after):
+        return None
+    speeds = np.linalg.norm(results.velocities_m_s[after[0], results.of_kind("shard")], axis=1)
+    return {"time_s": float(results.times_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
+
+
+def _first_push(results: Results, ball: int, gravity_m_s2: np.ndarray) -> int | None:
+    """First recorded step in which contacts push a ball, which swings on a cable, more than its rest would."""
+    resting_force = _RESTING_WEIGHTS * results.masses_kg[ball] * np.linalg.norm(gravity_m_s2)
+    pushes = np.linalg.norm(results.body_contact_impulses_ns[:, ball], axis=1)
+    steps = np.flatnonzero(pushes > resting_force * np.diff(results.times_s, prepend=results.times_s[0]))
+    return int(steps[0]) if len(steps) else None
 
 
 def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None) -> list[dict[str, Any]]:

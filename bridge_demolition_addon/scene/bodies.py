@@ -30,6 +30,8 @@ class Kind(StrEnum):
     SHARD = "shard"
     BALL = "ball"
     GROUND = "ground"
+    TOOL = "tool"
+    CRANE = "crane"
 
 
 def kind_of(body: bpy.types.Object) -> Kind:
@@ -95,7 +97,7 @@ def create_shards(
 
 def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> None:
     rigid.collision_shape = "CONVEX_HULL"
-    _set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
+    set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
     rigid.linear_damping = settings.linear_damping
     rigid.angular_damping = settings.angular_damping
     rigid.use_deactivation = settings.use_deactivation
@@ -107,11 +109,11 @@ def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> Non
 def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
     """Passive block with its top at height 0, `half_size_m` to every side of the origin."""
     solid = box((2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M), (0.0, 0.0, 0.0))
-    ground = _rigid_body(world, _mesh("Ground", solid), Kind.GROUND, "BOX")
+    ground = create_body(world, mesh_of("Ground", solid), Kind.GROUND, "BOX")
     ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
     ground.color = _SOIL
     ground.rigid_body.type = "PASSIVE"
-    _set_surface(ground.rigid_body, settings.friction, settings.restitution, 0.0)
+    set_surface(ground.rigid_body, settings.friction, settings.restitution, 0.0)
     return ground
 
 
@@ -124,14 +126,14 @@ def create_ball(
     """
     radius = settings.diameter_m / 2.0
     solid = trimesh.creation.uv_sphere(radius, count=_BALL_SEGMENTS)
-    ball = _rigid_body(world, _mesh("Wrecking ball", solid), Kind.BALL, "SPHERE")
-    ball.location = (*settings.target_m, deck_top_m + settings.drop_height_m + radius)
+    ball = create_body(world, mesh_of("Wrecking ball", solid), Kind.BALL, "SPHERE")
+    ball.location = settings.start_m(deck_top_m)
     ball.color = _STEEL
     rigid = ball.rigid_body
     rigid.mass = settings.mass_kg
-    _set_surface(rigid, settings.friction, settings.restitution, 0.0)
+    set_surface(rigid, settings.friction, settings.restitution, 0.0)
     # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
-    rigid.linear_damping = rigid.angular_damping = 0.0
+    rigid.linear_damping, rigid.angular_damping = 0.0, settings.angular_damping
     rigid.use_deactivation = False
     for frame, held in ((start_frame, True), (release_frame, False)):
         rigid.kinematic = held
@@ -140,10 +142,10 @@ def create_ball(
     return ball
 
 
-def _rigid_body(
+def create_body(
     world: bpy.types.RigidBodyWorld, mesh: bpy.types.Mesh, kind: Kind, collision_shape: str
 ) -> bpy.types.Object:
-    """Object in the world's collection, which makes it a rigid body."""
+    """A body of a mesh in the world's collection, which makes it a rigid body."""
     body = bpy.data.objects.new(mesh.name, mesh)
     world.collection.objects.link(body)
     body.rigid_body.collision_shape = collision_shape
@@ -151,12 +153,14 @@ def _rigid_body(
     return body
 
 
-def _set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution: float, margin_m: float) -> None:
+def set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution: float, margin_m: float) -> None:
+    """Set friction, bounce and collision margin of a body."""
     rigid.friction, rigid.restitution = friction, restitution
     rigid.use_margin, rigid.collision_margin = True, margin_m
 
 
-def _mesh(name: str, solid: trimesh.Trimesh) -> bpy.types.Mesh:
+def mesh_of(name: str, solid: trimesh.Trimesh) -> bpy.types.Mesh:
+    """A mesh of a solid."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
     return mesh

@@ -12,6 +12,7 @@ from ..core.strength import Ductility, Strength
 
 _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
+_DAMPING = "bda_warm_up_damping"
 _DUCTILITY = "bda_ductility"
 
 _UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
@@ -30,16 +31,19 @@ class Breaking:
         Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
     ductility
         What is left of connections that their strength did not save; None where nothing is.
+    warm_up_damping
+        Share of their velocities that shards lose in one second of the warm-up, from 0 to 1.
     """
 
     strength: Strength | None = None
     warm_up_s: float = 0.0
     ductility: Ductility | None = None
+    warm_up_damping: float = 0.0
 
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
     """Note it in the scene, which is saved with it."""
-    scene[_WARM_UP] = breaking.warm_up_s
+    scene[_WARM_UP], scene[_DAMPING] = breaking.warm_up_s, breaking.warm_up_damping
     for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility)):
         if values:
             scene[name] = astuple(values)
@@ -62,4 +66,4 @@ def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] 
         other = astuple(strength or _UNBREAKABLE)
         strength = Strength(*np.array([tuple(each.get(_STRENGTH, other)) for each in connections]).T)
     ductility = Ductility(*scene[_DUCTILITY]) if _DUCTILITY in scene else None
-    return Breaking(strength, scene.get(_WARM_UP, 0.0), ductility)
+    return Breaking(strength, scene.get(_WARM_UP, 0.0), ductility, scene.get(_DAMPING, 0.0))

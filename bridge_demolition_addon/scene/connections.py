@@ -13,13 +13,21 @@ from .naming import make_named, numbered_names
 _SYMBOL_SIZE_M = 0.1
 _AREA = "bda_area_m2"
 _NORMAL = "bda_normal"
+_IS_CABLE = "bda_is_cable"
 _SECOND_MOMENTS = "bda_second_moments_m4"
 
 
 def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """All objects that hold a constraint of the scene's rigid-body world."""
+    """All objects that hold a constraint of the scene's rigid-body world, but for the cables of balls."""
     constraints = scene.rigidbody_world.constraints
-    return [each for each in constraints.all_objects if each.rigid_body_constraint] if constraints else []
+    if not constraints:
+        return []
+    return [each for each in constraints.all_objects if each.rigid_body_constraint and not each.get(_IS_CABLE)]
+
+
+def mark_cable(constraint: bpy.types.Object) -> None:
+    """Note on a constraint that it is a cable, and no connection whose loads and breaking are followed."""
+    constraint[_IS_CABLE] = True
 
 
 def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

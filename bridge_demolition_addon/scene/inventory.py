@@ -21,7 +21,7 @@ class Inventory:
     Attributes
     ----------
     body_names, body_kinds
-        (n,) names, and kinds (shard, ball, ground).
+        (n,) names, and kinds (shard, ball, ground, tool, crane).
     masses_kg, volumes_m3
         (n,) both 0 for a body that never moves.
     connection_names, pairs

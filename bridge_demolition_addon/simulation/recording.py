@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -15,11 +16,14 @@ from ..core.errors import LayoutError, SimulationError
 from ..core.results import Results
 from ..scene.bodies import bodies_of
 from ..scene.breaking import breaking_of
+from ..scene.changes import changes_of, events_of
 from ..scene.connections import connections_of
 from ..scene.inventory import Inventory, take_inventory
+from ..scene.lifts import lift_from, lifts_of
 from ..scene.slow_motion import time_is_animated, time_step_at
 from ..scene.thresholds import rewrite_thresholds
 from .blast import Blast, goes_off
+from .events import Events
 from .logs import Logs
 from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
@@ -69,11 +73,13 @@ class Recording:
         self._every_substep = every_substep
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
+        self._lifted = [body for body in self._bodies if lifts_of(body)]
         self._objects_at_start = self._objects()
         self._names_at_start = self._names()
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
         self._substeps: SubstepRecorder | None = None
+        self._events: Events | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
@@ -119,6 +125,7 @@ class Recording:
                 self._follow_bullet(depsgraph)
             if self.distrust:
                 self._follow_motion(depsgraph)
+            self._lift_balls(depsgraph)
         finally:
             self._seconds += time.perf_counter() - began
 
@@ -141,6 +148,10 @@ class Recording:
         """Frames recorded so far."""
         return len(self._frames)
 
+    def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+        """Time in s of the last frame, and places (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""
+        return tuple(self._frames[-1][name] for name in ("times_s", "places_m", "rotations", "asleep"))
+
     @property
     def broken(self) -> int:
         """Connections broken by now."""
@@ -150,6 +161,20 @@ class Recording:
     def lost_blast_loads(self) -> int:
         """How often a body has left the reach of its force field within a frame, and lost a part of its load."""
         return self._blast.left if self._blast else 0
+
+    @property
+    def happenings(self) -> list[dict[str, Any]]:
+        """Removals, saw cuts and weakenings so far, ready for JSON: shards taken away, connections concerned."""
+        names = self._inventory.body_names if self._inventory else ()
+        return [
+            {
+                "time_s": each.time_s,
+                "kind": each.kind,
+                "shards": [str(names[body]) for body in each.bodies],
+                "connections": len(each.connections),
+            }
+            for each in (self._events.happened if self._events else ())
+        ]
 
     @property
     def seconds(self) -> float:
@@ -209,6 +234,11 @@ class Recording:
         self._keep(self._momentum.read_frame(depsgraph))
 
     def _begin_with_motion(self) -> None:
+        if changes_of(self.scene):
+            raise SimulationError(
+                "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
+                f"({self.distrust}): take them out of the scenario, or run it in another Blender"
+            )
         self._frames.clear()
         self._inventory = take_inventory(self._bodies, ())
         self._momentum = MomentumReader(self.scene, self._bodies, self._inventory)
@@ -245,6 +275,13 @@ class Recording:
             return
         frame_s = time_step_at(self.scene, coming).frame_s
         self._blast.before_frame(last["times_s"], frame_s, last["places_m"], last["rotations"])
+
+    def _lift_balls(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Have a ball that is lifted from the next frame on go up from where it is."""
+        for ball in self._lifted:
+            for lift_frame, shares, end in lifts_of(ball):
+                if self.scene.frame_current == lift_frame - 1:
+                    lift_from(ball, lift_frame, shares, end, ball.evaluated_get(depsgraph).matrix_world)
 
     def _objects(self) -> bytes:
         """What tells the objects in the world from all others, quickly."""
@@ -289,9 +326,13 @@ class Recording:
         self._frames.clear()
         self._inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self._world)
+        coming = events_of(self.scene, self._bodies, self._inventory)
+        self._events = Events(self._world, self._inventory.pairs, coming)
         normal_substep_s = time_step_at(self.scene, self._start_frame).substep_s
         breaking = breaking_of(self.scene, self._connections)
-        self._substeps = SubstepRecorder(self._world, self._inventory, breaking, self._blast, normal_substep_s)
+        self._substeps = SubstepRecorder(
+            self._world, self._inventory, breaking, self._events, self._blast, normal_substep_s
+        )
         after = self._substeps.after_substep if self._every_substep else None
         self._world.call_around_substeps(self._substeps.before_substep, after)
 

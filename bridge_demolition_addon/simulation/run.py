@@ -14,10 +14,12 @@ import bpy
 import numpy as np
 
 from ..core.bridge import deck_top
+from ..core.events import model_structure, schedule
 from ..core.model import Model, build_model
+from ..core.rest import Rest, last_event_s
 from ..core.results import Results
 from ..core.scenario import Scenario
-from ..core.summary import summarise
+from ..core.summary import settling, summarise
 from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
@@ -75,18 +77,27 @@ def run_scenario(
     began = time.perf_counter()
     progress.stage("building the bridge and its shards")
     model = build_model(scenario)
+    schedule(scenario.changes, model_structure(model))  # refuses what concerns nothing
     folder = prepared_folder(output, overwrite=overwrite)
     scene = _empty_scene(scenario.title)
     build_demolition(scene, scenario, model)
     _prepare_view(scene, scenario)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
-    recording, blender_s, interrupted = _simulate(scene, folder, scenario.recording.every_substep, progress)
+    time_settings = scenario.time
+    limits = (time_settings.rest_speed_m_s, time_settings.rest_spin_rad_s, time_settings.rest_hold_s)
+    rest = Rest(*limits, last_event_s(scenario))
+    recording, blender_s, interrupted = _simulate(
+        scene, folder, scenario.recording.every_substep, progress, rest, stop_at_rest=time_settings.stop_at_rest
+    )
     if recording.distrust:
         progress.stage(f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}")
     results = recording.results()
     summary = _summary(scenario, model, scene, results, interrupted)
     summary["charges"] = _charges(scenario, recording)
+    summary["settled"] = settling(results, scenario.connections.warm_up_s)
+    summary["events"] = recording.happenings
+    summary["came_to_rest_s"] = rest.came_to_rest_s
     summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
     progress.stage("writing the results")
     keep_results(folder, results, summary)
@@ -113,14 +124,19 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
     sides = (-bridge.deck.width_m / 2.0, bridge.deck.width_m / 2.0)
     seen = [(x, y, z) for x in ends for y in sides for z in (0.0, deck_top(bridge))]
     if ball:
-        seen.append((*ball.target_m, deck_top(bridge) + ball.drop_height_m + ball.diameter_m))
+        seen += [(*each.target_m, deck_top(bridge) + each.drop_height_m + ball.diameter_m) for each in ball.drops]
+    if ball and ball.cable:
+        seen += [ball.cable.start_m, ball.cable.crane_point_m]
     prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
 
 
 def _simulate(
-    scene: bpy.types.Scene, folder: Path, every_substep: bool, progress: Progress
+    scene: bpy.types.Scene, folder: Path, every_substep: bool, progress: Progress, rest: Rest, *, stop_at_rest: bool
 ) -> tuple[Recording, float, bool]:
-    """Play the timeline once: the recording, the wall time of Blender's own steps, and whether it was cut short."""
+    """Play the timeline once: the recording, the wall time of Blender's own steps, and whether it was cut short.
+
+    A scene that is stopped at rest ends with the frame in which it is.
+    """
     recording = Recording(scene, folder, every_substep=every_substep)
     frames = range(scene.frame_start, scene.frame_end + 1)
     handlers.start(recording)
@@ -133,6 +149,11 @@ def _simulate(
                     raise recording.error
                 if recording.recorded_frames > 1:
                     progress.frame(recording.recorded_frames - 1, len(frames) - 2, recording.broken)
+                if recording.recorded_frames:
+                    rest.observe(*recording.motion())
+                if stop_at_rest and rest.is_reached:
+                    scene.frame_end = frame
+                    break
                 if interrupted.is_set() and recording.recorded_frames:
                     break
     finally:

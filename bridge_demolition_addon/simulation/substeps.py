@@ -16,6 +16,7 @@ from ..core.strength import rectangular_sections, strength_at, utilisation
 from ..scene.breaking import Breaking
 from ..scene.inventory import Inventory
 from .blast import Blast
+from .events import Events
 from .load_reader import LoadReader
 from .ties import Ties
 
@@ -40,6 +41,8 @@ class SubstepRecorder:
         Its bodies and connections.
     breaking
         How connections break.
+    events
+        What happens to them besides.
     blast
         What explodes, or None.
     threshold_step_s
@@ -60,6 +63,7 @@ class SubstepRecorder:
         world: BulletWorld,
         inventory: Inventory,
         breaking: Breaking,
+        events: Events,
         blast: Blast | None,
         threshold_step_s: float,
     ):
@@ -67,11 +71,13 @@ class SubstepRecorder:
         self.seconds = 0.0
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
+        self._events = events
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
         self._ties = None
         if breaking.ductility:
-            self._ties = Ties(world, inventory, breaking.ductility, breaking.strength.tension_pa)
+            remaining = events.remaining_strength
+            self._ties = Ties(world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining)
         self._is_warming_up = breaking.warm_up_s > 0.0
         if self._is_warming_up:
             world.hold_connections()
@@ -81,6 +87,7 @@ class SubstepRecorder:
         self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._breaks: list[Breaks] = []
+        self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
 
@@ -89,6 +96,10 @@ class SubstepRecorder:
         if self.error:
             return
         try:
+            if self._is_warming_up and self._breaking.warm_up_damping:
+                # As Bullet's own damping: a share of the velocity in a second, whatever the step.
+                self._world.slow_down(self._shards, (1.0 - self._breaking.warm_up_damping) ** substep_s)
+            self._events.before_substep(self.elapsed_s, substep_s)
             self._world.scale_thresholds(substep_s / self._threshold_step_s)
             if self._ties:
                 self._ties.before_substep(substep_s)
@@ -156,9 +167,9 @@ class SubstepRecorder:
 
         When one breaks, its neighbours share its load anew: they are judged again after the next sub-step.
         """
-        strength, inventory = self._breaking.strength, self._inventory
+        strength, inventory, left = self._breaking.strength, self._inventory, self._events.remaining_strength
         forces = self._section_forces(loads, np.arange(len(self._intact)))
-        rows = np.flatnonzero((utilisation(forces, self._sections, strength) > 1.0) & self._intact)
+        rows = np.flatnonzero((utilisation(forces, self._sections, strength) > left) & self._intact)
         if not len(rows):
             return rows
         cut_loads, areas, second_moments = self._cuts.sections(
@@ -173,7 +184,7 @@ class SubstepRecorder:
         )
         of_both_cuts = strength_at(strength, np.concatenate((rows, rows)))
         used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
-        used = used.reshape(2, -1).mean(axis=0)
+        used = used.reshape(2, -1).mean(axis=0) / left[rows]
         return rows[(used > 1.0) & worst_around(inventory.pairs[rows], used, inventory.masses_kg > 0.0)]
 
     def _section_forces(self, loads: SubstepLoads, rows: np.ndarray) -> SectionForces:
@@ -194,7 +205,9 @@ class SubstepRecorder:
             substep_s * (forces[pairs[:, 0] == ball].sum(axis=0) - forces[pairs[:, 1] == ball].sum(axis=0))
             for ball in self._balls
         ]
-        self._hits.append((self.elapsed_s, np.array(impulses), self._world.velocities()[self._balls]))
+        # A ball that is lifted moves as animation says: what it pushes off does not hit it.
+        free = self._world.can_move()[self._balls, None]
+        self._hits.append((self.elapsed_s, np.where(free, impulses, 0.0), self._world.velocities()[self._balls]))
 
 
 def no_ball_history() -> dict[str, np.ndarray]:

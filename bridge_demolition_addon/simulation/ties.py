@@ -23,10 +23,20 @@ class Ties:
         What is left of a connection, and how far that stretches.
     tension_pa
         Strength of the intact connections in tension.
+    remaining_strength
+        (m,) part of it that each connection has left, kept up to date by whoever gives it.
     """
 
-    def __init__(self, world: BulletWorld, inventory: Inventory, ductility: Ductility, tension_pa: float):
+    def __init__(
+        self,
+        world: BulletWorld,
+        inventory: Inventory,
+        ductility: Ductility,
+        tension_pa: float,
+        remaining_strength: np.ndarray,
+    ):
         self._world, self._inventory, self._ductility = world, inventory, ductility
+        self._remaining_strength = remaining_strength
         self._yield_n = ductility.strength_share * tension_pa * inventory.areas_m2
         self._rows = np.zeros(0, int)
         self._anchors = np.zeros((0, 2, 3))
@@ -55,7 +65,8 @@ class Ties:
         speeds = self._world.velocities()[pairs] + np.cross(self._world.spins()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
         masses = effective_masses(self._inventory.masses_kg, pairs)
-        tensions, self._held_n = tie_forces(self._held_n, rates, masses, self._yield_n[self._rows], substep_s)
+        yield_n = (self._remaining_strength * self._yield_n)[self._rows]
+        tensions, self._held_n = tie_forces(self._held_n, rates, masses, yield_n, substep_s)
         holds = distances <= self._ductility.elongation_m
         pulls = np.where(holds, tensions, 0.0)[:, None] * directions
         self.forces_n[self._rows] = pulls

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import DemolitionError, OutputError
+from ..core.events import model_structure, schedule
 from ..core.model import build_model
 from ..core.scenario.file import read_scenario
 from ..core.summary import summarise
@@ -41,6 +42,7 @@ class BDA_OT_build_scenario(bpy.types.Operator):
         try:
             scenario = read_scenario(_absolute(context.scene.bda.scenario_path))
             model = build_model(scenario)
+            schedule(scenario.changes, model_structure(model))  # refuses what concerns nothing
         except DemolitionError as error:
             return _refused(self, error)
         build_demolition(context.scene, scenario, model)
@@ -103,6 +105,7 @@ class BDA_OT_unregister_handler(bpy.types.Operator):
         try:
             results = recording.results()
             summary = {"title": _subject["title"], **summarise(results, _subject["gravity"])}
+            summary["events"] = recording.happenings
             keep_results(recording.folder, results, summary)
         except DemolitionError as error:
             return _refused(self, recording.error or error)

@@ -1,11 +1,45 @@
 """The wrecking ball."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import ClassVar
 
+from ..errors import ScenarioError
 from ..gravity import STANDARD_GRAVITY_M_S2
-from .key import SHORTEST_LENGTH_M, Table, key
+from .cable import BallCable
+from .key import SHORTEST_LENGTH_M, Table, expected, key
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BallHit(Table):
+    """A further hit of the ball, in order of time. Animation lifts it from where it lies: straight up to the height of
+    its next drop, and from there level to above the target, at no more than 1.5 times the mean speed. Then it is held
+    until it is let go.
+    """
+
+    table: ClassVar[str] = "ball.hits"
+
+    lift_time_s: float = key("When lifting begins, once the ball has fallen from its hit before.", unit="s", at_least=0)
+    lift_duration_s: float = key("How long lifting takes.", default=3.0, unit="s", above=0)
+    release_time_s: float = key(
+        "When it is let go again: a frame after it was lifted or later, and before `time.duration_s` is over.",
+        unit="s",
+        at_least=0,
+    )
+    target_m: tuple[float, float] = key(
+        "Where it hits the deck: along the road from the first pier's axis, and across it from its middle.", unit="m"
+    )
+    drop_height_m: float = key("Clear height between the ball and the deck below it.", unit="m", above=0)
+
+    @property
+    def lift_end_s(self) -> float:
+        """When the ball is up, s."""
+        return self.lift_time_s + self.lift_duration_s
+
+    @property
+    def fall_time_s(self) -> float:
+        """Time from release to the deck in free fall, s."""
+        return fall_time_s(self.drop_height_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,15 +50,29 @@ class Ball(Table):
 
     mass_kg: float = key("Mass.", unit="kg", above=0)
     diameter_m: float = key("Diameter.", unit="m", at_least=SHORTEST_LENGTH_M)
-    target_m: tuple[float, float] = key(
-        "Where it hits the deck: along the road from the first pier's axis, and across it from its middle.", unit="m"
+    target_m: tuple[float, float] | None = key(
+        "Where it hits the deck: along the road from the first pier's axis, and across it from its middle. Needed "
+        "without `ball.cable`.",
+        default=None,
+        unit="m",
     )
-    drop_height_m: float = key("Clear height between the ball and the deck below it.", unit="m", above=0)
+    drop_height_m: float | None = key(
+        "Clear height between the ball and the deck below it. Needed without `ball.cable`.",
+        default=None,
+        unit="m",
+        above=0,
+    )
     release_time_s: float = key(
         "When it is let go; before `time.duration_s` is over.", default=0.5, unit="s", at_least=0
     )
     friction: float = key("Coefficient of friction.", default=0.5, at_least=0)
     restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    angular_damping: float = key(
+        "Share of its spin that it loses in one second. Without any, nothing stops a ball that rolls on flat ground.",
+        default=0.0,
+        at_least=0,
+        at_most=1,
+    )
     contact_time_s: float | None = key(
         "How long a hit lasts, for the estimate of its largest force; by default as long as an elastic one of steel on "
         "concrete (Hertz).",
@@ -32,6 +80,25 @@ class Ball(Table):
         unit="s",
         above=0,
     )
+    hits: tuple[BallHit, ...] = ()
+    cable: BallCable | None = None
+
+    @property
+    def drops(self) -> tuple["Ball | BallHit", ...]:
+        """The first hit, which is the ball's own, and all further ones; none of a ball that swings."""
+        return () if self.cable else (self, *self.hits)
+
+    def start_m(self, deck_top_m: float) -> tuple[float, float, float]:
+        """Middle of the ball before it is let go, above a deck of a height, m."""
+        if self.cable:
+            return self.cable.start_m
+        return (*self.target_m, deck_top_m + self.drop_height_m + self.diameter_m / 2.0)
+
+    def largest_height_m(self, deck_top_m: float) -> float:
+        """Largest height that the ball is let go from above the ground, over a deck of a height, m."""
+        if self.cable:
+            return self.cable.start_m[2]
+        return deck_top_m + max(drop.drop_height_m for drop in self.drops)
 
     @property
     def density_kg_m3(self) -> float:
@@ -41,9 +108,40 @@ class Ball(Table):
     @property
     def fall_time_s(self) -> float:
         """Time from release to the deck in free fall, s."""
-        return math.sqrt(2.0 * self.drop_height_m / STANDARD_GRAVITY_M_S2)
+        return fall_time_s(self.drop_height_m)
 
     @property
     def impact_speed_m_s(self) -> float:
         """Speed at the deck after free fall, m/s."""
         return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.drop_height_m)
+
+    def _check_together(self) -> None:
+        if self.cable:
+            self._check_cable(self.cable)
+            return
+        for item in fields(self):
+            if item.name in ("target_m", "drop_height_m") and getattr(self, item.name) is None:
+                raise ScenarioError(f"ball.{item.name} is missing: expected {expected(item)}, or a table [ball.cable]")
+        for before, after in zip(self.drops, self.hits, strict=False):
+            fallen_s = before.release_time_s + before.fall_time_s
+            if after.lift_time_s < fallen_s:
+                raise ScenarioError(
+                    f"ball.hits.lift_time_s is {after.lift_time_s}: expected at least {fallen_s:.6g} (s), when "
+                    f"the ball that is let go at {before.release_time_s:g} s reaches the deck"
+                )
+
+    def _check_cable(self, cable: BallCable) -> None:
+        for name in ("target_m", "drop_height_m", "hits"):
+            if getattr(self, name):
+                raise ScenarioError(f"ball.{name} is given together with ball.cable: expected one of the two")
+        lowest_m = cable.lowest_point_m[2] - self.diameter_m / 2.0
+        if lowest_m <= 0.0:
+            raise ScenarioError(
+                f"ball.cable.length_m is {cable.length_m}: expected a ball that swings above the ground, "
+                f"its lowest point is at {lowest_m:.6g} (m)"
+            )
+
+
+def fall_time_s(height_m: float) -> float:
+    """Time of a free fall from a height, s."""
+    return math.sqrt(2.0 * height_m / STANDARD_GRAVITY_M_S2)

@@ -76,10 +76,18 @@ class ConnectionSettings(JointSettings):
         above=0,
     )
     warm_up_s: float = key(
-        "Time from the start in which no connection breaks, so that the bridge settles under its own weight.",
+        "Time from the start in which no connection breaks, so that the bridge settles under its own weight; shards "
+        "that start deactivated do not settle.",
         default=0.0,
         unit="s",
         at_least=0,
+    )
+    warm_up_damping: float = key(
+        "Share of all velocities that shards lose in one second of the warm-up besides their own damping, so that they "
+        "are at rest when it ends: `0.99` or more.",
+        default=0.0,
+        at_least=0,
+        at_most=1,
     )
     foundation: bool = key("Whether shards that stand on the ground are connected to it.", default=True)
     between: tuple[ConnectionBetween, ...] = ()
@@ -116,6 +124,10 @@ class ConnectionSettings(JointSettings):
             raise ScenarioError(
                 f"connections.ductile_elongation_m is {self.ductile_elongation_m}: expected a number above 0 (m) with "
                 f"a connections.ductile_share above 0, and none with {self.ductile_share}"
+            )
+        if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
+            raise ScenarioError(
+                f"connections.warm_up_damping is {self.warm_up_damping}: expected 0 where connections.warm_up_s is 0"
             )
         self._check_method("search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))

@@ -6,12 +6,14 @@ from typing import ClassVar
 from ..blast.charges import Charge
 from ..errors import ScenarioError
 from ..timeline import Timeline
-from .ball import Ball
+from .ball import Ball, BallHit
 from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge
+from .changes import Change, Removal, SawCut, Weakening, check_times
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
+from .jackhammer import Jackhammer
 from .key import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .output import PictureSettings, RecordingSettings
 from .time import MOST_FRAMES, TimeSettings
@@ -39,6 +41,10 @@ class Scenario(Table):
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
     charges: tuple[ChargeSettings, ...] = ()
+    jackhammers: tuple[Jackhammer, ...] = ()
+    removals: tuple[Removal, ...] = ()
+    saw_cuts: tuple[SawCut, ...] = ()
+    weakenings: tuple[Weakening, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
 
@@ -54,11 +60,24 @@ class Scenario(Table):
         slow_motions = self.blast.slow_motions(self.placed_charges, frame_s)
         return Timeline.of(frame_s, self.time.duration_s, slow_motions)
 
+    @property
+    def changes(self) -> tuple[Change, ...]:
+        """All removals, saw cuts and weakenings."""
+        return (*self.removals, *self.saw_cuts, *self.weakenings)
+
     def _check_together(self) -> None:
         self._check_charges()
-        if self.ball:
-            self._check_release(self.ball)
-            self._check_target(self.ball)
+        for ball in (self.ball, *self.ball.hits) if self.ball else ():
+            self._check_release(ball)
+        for drop in self.ball.drops if self.ball else ():
+            self._check_on_deck(f"{drop.table}.target_m", drop.target_m)
+        for hit in self.ball.hits if self.ball else ():
+            self._check_lift(hit)
+        for hammer in self.jackhammers:
+            hammer.check_time(self.time)
+            for number, point in enumerate(hammer.path_m):
+                self._check_on_deck(f"jackhammers.path_m[{number}]", point)
+        check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
 
     def _check_charges(self) -> None:
         charges = self.placed_charges
@@ -79,22 +98,32 @@ class Scenario(Table):
                 f"blast.slow_frame_ms is {self.blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"
             )
 
-    def _check_release(self, ball: Ball) -> None:
+    def _check_release(self, ball: Ball | BallHit) -> None:
         if self.timeline.frames_until(ball.release_time_s) >= len(self.timeline):
             raise ScenarioError(
-                f"ball.release_time_s is {ball.release_time_s}: "
+                f"{ball.table}.release_time_s is {ball.release_time_s}: "
                 f"expected less than time.duration_s, {self.time.duration_s} (s), "
                 f"by a frame of {self.time.step.frame_s:.3g} s"
             )
 
-    def _check_target(self, ball: Ball) -> None:
+    def _check_lift(self, hit: BallHit) -> None:
+        timeline = self.timeline
+        held = timeline.frames_until(hit.lift_end_s) + 1  # still for a frame, so that it falls from rest
+        if timeline.frames_until(hit.release_time_s) < held:
+            earliest_s = timeline.ends_s[held - 1] if held <= len(timeline) else hit.lift_end_s
+            raise ScenarioError(
+                f"ball.hits.release_time_s is {hit.release_time_s}: expected at least {earliest_s:.6g} (s), "
+                "a frame after the ball was lifted"
+            )
+
+    def _check_on_deck(self, name: str, point: tuple[float, float]) -> None:
         overhang = self.bridge.deck.overhang_m
         half_width = self.bridge.deck.width_m / 2.0
         deck = ((-overhang, self.bridge.spans_m + overhang), (-half_width, half_width))
-        for place, (position, (lowest, highest)) in enumerate(zip(ball.target_m, deck, strict=True)):
+        for place, (position, (lowest, highest)) in enumerate(zip(point, deck, strict=True)):
             slack = ROUNDING * (highest - lowest)
             if not lowest - slack <= position <= highest + slack:
                 raise ScenarioError(
-                    f"ball.target_m[{place}] is {position}: "
+                    f"{name}[{place}] is {position}: "
                     f"expected a place on the deck, from {lowest:.6g} to {highest:.6g} (m)"
                 )

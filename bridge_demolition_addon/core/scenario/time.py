@@ -36,6 +36,16 @@ class TimeSettings(Table):
         "Simulated seconds in one second of animation: below 1 is slow motion.", default=1.0, above=0, at_most=100
     )
 
+    stop_at_rest: bool = key(
+        "Whether the run ends before `duration_s` once everything rests and nothing planned is still to happen.",
+        default=False,
+    )
+    rest_speed_m_s: float = key(
+        "Speed below which a body rests; one that sleeps rests anyway.", default=0.05, unit="m/s", above=0
+    )
+    rest_spin_rad_s: float = key("Angular velocity below which a body rests.", default=0.1, unit="rad/s", above=0)
+    rest_hold_s: float = key("How long everything has to rest.", default=1.0, unit="s", above=0)
+
     @property
     def step(self) -> TimeStep:
         """Frames and sub-steps that these settings give."""

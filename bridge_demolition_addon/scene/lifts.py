@@ -1,0 +1,93 @@
+"""Several hits of one ball: let go, lifted by animation, let go again."""
+
+from __future__ import annotations
+
+import json
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..core.lifting import lift_path
+from ..core.scenario import Ball
+from ..core.timeline import Timeline
+from .animation import key_values
+
+_LIFTS = "bda_lifts"
+
+
+def create_hits(
+    ball: bpy.types.Object, settings: Ball, deck_top_m: float, first_step_frame: int, timeline: Timeline
+) -> None:
+    """Animate all hits of a ball but the first, which `create_ball` has animated.
+
+    Parameters
+    ----------
+    deck_top_m
+        Height of the deck.
+    first_step_frame
+        First frame that time leads to.
+    timeline
+        The frames from there on.
+    """
+    if not settings.hits:
+        return
+    radius = settings.diameter_m / 2.0
+    held = tuple(ball.location)
+    release_frame = first_step_frame + timeline.frames_until(settings.release_time_s)
+    key_values(ball, "location", [1, release_frame], [held, held])
+    key_values(ball, "rotation_euler", [1], [ball.rotation_euler], constant=True)
+    target = settings.target_m
+    for hit in settings.hits:
+        end = (*hit.target_m, deck_top_m + hit.drop_height_m + radius)
+        first, last = (timeline.frames_until(time_s) for time_s in (hit.lift_time_s, hit.lift_end_s))
+        times = np.concatenate(([0.0], np.cumsum(timeline.frame_lengths_s[first:last])))
+        plan_lift(ball, first_step_frame + first, times / times[-1], (*target, deck_top_m + radius), end)
+        release_frame = first_step_frame + timeline.frames_until(hit.release_time_s)
+        frames = [first_step_frame + first, release_frame]
+        key_values(ball, "rigid_body.kinematic", frames, [1.0, 0.0], constant=True)
+        key_values(ball, "location", [release_frame], [end])
+        target = hit.target_m
+
+
+def plan_lift(
+    ball: bpy.types.Object,
+    lift_frame: int,
+    shares: np.ndarray,
+    start_m: tuple[float, float, float],
+    end_m: tuple[float, float, float],
+) -> None:
+    """Have a ball lifted to a place, led by animation for the first time in the step towards a frame.
+
+    Where the ball will lie by then is not known: the way begins at a guess until `lift_from` says better.
+
+    Parameters
+    ----------
+    shares
+        (k,) share of the lift's time that has passed in the frame before `lift_frame` and in those that follow it,
+        from 0 to 1.
+    """
+    lifts = json.loads(ball.get(_LIFTS, "[]"))
+    ball[_LIFTS] = json.dumps([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
+    key_values(ball, "location", _frames(lift_frame, shares), lift_path(start_m, end_m, shares))
+
+
+def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
+    """First frame, shares of time (k,) and end (3,) of every lift that was planned."""
+    return [(frame, np.array(shares), np.array(end)) for frame, shares, end in json.loads(ball.get(_LIFTS, "[]"))]
+
+
+def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:
+    """Have a lift begin where the ball is in the frame before it, as its matrix says.
+
+    A body that animation begins to lead is taken by Blender to its animated place within one frame, at whatever speed
+    that needs, and turned as well.
+    """
+    place, rotation, _ = matrix.decompose()
+    frames = _frames(lift_frame, shares)
+    key_values(ball, "location", frames, lift_path(np.array(place), end_m, shares))
+    key_values(ball, "rotation_euler", frames[:1], [rotation.to_euler(ball.rotation_mode)], constant=True)
+
+
+def _frames(lift_frame: int, shares: np.ndarray) -> np.ndarray:
+    return lift_frame - 1 + np.arange(len(shares))

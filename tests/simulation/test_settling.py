@@ -1,0 +1,86 @@
+"""Warm-up: nothing breaks while a structure settles, and with damping it is at rest afterwards."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from shard_scenes import ShardScene
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.errors import ScenarioError
+from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.summary import settling
+from bridge_demolition_addon.scene.breaking import Breaking, breaking_of
+from bridge_demolition_addon.simulation import handlers
+from bridge_demolition_addon.simulation.recording import Recording
+
+SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
+WARM_UP_S = 1.0
+
+
+def beam(folder, damping):
+    """A beam of 12 m that is held at its ends, let go and followed for 2 s."""
+    breaking = Breaking(warm_up_s=WARM_UP_S, warm_up_damping=damping)
+    scene = ShardScene((12.0, 1.0, 0.4), (0.0, 0.0, 5.0), 60, {"solver_iterations": 20}, breaking=breaking)
+    assert breaking_of(scene.scene) == breaking
+    scene.hold(abs(scene.fracture.centres[:, 0]) > 5.7)
+    recording = Recording(scene.scene, folder)
+    handlers.start(recording)
+    for frame in range(1, 51):
+        scene.scene.frame_set(frame)
+    handlers.stop()
+    assert recording.error is None
+    return recording.results()
+
+
+def test_beam_is_at_rest_after_a_damped_warm_up(blender, tmp_path):
+    damped = beam(tmp_path, 0.9999)
+    blender.ops.wm.read_factory_settings(use_empty=True)
+    free = beam(tmp_path, 0.0)
+    settled, swaying = settling(damped, WARM_UP_S), settling(free, WARM_UP_S)
+    assert settled["time_s"] == pytest.approx(WARM_UP_S, abs=1 / 24)
+    assert settled["largest_speed_m_s"] < 0.2 * swaying["largest_speed_m_s"]
+    # It has settled where it stays: what follows without damping moves it no further than the trembling of the solver.
+    end = np.flatnonzero(damped.times_s >= settled["time_s"])[0]
+    sag = (damped.places_m[0] - damped.places_m)[:, :, 2].max(axis=1)
+    assert sag[end] == pytest.approx(sag[-1], rel=0.05)
+
+
+def test_damping_is_a_share_of_the_velocity_in_a_second(blender, tmp_path):
+    """A free fall with v' = g - c v, where 1 - d = exp(-c): v = g / c (1 - exp(-c t)); then with g alone."""
+    damping = 0.9
+    scene = ShardScene((1, 1, 1), (0, 0, 100), 1, {}, breaking=Breaking(warm_up_s=WARM_UP_S, warm_up_damping=damping))
+    scene.shards[0].rigid_body.linear_damping = 0.0
+    recording = Recording(scene.scene, tmp_path)
+    handlers.start(recording)
+    for frame in range(1, 51):
+        scene.scene.frame_set(frame)
+    handlers.stop()
+    results = recording.results()
+    rate = -np.log(1.0 - damping)
+    end = int(np.flatnonzero(results.times_s >= WARM_UP_S - 1e-6)[0])
+    expected = STANDARD_GRAVITY_M_S2 / rate * (1.0 - np.exp(-rate * WARM_UP_S))
+    # One sub-step of 1/240 s and its gravity are the error of steps.
+    assert -results.velocities_m_s[end, 0, 2] == pytest.approx(expected, rel=0.01)
+    fall = results.velocities_m_s[end, 0, 2] - results.velocities_m_s[-1, 0, 2]
+    assert fall == pytest.approx(STANDARD_GRAVITY_M_S2 * (results.times_s[-1] - results.times_s[end]), rel=0.01)
+
+
+def test_summary_says_how_quiet_the_bridge_is_after_its_warm_up(tmp_path):
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    awake = replace(SPAN.shards, start_deactivated=False, use_deactivation=False)
+    connections = replace(SPAN.connections, warm_up_s=0.5, warm_up_damping=0.999)
+    scenario = replace(SPAN, ball=None, shards=awake, connections=connections, time=replace(SPAN.time, duration_s=0.6))
+    summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
+    assert summary["settled"]["time_s"] == pytest.approx(0.5, abs=1 / 24)
+    assert 0.0 < summary["settled"]["largest_speed_m_s"] < 0.5
+
+
+def test_damping_without_a_warm_up_is_refused():
+    with pytest.raises(
+        ScenarioError, match=r"connections.warm_up_damping is 0.5: expected 0 where connections.warm_up"
+    ):
+        replace(SPAN.connections, warm_up_damping=0.5)

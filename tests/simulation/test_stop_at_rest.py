@@ -1,0 +1,49 @@
+"""A run ends once everything rests, if it is asked to."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.results import load_results
+from bridge_demolition_addon.core.scenario import Removal
+from bridge_demolition_addon.core.scenario.file import read_scenario
+
+SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
+SMALL = replace(
+    SPAN, ball=None, fracture=replace(SPAN.fracture, shards=12), removals=[Removal(time_s=0.5, members=["pier"])]
+)
+
+
+def run(scenario, folder):
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    return run_scenario(scenario, folder, overwrite=False, pictures=False, progress=Silence())
+
+
+def test_run_stops_at_rest_and_the_scene_with_it(blender, tmp_path):
+    time = replace(SPAN.time, duration_s=30.0, stop_at_rest=True)
+    summary = run(replace(SMALL, time=time), tmp_path / "run")
+    results = load_results(tmp_path / "run" / "results.npz")
+    rest_s = summary["came_to_rest_s"]
+    # The deck falls by about 5 m, for 1 s, and is quiet some time later.
+    assert 1.5 < rest_s < 20.0
+    assert summary["completed"]
+    assert summary["simulated_s"] == pytest.approx(rest_s + 1.0, abs=time.step.frame_s)
+    rested = results.times_s > rest_s + 1e-6
+    awake = ~results.asleep[rested]
+    assert (
+        np.linalg.norm(np.diff(results.places_m[results.times_s > rest_s - 1e-6], axis=0), axis=2)[awake].max()
+        < time.rest_speed_m_s * time.step.frame_s * 1.001
+    )
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "run" / "scene.blend"))
+    assert blender.context.scene.frame_end == results.frames[-1]
+
+
+def test_run_goes_on_to_its_end_where_it_is_not_asked_to_stop(blender, tmp_path):
+    time = replace(SPAN.time, duration_s=3.0)
+    summary = run(replace(SMALL, time=time, removals=()), tmp_path / "run")
+    assert summary["simulated_s"] == pytest.approx(3.0)
+    assert summary["came_to_rest_s"] == 0.0  # it sleeps from the beginning
