@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
-
 import bpy
 
-from ..core.bridge import deck_top
+from ..core.extent import ground_half_size, surface_height
 from ..core.model import Model
 from ..core.scenario import BlastSettings, ConnectionSettings, Scenario
 from ..core.strength import MATERIALS, Ductility
@@ -23,19 +21,26 @@ from .world import START_FRAME, create_world, off_scene
 FIRST_STEP_FRAME = START_FRAME + 2
 """First frame that time leads to: Blender makes the world in the frame before, in which no time passes."""
 
-_DEBRIS_ROOM = 10.0
-"""Ground to each side of the bridge, as a multiple of its height; debris of a felled bridge stays well inside."""
-
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
-    """Put a model and everything around it into an empty scene, ready to be played from its start frame."""
+    """Put a model and everything around it into an empty scene, ready to be played from its start frame.
+
+    Raises
+    ------
+    GeometryError
+        Nothing lies under the ball; nothing was made.
+    """
+    ball = scenario.ball
+    surface = surface_height(scenario, model.members, ball.target_m) if ball else 0.0
     world = create_world(scene, scenario.time, last_frame(scenario))
-    ground = create_ground(world, _ground_half_size(scenario), scenario.ground)
-    if scenario.ball:
-        create_ball(world, scenario.ball, deck_top(scenario.bridge), START_FRAME, release_frame(scenario))
+    ground = create_ground(world, ground_half_size(model.members, ball.drop_height_m if ball else 0.0), scenario.ground)
+    if ball:
+        create_ball(world, ball, surface, START_FRAME, release_frame(scenario))
     keep_breaking(scene, _breaking(scenario.connections))
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
+        for row in model.held.nonzero()[0]:
+            shards[row].rigid_body.type = "PASSIVE"
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
     create_charges(scene, scenario.placed_charges)
@@ -65,9 +70,3 @@ def last_frame(scenario: Scenario) -> int:
 def release_frame(scenario: Scenario) -> int:
     """First frame towards which the ball falls freely."""
     return FIRST_STEP_FRAME + scenario.timeline.frames_until(scenario.ball.release_time_s)
-
-
-def _ground_half_size(scenario: Scenario) -> float:
-    bridge = scenario.bridge
-    height = deck_top(bridge) + (scenario.ball.drop_height_m if scenario.ball else 0.0)
-    return math.hypot(bridge.length_m, bridge.deck.width_m) + _DEBRIS_ROOM * height

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.bridge import deck_top
+from ..core.extent import extent, surface_height
 from ..core.model import Model, build_model
 from ..core.results import Results
 from ..core.scenario import Scenario
@@ -78,7 +78,7 @@ def run_scenario(
     folder = prepared_folder(output, overwrite=overwrite)
     scene = _empty_scene(scenario.title)
     build_demolition(scene, scenario, model)
-    _prepare_view(scene, scenario)
+    _prepare_view(scene, scenario, model)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
     recording, blender_s, interrupted = _simulate(scene, folder, scenario.recording.every_substep, progress)
@@ -107,13 +107,13 @@ def _empty_scene(title: str) -> bpy.types.Scene:
     return scene
 
 
-def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
-    bridge, ball, settings = scenario.bridge, scenario.ball, scenario.pictures
-    ends = (-bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m)
-    sides = (-bridge.deck.width_m / 2.0, bridge.deck.width_m / 2.0)
-    seen = [(x, y, z) for x in ends for y in sides for z in (0.0, deck_top(bridge))]
+def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
+    ball, settings = scenario.ball, scenario.pictures
+    (first, right, _), (last, left, top) = extent(model.members)
+    seen = [(x, y, z) for x in (first, last) for y in (right, left) for z in (0.0, top)]
     if ball:
-        seen.append((*ball.target_m, deck_top(bridge) + ball.drop_height_m + ball.diameter_m))
+        surface = surface_height(scenario, model.members, ball.target_m)
+        seen.append((*ball.target_m, surface + ball.drop_height_m + ball.diameter_m))
     prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
 
 
@@ -164,7 +164,7 @@ def _summary(
         "seed": scenario.seed,
         "substep_s": scene_time_step(scene).substep_s,
         "density_kg_m3": model.density_kg_m3,
-        "members_kg": {member.name: member.volume_m3 * model.density_kg_m3 for member in model.members},
+        "members_kg": {member.name: member.mass_kg for member in model.members},
         **summarise(results, np.array(scene.gravity), scenario.ball and scenario.ball.contact_time_s),
     }
 

@@ -12,8 +12,10 @@ from .bodies import Ground, ShardSettings
 from .bridge import Bridge
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
+from .geometry import Geometry
 from .key import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .output import PictureSettings, RecordingSettings
+from .supports import Support
 from .time import MOST_FRAMES, TimeSettings
 
 
@@ -31,10 +33,12 @@ class Scenario(Table):
         at_most=LARGEST_INTEGER,
     )
     time: TimeSettings
-    bridge: Bridge
+    bridge: Bridge | None = None
+    geometry: tuple[Geometry, ...] = ()
     ground: Ground = field(default_factory=Ground)
     fracture: FractureSettings
     connections: ConnectionSettings
+    supports: tuple[Support, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
@@ -56,9 +60,12 @@ class Scenario(Table):
 
     def _check_together(self) -> None:
         self._check_charges()
+        if self.bridge is None and not self.geometry:
+            raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
         if self.ball:
             self._check_release(self.ball)
-            self._check_target(self.ball)
+            if not self.geometry:
+                self._check_target(self.ball)
 
     def _check_charges(self) -> None:
         charges = self.placed_charges
@@ -88,10 +95,11 @@ class Scenario(Table):
             )
 
     def _check_target(self, ball: Ball) -> None:
-        overhang = self.bridge.deck.overhang_m
-        half_width = self.bridge.deck.width_m / 2.0
-        deck = ((-overhang, self.bridge.spans_m + overhang), (-half_width, half_width))
-        for place, (position, (lowest, highest)) in enumerate(zip(ball.target_m, deck, strict=True)):
+        along, across = ball.target_m
+        overhang, half_width = self.bridge.deck.overhang_m, self.bridge.deck.width_m / 2.0
+        skewed_by = across * self.bridge.shift_across
+        deck = ((skewed_by - overhang, skewed_by + self.bridge.spans_m + overhang), (-half_width, half_width))
+        for place, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True)):
             slack = ROUNDING * (highest - lowest)
             if not lowest - slack <= position <= highest + slack:
                 raise ScenarioError(
