@@ -2,10 +2,14 @@
 
 import argparse
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from ..core.bridge import bridge_density, bridge_members, deck_top
+from ..core.bridge import deck_top
+from ..core.cutting import CutMembers, cut_members
 from ..core.gravity import STANDARD_GRAVITY_M_S2
+from ..core.member import Member, mean_density
+from ..core.members import prepared_members
+from ..core.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
 from ..core.scenario import (
     Ball,
     BallCable,
@@ -23,6 +27,11 @@ from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 
 MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender holds every one against every body."""
+
+MOST_SHARDS_COMPARED = 2000
+"""Comparing so many shards with their neighbours takes some seconds."""
+
+MOST_PAIRS_NAMED = 5
 
 
 _CHANGES = {Removal: "removal", SawCut: "saw cut", Weakening: "weakening"}
@@ -44,10 +53,15 @@ def check(arguments: argparse.Namespace) -> None:
 def scenario_facts(scenario: Scenario) -> Iterator[str]:
     """Lines on a scenario's bridge, time steps, connections and ball."""
     yield scenario.title
-    yield from _section("Bridge", _bridge_facts(scenario.bridge))
-    yield from _section("Members", _member_facts(scenario.bridge))
+    prepared = prepared_members(scenario)
+    if scenario.bridge:
+        yield from _section("Bridge", _bridge_facts(scenario.bridge))
+    yield from _section("Members", _member_facts(prepared.members))
+    if prepared.notes:
+        yield from _section("Repaired", (note.split(": ", 1) for note in prepared.notes))
     yield from _section("Time", _time_facts(scenario))
     yield from _section("Shards and connections", _connection_facts(scenario))
+    yield from _section("Overlap at the start", _overlap_facts(scenario, prepared.members))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
     if scenario.changes or scenario.jackhammers:
@@ -69,18 +83,36 @@ def _bridge_facts(bridge: Bridge) -> Iterator[tuple[str, str]]:
     yield "deck top above ground", f"{deck_top(bridge):.2f} m"
 
 
-def _member_facts(bridge: Bridge) -> Iterator[tuple[str, str]]:
-    members = bridge_members(bridge)
-    density = bridge_density(bridge, members)
-    volume = sum(member.volume_m3 for member in members)
+def _member_facts(members: Sequence[Member]) -> Iterator[tuple[str, str]]:
+    alike = len({member.density_kg_m3 for member in members}) == 1
     for member in members:
-        yield member.name, _volume_and_mass(member.volume_m3, density)
-    yield "all", _volume_and_mass(volume, density)
-    yield "density", f"{density:.0f} kg/m³"
+        own = "" if alike else f", {member.density_kg_m3:.0f} kg/m³"
+        yield member.name, _volume_and_mass(member.volume_m3, member.mass_kg) + own
+    volume, mass = (sum(getattr(member, what) for member in members) for what in ("volume_m3", "mass_kg"))
+    yield "all", _volume_and_mass(volume, mass)
+    yield "density" if alike else "mean density", f"{mean_density(members):.0f} kg/m³"
 
 
-def _volume_and_mass(volume_m3: float, density_kg_m3: float) -> str:
-    return f"{volume_m3:9.3f} m³ {volume_m3 * density_kg_m3 / 1000.0:10.3f} t"
+def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
+    return f"{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
+
+
+def _overlap_facts(scenario: Scenario, members: Sequence[Member]) -> Iterator[tuple[str, str]]:
+    """Whether shards lie in each other, which would throw them apart when the simulation begins."""
+    if scenario.fracture.shards > MOST_SHARDS_COMPARED:
+        yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_COMPARED}"
+        return
+    cut = cut_members(scenario, members)
+    yield from _pairs_found("overlapping shards", overlaps(cut.shards), cut, members)
+    # What Blender lets collide. Hulls of connected shards overlap unharmed until their connection breaks.
+    yield from _pairs_found("overlapping hulls", overlaps(hulls(cut.shards)), cut, members)
+
+
+def _pairs_found(name: str, found: Overlaps, cut: CutMembers, members: Sequence[Member]) -> Iterator[tuple[str, str]]:
+    yield name, f"{len(found) or 'no'} pairs, by more than {SHARD_OVERLAP_TOLERANCE:g} of the smaller one"
+    for (first, second), volume in list(zip(found.pairs, found.volumes, strict=True))[:MOST_PAIRS_NAMED]:
+        named = (f"{members[cut.member_of_shard[shard]].name}, shard {shard}" for shard in (first, second))
+        yield "", f"{volume:.3g} m³ of {' and '.join(named)}"
 
 
 def _time_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:

@@ -8,20 +8,39 @@ nothing is lost. Counting every piece as a shard of its own would not give the n
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64
 from trimesh import Trimesh
 
+from .density import PointDensity
 from .errors import GeometryError
+from .fracture_options import PLAIN, FractureOptions
 from .proximity import ranges
 from .sewing import sewn
-from .shared_faces import SharedFaces, overlaps, shared_faces, touching_faces, triangle_areas_and_normals
+from .shared_faces import (
+    SharedFaces,
+    joined_faces,
+    overlaps,
+    shared_faces,
+    touching_faces,
+    triangle_areas_and_normals,
+)
 from .solids import arrays_of, bodies, contains, from_manifold, mesh_of, to_manifold, volumes_and_centres
 from .voronoi import ConvexCell, convex_cells
 
-__all__ = ["Fracture", "Shard", "SharedFaces", "fracture", "random_points", "touching_faces", "voronoi_cells"]
+__all__ = [
+    "Fracture",
+    "Shard",
+    "SharedFaces",
+    "fracture",
+    "joined_fractures",
+    "random_points",
+    "touching_faces",
+    "voronoi_cells",
+]
 
 VOLUME_TOLERANCE = 1e-9
 """Part of the solid's volume by which the sum of the shards may differ from it."""
@@ -37,6 +56,14 @@ RIM_TOLERANCE = 1e-9
 
 _BOX_MARGIN = 1e-3
 """The box around the cells is larger than the solid by this part of its longest extent: its sides must cut nothing."""
+
+_SAME_CUT_M = 1e-7
+"""How far apart the two sides of one cut may lie: it was made at once, and only rounding is between them."""
+
+_MOST_MOVES = 20
+"""Tries to move a point by noise without leaving the solid, before it stays: points in corners seldom need more."""
+
+_NO_FACES = SharedFaces(np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)))
 
 _FILLED_ENOUGH = 0.3
 """Part of its box that a part of the solid must fill before points are tried in the box without dicing it further."""
@@ -108,8 +135,10 @@ class _Triangles:
         return cls(owner, cell, facing, corners, *triangle_areas_and_normals(corners))
 
 
-def fracture(solid: Trimesh, shard_count: int, seed: int = 0) -> Fracture:
-    """The solid in exactly `shard_count` shards, around points drawn uniformly from its volume.
+def fracture(solid: Trimesh, shard_count: int, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
+    """The solid in exactly `shard_count` shards, around points drawn from its volume, evenly unless options say else.
+
+    With recursion there are more, as some of that number are cut once more.
 
     Parameters
     ----------
@@ -119,6 +148,8 @@ def fracture(solid: Trimesh, shard_count: int, seed: int = 0) -> Fracture:
         How many shards. Each separate body of the solid takes at least one.
     seed : int
         The same seed gives the same shards, bit for bit.
+    options : FractureOptions
+        Where the points lie closer, how shards are stretched, which are cut once more.
 
     Raises
     ------
@@ -132,10 +163,12 @@ def fracture(solid: Trimesh, shard_count: int, seed: int = 0) -> Fracture:
     >>> len(deck), round(float(deck.volumes.sum()), 9)
     (200, 360.0)
     """
-    return _fractured(solid, random_points(solid, shard_count, np.random.default_rng(seed)))
+    generator = np.random.default_rng(seed)
+    points = random_points(solid, shard_count, generator, options.density)
+    return _cut_with(solid, points, generator, options)
 
 
-def voronoi_cells(solid: Trimesh, points: np.ndarray) -> Fracture:
+def voronoi_cells(solid: Trimesh, points: np.ndarray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
     """The solid in one shard per point: its part nearest to that point.
 
     Parameters
@@ -144,6 +177,10 @@ def voronoi_cells(solid: Trimesh, points: np.ndarray) -> Fracture:
         Closed, as `core.solids.checked_solid` returns it; convex or not, with holes or cavities.
     points : (n, 3) float
         Inside the solid, at least one in each of its separate bodies, no two alike.
+    seed : int
+        Start of the random numbers that some options need.
+    options : FractureOptions
+        As for `fracture`; the density is of no use to points that are given.
 
     Raises
     ------
@@ -157,11 +194,29 @@ def voronoi_cells(solid: Trimesh, points: np.ndarray) -> Fracture:
     outside = np.flatnonzero(~contains(solid, points))
     if len(outside):
         raise GeometryError(f"{len(outside)} of {len(points)} points lie outside the solid, the first is {outside[0]}.")
-    return _fractured(solid, points)
+    return _cut_with(solid, points, np.random.default_rng(seed), options)
 
 
-def random_points(solid: Trimesh, count: int, generator: np.random.Generator) -> np.ndarray:
-    """Points (count, 3) drawn uniformly from the volume; of several bodies each gets one before the rest is drawn.
+def joined_fractures(parts: Sequence[Fracture]) -> Fracture:
+    """Fractures of solids that touch as one, with the faces that shards of two of them have in common."""
+    counts = [len(part) for part in parts]
+    starts = np.cumsum(counts) - counts
+    shards = tuple(shard for part in parts for shard in part.shards)
+    within = [replace(part.faces, pairs=part.faces.pairs + start) for part, start in zip(parts, starts, strict=True)]
+    between = touching_faces(shards, _SAME_CUT_M, member=np.repeat(np.arange(len(parts)), counts))
+    return Fracture(
+        shards=shards,
+        volumes=np.concatenate([part.volumes for part in parts]),
+        centres=np.concatenate([part.centres for part in parts]),
+        points=np.concatenate([part.points for part in parts]),
+        faces=joined_faces([*within, between]),
+    )
+
+
+def random_points(
+    solid: Trimesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
+) -> np.ndarray:
+    """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first.
 
     Raises
     ------
@@ -178,8 +233,19 @@ def random_points(solid: Trimesh, count: int, generator: np.random.Generator) ->
             f"least {len(separate)} or unite the bodies."
         )
     parts = [to_manifold(from_manifold(*shells)) for shells in separate] if len(separate) > 1 else []
-    firsts = [_uniform(part, 1, generator) for part in parts]
-    return np.concatenate([*firsts, _uniform(whole, count - len(firsts), generator)])
+    drawn = _uniform if density is None else partial(_by_density, density=density)
+    firsts = [drawn(part, 1, generator) for part in parts]
+    return np.concatenate([*firsts, drawn(whole, count - len(firsts), generator)])
+
+
+def _by_density(solid: Manifold, count: int, generator: np.random.Generator, density: PointDensity) -> np.ndarray:
+    """Points (count, 3) by rejection: of evenly drawn ones as many stay as the density says."""
+    points = np.zeros((0, 3))
+    while len(points) < count:
+        tried = _uniform(solid, count - len(points), generator)
+        stays = generator.random(len(tried)) * density.largest < density.at(tried)
+        points = np.concatenate([points, tried[stays]])
+    return points
 
 
 def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
@@ -212,8 +278,52 @@ def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generato
     return points[:count]
 
 
-def _fractured(solid: Trimesh, points: np.ndarray) -> Fracture:
-    pieces = _pieces(solid, points)
+def _cut_with(solid: Trimesh, points: np.ndarray, generator: np.random.Generator, options: FractureOptions) -> Fracture:
+    stretch = None if options.stretch == PLAIN.stretch else np.array(options.stretch, dtype=float)
+    if options.noise > 0.0:
+        points = _moved(solid, points, options.noise, generator)
+    result = _fractured(solid, points, stretch)
+    return _cut_again(result, generator, options, stretch) if options.recursion else result
+
+
+def _moved(solid: Trimesh, points: np.ndarray, noise: float, generator: np.random.Generator) -> np.ndarray:
+    """Points moved by up to `noise` shards' sizes, each as soon as a move does not lead out of the solid."""
+    reach = noise * np.cbrt(_volume(solid) / len(points))
+    moved, waiting = points.copy(), np.arange(len(points))
+    for _ in range(_MOST_MOVES):
+        directions = generator.normal(size=(len(waiting), 3))
+        directions /= np.linalg.norm(directions, axis=1)[:, None]
+        tried = points[waiting] + directions * reach * np.cbrt(generator.random(len(waiting)))[:, None]
+        inside = contains(solid, tried)
+        moved[waiting[inside]] = tried[inside]
+        waiting = waiting[~inside]
+        if not len(waiting):
+            break
+    return moved
+
+
+def _cut_again(
+    first: Fracture, generator: np.random.Generator, options: FractureOptions, stretch: np.ndarray | None
+) -> Fracture:
+    """A fracture of which some shards are cut once more; faces between their shards are looked for anew."""
+    recursion = options.recursion
+    large = np.flatnonzero(first.volumes >= recursion.smallest_m3)
+    chosen = set(generator.permutation(large)[: round(recursion.share * len(large))].tolist())
+    if not chosen or recursion.shards < 2:
+        return first
+    parts = []
+    for index, shard in enumerate(first.shards):
+        solid = mesh_of(shard.vertices, shard.triangles)
+        if index in chosen:
+            parts.append(_fractured(solid, random_points(solid, recursion.shards, generator, options.density), stretch))
+        else:
+            one = slice(index, index + 1)
+            parts.append(Fracture((shard,), first.volumes[one], first.centres[one], first.points[one], _NO_FACES))
+    return joined_fractures(parts)
+
+
+def _fractured(solid: Trimesh, points: np.ndarray, stretch: np.ndarray | None = None) -> Fracture:
+    pieces = _pieces(solid, points, stretch)
     faces = _faces_between(pieces, len(points))
     shard_of_piece = _joined_to_neighbours(pieces, points, faces)
     shards = tuple(_sewn(parts, solid) for parts in _grouped(pieces, shard_of_piece, len(points)))
@@ -229,15 +339,22 @@ def _fractured(solid: Trimesh, points: np.ndarray) -> Fracture:
     return Fracture(shards, volumes, centres, points, between_shards)
 
 
-def _pieces(solid: Trimesh, points: np.ndarray) -> list[_Piece]:
-    """The connected parts of every cell within the solid, cell by cell."""
+def _pieces(solid: Trimesh, points: np.ndarray, stretch: np.ndarray | None) -> list[_Piece]:
+    """The connected parts of every cell within the solid, cell by cell.
+
+    Stretched cells are those of a space that is squeezed by as much, in which all directions count the same.
+    """
     lower, upper = _extent(solid)
+    if stretch is not None:
+        points, lower, upper = points / stretch, lower / stretch, upper / stretch
     margin = _BOX_MARGIN * np.max(upper - lower)
     whole = to_manifold(solid)
     cut = Manifold.reserve_ids(1)
     crumb = SMALLEST_PIECE * _volume(solid)
     pieces = []
     for index, cell in enumerate(convex_cells(points, lower - margin, upper + margin)):
+        if stretch is not None:
+            cell = replace(cell, vertices=cell.vertices * stretch)
         parts = bodies(_manifold_of(cell, cut) ^ whole, smallest_volume=crumb)
         pieces += [_piece(index, shells, cut) for shells in parts]
     return pieces

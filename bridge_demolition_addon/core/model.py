@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
 from functools import partial
 
 import numpy as np
 
 from . import connections as connecting
-from .bridge import Member, bridge_density, bridge_members
 from .connection_rules import rules_of_pairs
 from .connections import Connections
-from .errors import GeometryError
+from .cutting import cut_members, shards_with_gaps
 from .face_sections import second_moments
-from .fracture import Shard, SharedFaces, fracture, touching_faces
+from .fracture import Shard, SharedFaces
+from .member import Member, mean_density
+from .members import prepared_members
 from .scenario import ConnectionSettings, Scenario
+from .supports import held_shards
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +28,6 @@ class Model:
     ----------
     members
         Members of the bridge before they were cut.
-    density_kg_m3
-        Density of all members.
     shards
         The n shards' closed meshes, in the bridge's coordinates.
     member_of_shard
@@ -42,10 +42,11 @@ class Model:
         (m,) what each connection has in common with others: index of one of the scenario's joints.
     second_moments_m4
         (m, 2, 2) second moments of area of the connections' faces; 0 for one without a face.
+    held
+        (n,) whether each shard never moves, as supports hold it; no connection lies between two of these.
     """
 
     members: tuple[Member, ...]
-    density_kg_m3: float
     shards: tuple[Shard, ...]
     member_of_shard: np.ndarray
     masses_kg: np.ndarray
@@ -53,74 +54,53 @@ class Model:
     connections: Connections
     joint_of_connection: np.ndarray
     second_moments_m4: np.ndarray
+    held: np.ndarray
+
+    @property
+    def density_kg_m3(self) -> float:
+        """Mean density of all members, kg/m³."""
+        return mean_density(self.members)
 
 
-def build_model(scenario: Scenario) -> Model:
-    """Bridge, shards and connections of a scenario; the same scenario gives the same model.
+def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
+    """Members, shards and connections of a scenario; the same scenario gives the same model.
+
+    Parameters
+    ----------
+    scenario
+        What to build.
+    members
+        What is cut into shards, without overlap; by default all members that the scenario names.
 
     Raises
     ------
     GeometryError
         The bridge cannot be cut into that many shards.
     """
-    members = bridge_members(scenario.bridge)
-    density = bridge_density(scenario.bridge, members)
-    counts = shards_per_member(np.array([member.volume_m3 for member in members]), scenario.fracture.shards)
-    seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
-    parts = [
-        fracture(member.solid, int(count), int(seed))
-        for member, count, seed in zip(members, counts, seeds, strict=True)
-    ]
-    shards = tuple(shard for part in parts for shard in part.shards)
-    member_of_shard = np.repeat(np.arange(len(members)), counts)
-    centres = np.concatenate([part.centres for part in parts])
-    faces = _all_faces([part.faces for part in parts], shards, member_of_shard, counts)
+    members = prepared_members(scenario).members if members is None else tuple(members)
+    cut = cut_members(scenario, members)
+    shards, centres, faces = cut.shards, cut.centres_m, cut.faces
     rules = scenario.connections.between
-    rules_of = partial(rules_of_pairs, rules, members, member_of_shard)
+    rules_of = partial(rules_of_pairs, rules, members, cut.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
     connections = _connections(scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)])
+    held = held_shards(scenario.supports, members, shards, cut.member_of_shard)
+    # The ground, at index -1, is held as well.
+    moves = ~np.append(held, True)[connections.pairs].all(axis=1)
+    connections = Connections(*(getattr(connections, item.name)[moves] for item in fields(Connections)))
     return Model(
         members=members,
-        density_kg_m3=density,
-        shards=shards,
-        member_of_shard=member_of_shard,
-        masses_kg=density * np.concatenate([part.volumes for part in parts]),
+        shards=shards_with_gaps(cut, members, scenario.fracture.margin_m),
+        member_of_shard=cut.member_of_shard,
+        masses_kg=cut.masses_kg,
         centres_m=centres,
         connections=connections,
         joint_of_connection=rules_of(connections.pairs),
         second_moments_m4=second_moments(
             shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
         ),
+        held=held,
     )
-
-
-def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
-    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together.
-
-    Raises
-    ------
-    GeometryError
-        There are fewer shards than members.
-    """
-    if shard_count < len(volumes):
-        raise GeometryError(
-            f"fracture.shards is {shard_count}: expected at least {len(volumes)}, one for each member of the bridge"
-        )
-    shares = volumes / volumes.sum() * (shard_count - len(volumes))
-    counts = 1 + np.floor(shares).astype(int)
-    largest_remainders = np.argsort(-(shares - np.floor(shares)), kind="stable")
-    counts[largest_remainders[: shard_count - counts.sum()]] += 1
-    return counts
-
-
-def _all_faces(
-    within: list[SharedFaces], shards: tuple[Shard, ...], member_of_shard: np.ndarray, counts: np.ndarray
-) -> SharedFaces:
-    """Faces shared within each member, and those where two members touch."""
-    first_shards = np.cumsum(counts) - counts
-    numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]
-    parts = [*numbered, touching_faces(shards, member=member_of_shard)]
-    return SharedFaces(*(np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(SharedFaces)))
 
 
 def _connections(

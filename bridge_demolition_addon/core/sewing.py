@@ -35,10 +35,15 @@ def sewn(
     """
     triangles = triangles[~patch]
     rim = _open_edges(triangles)
-    triangles = _welded(vertices, np.unique(rim), tolerance_m)[triangles]
+    triangles = welded(vertices, np.unique(rim), tolerance_m)[triangles]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
-    loops = _loops(_open_edges(triangles), vertices)
+    loops = loops_of_open_edges(vertices, triangles)
     return vertices, np.concatenate([triangles, *(_fan(loop) for loop in loops)])
+
+
+def loops_of_open_edges(vertices: np.ndarray, triangles: np.ndarray) -> list[list[int]]:
+    """Rims of the holes between triangles (t, 3), each as its corners in the order that the triangles walk them."""
+    return _loops(_open_edges(triangles), vertices)
 
 
 def _open_edges(triangles: np.ndarray) -> np.ndarray:
@@ -52,7 +57,7 @@ def _open_edges(triangles: np.ndarray) -> np.ndarray:
     return np.repeat(directed, np.abs(surplus), axis=0)
 
 
-def _welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.ndarray:
+def welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.ndarray:
     """For every vertex (v,) the one that stands for it: of these corners that lie together the first, else itself."""
     representative = np.arange(len(vertices))
     apart = np.linalg.norm(vertices[corners, None] - vertices[None, corners], axis=2)

@@ -1,7 +1,7 @@
 """Faces that two shards have in common: where they were cut apart, or where separately made bodies touch."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Protocol
 
 import numpy as np
@@ -85,6 +85,13 @@ def shared_faces(
         centres=moment[kept] / total[kept, None],
         normals=area_vector[kept] / length[kept, None],
     )
+
+
+def joined_faces(parts: Sequence[SharedFaces]) -> SharedFaces:
+    """Several sets of faces, of pairs that none of the others has, as one, sorted by pair."""
+    columns = [np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(SharedFaces)]
+    order = np.lexsort((columns[0][:, 1], columns[0][:, 0]))
+    return SharedFaces(*(column[order] for column in columns))
 
 
 def touching_faces(meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None) -> SharedFaces:

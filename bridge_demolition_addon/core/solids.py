@@ -61,6 +61,18 @@ def union(solids: Sequence[Trimesh]) -> Trimesh:
     return from_manifold(Manifold.batch_boolean(operands, OpType.Add))
 
 
+def difference(solid: Trimesh, others: Sequence[Trimesh]) -> Trimesh:
+    """What is inside the solid and inside none of the others; without faces where nothing is.
+
+    Raises
+    ------
+    GeometryError
+        When one of them is not closed.
+    """
+    operands = [to_manifold(each) for each in (solid, *others)]
+    return from_manifold(Manifold.batch_boolean(operands, OpType.Subtract))
+
+
 def checked_solid(mesh: Trimesh, name: str) -> Trimesh:
     """The mesh as a solid that can be cut, turned outside-out where all its faces look inwards.
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
-
 import bpy
 
-from ..core.bridge import deck_top
+from ..core.extent import ground_half_size, surface_height
 from ..core.model import Model
 from ..core.scenario import BlastSettings, ConnectionSettings, Scenario
 from ..core.strength import MATERIALS, Ductility
@@ -27,28 +25,36 @@ from .world import START_FRAME, create_world, off_scene
 FIRST_STEP_FRAME = START_FRAME + 2
 """First frame that time leads to: Blender makes the world in the frame before, in which no time passes."""
 
-_DEBRIS_ROOM = 10.0
-"""Ground to each side of the bridge, as a multiple of its height; debris of a felled bridge stays well inside."""
-
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
-    """Put a model and everything around it into an empty scene, ready to be played from its start frame."""
+    """Put a model and everything around it into an empty scene, ready to be played from its start frame.
+
+    Raises
+    ------
+    GeometryError
+        Nothing lies under the ball or under the beginning of a jackhammer's path; nothing was made.
+    """
+    settings = scenario.ball
+    surfaces = [surface_height(scenario, model.members, drop.target_m) for drop in settings.drops] if settings else []
+    hammered = [surface_height(scenario, model.members, hammer.path_m[0]) for hammer in scenario.jackhammers]
     world = create_world(scene, scenario.time, last_frame(scenario))
-    ground = create_ground(world, _ground_half_size(scenario), scenario.ground)
-    if scenario.ball:
-        top = deck_top(scenario.bridge)
-        ball = create_ball(world, scenario.ball, top, START_FRAME, release_frame(scenario))
-        if scenario.ball.cable:
-            create_cable(world, ball, scenario.ball.cable)
-        create_hits(ball, scenario.ball, top, FIRST_STEP_FRAME, scenario.timeline)
-    for hammer in scenario.jackhammers:
-        create_jackhammer(world, hammer, deck_top(scenario.bridge), FIRST_STEP_FRAME - 1, scenario.timeline)
+    clear_m = settings.largest_height_m(0.0) if settings else 0.0
+    ground = create_ground(world, ground_half_size(model.members, clear_m), scenario.ground)
+    if settings:
+        ball = create_ball(world, settings, surfaces[0] if surfaces else 0.0, START_FRAME, release_frame(scenario))
+        if settings.cable:
+            create_cable(world, ball, settings.cable)
+        create_hits(ball, settings, surfaces, FIRST_STEP_FRAME, scenario.timeline)
+    for hammer, surface in zip(scenario.jackhammers, hammered, strict=True):
+        create_jackhammer(world, hammer, surface, FIRST_STEP_FRAME - 1, scenario.timeline)
     keep_breaking(scene, _breaking(scenario.connections))
     keep_changes(scene, scenario.changes)
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
         for shard, row in zip(shards, model.member_of_shard, strict=True):
             mark_member(shard, model.members[row].name, model.members[row].kind)
+        for row in model.held.nonzero()[0]:
+            shards[row].rigid_body.type = "PASSIVE"
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
     create_charges(scene, scenario.placed_charges)
@@ -78,10 +84,3 @@ def last_frame(scenario: Scenario) -> int:
 def release_frame(scenario: Scenario) -> int:
     """First frame towards which the ball falls freely."""
     return FIRST_STEP_FRAME + scenario.timeline.frames_until(scenario.ball.release_time_s)
-
-
-def _ground_half_size(scenario: Scenario) -> float:
-    bridge = scenario.bridge
-    top = deck_top(bridge)
-    height = max(top, scenario.ball.largest_height_m(top) if scenario.ball else 0.0)
-    return math.hypot(bridge.length_m, bridge.deck.width_m) + _DEBRIS_ROOM * height

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 
 import bpy
 import numpy as np
@@ -17,14 +18,14 @@ _LIFTS = "bda_lifts"
 
 
 def create_hits(
-    ball: bpy.types.Object, settings: Ball, deck_top_m: float, first_step_frame: int, timeline: Timeline
+    ball: bpy.types.Object, settings: Ball, surfaces_m: Sequence[float], first_step_frame: int, timeline: Timeline
 ) -> None:
     """Animate all hits of a ball but the first, which `create_ball` has animated.
 
     Parameters
     ----------
-    deck_top_m
-        Height of the deck.
+    surfaces_m
+        Heights of what lies under the targets of all drops, the first one's too.
     first_step_frame
         First frame that time leads to.
     timeline
@@ -37,17 +38,17 @@ def create_hits(
     release_frame = first_step_frame + timeline.frames_until(settings.release_time_s)
     key_values(ball, "location", [1, release_frame], [held, held])
     key_values(ball, "rotation_euler", [1], [ball.rotation_euler], constant=True)
-    target = settings.target_m
-    for hit in settings.hits:
-        end = (*hit.target_m, deck_top_m + hit.drop_height_m + radius)
+    lying = (*settings.target_m, surfaces_m[0] + radius)
+    for hit, surface in zip(settings.hits, surfaces_m[1:], strict=True):
+        end = (*hit.target_m, surface + hit.drop_height_m + radius)
         first, last = (timeline.frames_until(time_s) for time_s in (hit.lift_time_s, hit.lift_end_s))
         times = np.concatenate(([0.0], np.cumsum(timeline.frame_lengths_s[first:last])))
-        plan_lift(ball, first_step_frame + first, times / times[-1], (*target, deck_top_m + radius), end)
+        plan_lift(ball, first_step_frame + first, times / times[-1], lying, end)
         release_frame = first_step_frame + timeline.frames_until(hit.release_time_s)
         frames = [first_step_frame + first, release_frame]
         key_values(ball, "rigid_body.kinematic", frames, [1.0, 0.0], constant=True)
         key_values(ball, "location", [release_frame], [end])
-        target = hit.target_m
+        lying = (*hit.target_m, surface + radius)
 
 
 def plan_lift(

@@ -13,8 +13,8 @@ from typing import Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.bridge import deck_top
 from ..core.events import model_structure, schedule
+from ..core.extent import extent, surface_height
 from ..core.model import Model, build_model
 from ..core.rest import Rest, last_event_s
 from ..core.results import Results
@@ -81,7 +81,7 @@ def run_scenario(
     folder = prepared_folder(output, overwrite=overwrite)
     scene = _empty_scene(scenario.title)
     build_demolition(scene, scenario, model)
-    _prepare_view(scene, scenario)
+    _prepare_view(scene, scenario, model)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
     time_settings = scenario.time
@@ -118,13 +118,14 @@ def _empty_scene(title: str) -> bpy.types.Scene:
     return scene
 
 
-def _prepare_view(scene: bpy.types.Scene, scenario: Scenario) -> None:
-    bridge, ball, settings = scenario.bridge, scenario.ball, scenario.pictures
-    ends = (-bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m)
-    sides = (-bridge.deck.width_m / 2.0, bridge.deck.width_m / 2.0)
-    seen = [(x, y, z) for x in ends for y in sides for z in (0.0, deck_top(bridge))]
+def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
+    ball, settings = scenario.ball, scenario.pictures
+    (first, right, _), (last, left, top) = extent(model.members)
+    seen = [(x, y, z) for x in (first, last) for y in (right, left) for z in (0.0, top)]
     if ball:
-        seen += [(*each.target_m, deck_top(bridge) + each.drop_height_m + ball.diameter_m) for each in ball.drops]
+        for drop in ball.drops:
+            surface = surface_height(scenario, model.members, drop.target_m)
+            seen.append((*drop.target_m, surface + drop.drop_height_m + ball.diameter_m))
     if ball and ball.cable:
         seen += [ball.cable.start_m, ball.cable.crane_point_m]
     prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
@@ -185,7 +186,7 @@ def _summary(
         "seed": scenario.seed,
         "substep_s": scene_time_step(scene).substep_s,
         "density_kg_m3": model.density_kg_m3,
-        "members_kg": {member.name: member.volume_m3 * model.density_kg_m3 for member in model.members},
+        "members_kg": {member.name: member.mass_kg for member in model.members},
         **summarise(results, np.array(scene.gravity), scenario.ball and scenario.ball.contact_time_s),
     }
 

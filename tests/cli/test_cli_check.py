@@ -57,6 +57,8 @@ def test_facts_of_the_i235_span(capsys):
         "connections": "HINGE, nearest vertices within 1 m, at most 50 per shard",
         "breaking force": "98066.5 N = 98.07 kN",
         "breaking impulse": "408.6 N·s in a sub-step",  # 98 066.5 N / 240 Hz
+        "overlapping shards": "no pairs, by more than 1e-06 of the smaller one",
+        "overlapping hulls": "no pairs, by more than 1e-06 of the smaller one",
         "mass": "10.000 t",
         "diameter": "1.34 m, so 7938 kg/m³",
         "clear drop height": "5.00 m",

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.connections import GROUND
+from bridge_demolition_addon.core.cutting import shards_per_member
 from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.model import build_model, shards_per_member
+from bridge_demolition_addon.core.model import build_model
 from bridge_demolition_addon.core.scenario import ConnectionSettings
 from bridge_demolition_addon.core.scenario.file import read_scenario
 

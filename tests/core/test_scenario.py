@@ -85,7 +85,7 @@ def test_every_key_has_a_meaning():
 
 def test_every_key_with_a_unit_carries_it_in_its_name():
     in_names = {"m": "_m", "s": "_s", "kg": "_kg", "kg/m³": "_kg_m3", "N": "_n", "kgf": "_kgf", "px": "_px"}
-    in_names |= {"ms": "_ms", "m/s": "_m_s", "rad/s": "_rad_s", "1/s": "_per_second"}
+    in_names |= {"ms": "_ms", "m/s": "_m_s", "rad/s": "_rad_s", "1/s": "_per_second", "°": "_deg", "m³": "_m3"}
     in_names |= {"N/m": "_n_m", "N·s/m": "_ns_m", "N·m/rad": "_nm_rad", "N·m·s/rad": "_nms_rad"}
     for table_class in all_tables(Scenario):
         for item in key_fields(table_class):
@@ -286,7 +286,14 @@ def test_extreme_values_overflow_nothing():
 def test_fields_are_named_not_counted():
     with pytest.raises(TypeError):
         Deck(8.5, 0.25)
-    assert [item.name for item in fields(Deck)] == ["width_m", "thickness_m", "overhang_m"]
+    assert [item.name for item in fields(Deck)] == [
+        "width_m",
+        "thickness_m",
+        "overhang_m",
+        "per_span",
+        "joint_gap_m",
+        "density_kg_m3",
+    ]
 
 
 @pytest.mark.parametrize(

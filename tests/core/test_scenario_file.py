@@ -47,7 +47,8 @@ def test_examples_are_read_and_written_without_loss(path):
 def test_what_is_left_out_stays_left_out():
     text = scenario_text(BARE)
     assert scenario_from_text(text) == BARE
-    assert set(tomllib.loads(text)["bridge"]) == {"span_lengths_m", "density_kg_m3", "deck", "piers"}
+    keys = {"span_lengths_m", "density_kg_m3", "skew_deg", "merge", "deck", "piers"}
+    assert set(tomllib.loads(text)["bridge"]) == keys
     assert "ball" not in tomllib.loads(text)
 
 

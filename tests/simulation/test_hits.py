@@ -36,7 +36,7 @@ def hits(blender, tmp_path):
     blocks.block((0.85, 0, 0.25), 10.0, size_m=(0.5, 0.5, 0.5))
     first_step = blocks.scene.frame_start + 2
     ball = create_ball(blocks.world, BALL, 0.0, 1, first_step + blocks.time.step.frames(BALL.release_time_s))
-    create_hits(ball, BALL, 0.0, first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
+    create_hits(ball, BALL, [0.0] * len(BALL.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
     return blocks.play(tmp_path, blocks.time.step.frames(9.0))
 
 
@@ -98,7 +98,7 @@ def test_ball_is_lifted_from_where_it_has_rolled(blender, tmp_path):
     first_step = blocks.scene.frame_start + 2
     settings = replace(BALL, hits=(replace(HITS[0], lift_time_s=4.0, lift_duration_s=3.0, release_time_s=7.5),))
     ball = create_ball(blocks.world, settings, 0.6, 1, first_step + 12)
-    create_hits(ball, settings, 0.6, first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
+    create_hits(ball, settings, [0.6] * len(settings.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
     results = blocks.play(tmp_path, 24 * 8)
     row = results.of_kind("ball")[0]
     lifted = int(np.flatnonzero(results.times_s > 4.02)[0])  # the ball rolls on in the frame up to 4 s

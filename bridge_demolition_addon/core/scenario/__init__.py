@@ -1,37 +1,48 @@
 """A scenario: the bridge, how it is broken into shards and what hits it, as checked values.
 
 x runs along the road with the axis of the first pier at 0, y across it with 0 in its middle, z up with the ground at 0.
-The deck lies on the pier caps, or on the piers where there are no caps. One module for each group of tables.
+The deck, with its girders, lies on the pier caps, or on the piers where there are no caps. One module for each group of
+tables.
 """
 
 from .ball import Ball, BallHit
 from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
-from .bridge import Bridge, Deck, PierCaps, Piers
+from .bridge import Bridge
+from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
 from .cable import BallCable
 from .changes import Change, Removal, SawCut, Weakening
 from .connection_between import ConnectionBetween
 from .connections import ConnectionSettings
-from .fracture import FractureSettings
+from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
+from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .output import PictureSettings, RecordingSettings
 from .scenario import Scenario
+from .supports import Support
 from .time import TimeSettings
 
 __all__ = [
+    "Abutments",
     "Ball",
     "BallCable",
     "BallHit",
     "BlastSettings",
+    "BoxGirder",
     "Bridge",
     "Change",
     "ChargeSettings",
     "ConnectionBetween",
     "ConnectionSettings",
     "Deck",
+    "Finer",
+    "FracturePoint",
     "FractureSettings",
+    "Geometry",
+    "Girders",
     "Ground",
     "Jackhammer",
+    "MemberFracture",
     "PictureSettings",
     "PierCaps",
     "Piers",
@@ -40,6 +51,7 @@ __all__ = [
     "SawCut",
     "Scenario",
     "ShardSettings",
+    "Support",
     "TimeSettings",
     "Weakening",
 ]

@@ -1,47 +1,14 @@
-"""The bridge: spans, deck, piers and pier caps."""
+"""The bridge: its spans, its parts and what it weighs."""
 
 import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
+from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
 from .key import ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Deck(Table):
-    """The deck: one slab over all spans."""
-
-    table: ClassVar[str] = "bridge.deck"
-
-    width_m: float = key("Width across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    thickness_m: float = key("Thickness of the slab.", unit="m", at_least=SHORTEST_LENGTH_M)
-    overhang_m: float = key(
-        "Length of deck beyond the axes of the first and of the last pier.", default=0.0, unit="m", at_least=0
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Piers(Table):
-    """The piers: one under each end of each span, made of equal columns that stand on the ground."""
-
-    table: ClassVar[str] = "bridge.piers"
-
-    columns: int = key("Columns of one pier, spread evenly across the road.", default=1, at_least=1, at_most=1000)
-    column_length_m: float = key("Size of a column along the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    column_width_m: float = key("Size of a column across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    height_m: float = key("Height of a column above the ground.", unit="m", at_least=SHORTEST_LENGTH_M)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PierCaps(Table):
-    """The pier caps: one beam on the columns of each pier. Without them the deck lies on the columns."""
-
-    table: ClassVar[str] = "bridge.pier_caps"
-
-    length_m: float = key("Size along the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    width_m: float = key("Size across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    height_m: float = key("Height of the beam.", unit="m", at_least=SHORTEST_LENGTH_M)
+LARGEST_SKEW_DEG = 75.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,17 +23,37 @@ class Bridge(Table):
         at_least=SHORTEST_LENGTH_M,
     )
     density_kg_m3: float | None = key(
-        "Density of the whole bridge. Give this or `mass_kg`.", default=None, unit="kg/m³", above=0
+        "Density of all members that have none of their own. Give this or `mass_kg`.",
+        default=None,
+        unit="kg/m³",
+        above=0,
     )
     mass_kg: float | None = key(
-        "Mass of the whole bridge, from which one density follows. Give this or `density_kg_m3`.",
+        "Mass of the whole bridge, from which one density follows for all members that have none of their own. Give "
+        "this or `density_kg_m3`.",
         default=None,
         unit="kg",
         above=0,
     )
+    skew_deg: float = key(
+        "Angle by which the axes of piers and abutments and the ends of the deck are turned about the vertical, away "
+        "from square to the road; above 0 their left ends, towards positive y, lie further along the road. Sizes "
+        "along and across the road stay what they are; only columns are turned with their axis.",
+        default=0.0,
+        unit="°",
+        at_least=-LARGEST_SKEW_DEG,
+        at_most=LARGEST_SKEW_DEG,
+    )
+    merge: bool = key(
+        "Whether all members are one solid, cut as a whole, instead of members that are connected where they touch.",
+        default=False,
+    )
     deck: Deck
-    piers: Piers
+    girders: Girders | None = None
+    box_girder: BoxGirder | None = None
+    piers: Piers | None = None
     pier_caps: PierCaps | None = None
+    abutments: Abutments | None = None
 
     @property
     def spans_m(self) -> float:
@@ -78,25 +65,139 @@ class Bridge(Table):
         """Length of the deck, m."""
         return self.spans_m + 2.0 * self.deck.overhang_m
 
+    @property
+    def shift_across(self) -> float:
+        """How far along the road a skewed axis moves for each metre across it."""
+        return math.tan(math.radians(self.skew_deg))
+
+    @property
+    def girder_spacing_m(self) -> float:
+        """Distance between the axes of two girders, m."""
+        return self.girders.spacing_m or self.deck.width_m / self.girders.number
+
+    @property
+    def carried_width_m(self) -> float:
+        """Width of what lies on the columns, over which they are spread, m."""
+        if self.pier_caps:
+            return self.pier_caps.width_m
+        if self.box_girder:
+            return self.box_girder.width_m
+        return self.girders.number * self.girder_spacing_m if self.girders else self.deck.width_m
+
     def _check_together(self) -> None:
         check_exactly_one(self, "density_kg_m3", "mass_kg")
+        self._check_parts()
+        self._check_superstructure()
         self._check_room_along()
-        self._check_room_across()
+        self._check_joints()
+        if self.piers:
+            self._check_room_across()
+        if self.merge:
+            self._check_one_density()
+
+    def _check_parts(self) -> None:
+        if self.girders and self.box_girder:
+            raise ScenarioError("bridge.girders and bridge.box_girder are given together: expected at most one")
+        between_abutments = self.abutments is not None and len(self.span_lengths_m) == 1
+        if not between_abutments and self.piers is None:
+            raise ScenarioError("bridge.piers is missing: expected a table")
+        for name in ("piers", "pier_caps"):
+            if between_abutments and getattr(self, name):
+                raise ScenarioError(
+                    f"bridge.{name} is given: expected none with bridge.abutments and one span, which has no piers"
+                )
+        if self.abutments and between_abutments != (self.abutments.height_m is not None):
+            wanted = "a number (m) with one span" if between_abutments else "none with piers, which give it"
+            raise ScenarioError(f"bridge.abutments.height_m is {self.abutments.height_m}: expected {wanted}")
+
+    def _check_superstructure(self) -> None:
+        if self.box_girder and self.box_girder.width_m > self.deck.width_m * (1.0 + ROUNDING):
+            raise ScenarioError(
+                f"bridge.box_girder.width_m is {self.box_girder.width_m}: expected at most bridge.deck.width_m, "
+                f"{self.deck.width_m} (m)"
+            )
+        if not self.girders:
+            return
+        spacing, width = self.girder_spacing_m, self.girders.width_m
+        if self.girders.number > 1 and width > spacing * (1.0 + ROUNDING):
+            raise ScenarioError(
+                f"bridge.girders.width_m is {width}: expected at most their spacing, {spacing:.6g} (m), so that "
+                "girders do not overlap"
+            )
+        over_all = (self.girders.number - 1) * spacing + width
+        if over_all > self.deck.width_m * (1.0 + ROUNDING):
+            raise ScenarioError(
+                f"bridge.girders.number is {self.girders.number}: expected girders that fit under bridge.deck.width_m, "
+                f"{self.deck.width_m} (m), found {over_all:.6g} over all of them"
+            )
+
+    @property
+    def _column_turn(self) -> float:
+        """What a column's length along the road is, as part of the room it takes there once it is turned."""
+        return math.cos(math.radians(self.skew_deg)) if self.piers.kind == "columns" else 1.0
 
     def _check_room_along(self) -> None:
         shortest = min(self.span_lengths_m)
-        lengths = {"bridge.piers.column_length_m": self.piers.column_length_m}
+        lengths = {}
+        if self.piers:
+            lengths["bridge.piers.column_length_m"] = (self.piers.column_length_m, self._column_turn)
         if self.pier_caps:
-            lengths["bridge.pier_caps.length_m"] = self.pier_caps.length_m
-        for name, length in lengths.items():
-            if length >= shortest:
-                raise ScenarioError(f"{name} is {length}: expected less than the shortest span, {shortest} (m)")
+            lengths["bridge.pier_caps.length_m"] = (self.pier_caps.length_m, 1.0)
+        for name, (length, turn) in lengths.items():
+            if length >= shortest * turn:
+                limit = f"the shortest span, {shortest} (m)" if turn == 1.0 else f"{shortest * turn:.6g} (m), turned"
+                raise ScenarioError(f"{name} is {length}: expected less than {limit}")
+        if self.abutments:
+            self._check_room_beside_abutments(max((length / turn for length, turn in lengths.values()), default=None))
+
+    def _check_room_beside_abutments(self, pier_length: float | None) -> None:
+        other = self.abutments.length_m if pier_length is None else pier_length
+        shortest = min(self.span_lengths_m[0], self.span_lengths_m[-1])
+        if (self.abutments.length_m + other) / 2.0 >= shortest:
+            raise ScenarioError(
+                f"bridge.abutments.length_m is {self.abutments.length_m}: expected less, so that the abutments do not "
+                f"overlap the next support in a span of {shortest} (m)"
+            )
+
+    def _check_joints(self) -> None:
+        """Both decks at a joint have to lie on the pier under it."""
+        if self.deck.joint_gap_m <= 0.0 or len(self.span_lengths_m) == 1:
+            return
+        support = self.pier_caps.length_m if self.pier_caps else self.piers.column_length_m
+        if self.deck.joint_gap_m >= support:
+            raise ScenarioError(
+                f"bridge.deck.joint_gap_m is {self.deck.joint_gap_m}: expected less than {support} (m), the length of "
+                "the pier or pier cap that carries both decks"
+            )
 
     def _check_room_across(self) -> None:
-        carried = self.pier_caps or self.deck
-        widest = carried.width_m / self.piers.columns
-        if self.piers.column_width_m > widest * (1.0 + ROUNDING):
+        carried = self.pier_caps or self.box_girder or self.deck
+        widest = self.carried_width_m / self.piers.columns
+        if self.piers.kind == "columns" and self.piers.column_width_m > widest * (1.0 + ROUNDING):
             raise ScenarioError(
                 f"bridge.piers.column_width_m is {self.piers.column_width_m}: expected at most {widest:.6g} (m), "
                 f"so that the columns fit into {carried.table}.width_m"
             )
+        if self.girders and not self.pier_caps:
+            self._check_columns_under_girders(widest)
+
+    def _check_columns_under_girders(self, column_spacing: float) -> None:
+        """Without pier caps a column between two girders would carry nothing."""
+        columns, girders = self.piers.columns, self.girders.number
+        reach = (self.piers.column_width_m + self.girders.width_m) / 2.0
+        for column in range(columns):
+            place = (column - (columns - 1) / 2.0) * column_spacing
+            apart = [abs(place - (girder - (girders - 1) / 2.0) * self.girder_spacing_m) for girder in range(girders)]
+            if min(apart) >= reach * (1.0 - ROUNDING):
+                raise ScenarioError(
+                    f"bridge.piers.columns is {columns}: expected as many as bridge.girders.number, {girders}, or "
+                    "bridge.pier_caps, as a column stands between two girders and carries nothing"
+                )
+
+    def _check_one_density(self) -> None:
+        for part in (self.deck, self.girders, self.piers, self.pier_caps, self.abutments):
+            if part and part.density_kg_m3 is not None:
+                raise ScenarioError(
+                    f"{part.table}.density_kg_m3 is {part.density_kg_m3}: expected none where bridge.merge is true, as "
+                    "one solid has one density"
+                )

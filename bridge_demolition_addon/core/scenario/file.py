@@ -4,7 +4,7 @@ import json
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from dataclasses import fields
+from dataclasses import fields, replace
 from difflib import get_close_matches
 from os import PathLike, fspath
 from pathlib import Path
@@ -45,7 +45,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
         The text is one line: the path as given, the key and what was expected.
     """
     try:
-        return scenario_from_text(_file_text(Path(path)))
+        return _with_paths_from(Path(path).parent, scenario_from_text(_file_text(Path(path))))
     except ScenarioError as error:
         raise ScenarioError(f"{fspath(path)}: {error}") from error
 
@@ -91,6 +91,18 @@ def _file_text(path: Path) -> str:
         raise ScenarioError(f"not a text in UTF-8, at byte {error.start}: expected a scenario in TOML") from error
     except OSError as error:
         raise ScenarioError(f"cannot be read: {error.strerror}") from error
+
+
+def _with_paths_from(folder: Path, scenario: Scenario) -> Scenario:
+    """The scenario with the paths of other files, which are given from its folder, as absolute ones."""
+    geometry = tuple(replace(each, file=_absolute(folder, each.file)) for each in scenario.geometry)
+    points = scenario.fracture.points_file
+    fracture = replace(scenario.fracture, points_file=points and _absolute(folder, points))
+    return replace(scenario, geometry=geometry, fracture=fracture)
+
+
+def _absolute(folder: Path, path: str) -> str:
+    return str((folder / path).resolve())
 
 
 def _scenario(document: dict[str, Any]) -> Scenario:

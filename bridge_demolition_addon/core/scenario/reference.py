@@ -22,7 +22,7 @@ runs it; [examples](../examples) has some to start from. Every key carries its u
 listed here is refused, and so is a value outside its limits.
 
 x runs along the road with the axis of the first pier at 0, y across it with 0 in its middle, z up with the ground at 0.
-The deck's top is at the height of a pier, a pier cap and the deck together.
+The deck's top is at the height of a pier, a pier cap, the girders or the box girder and the deck's slab together.
 """
 
 

@@ -13,9 +13,11 @@ from .bridge import Bridge
 from .changes import Change, Removal, SawCut, Weakening, check_times
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
+from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .key import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .output import PictureSettings, RecordingSettings
+from .supports import Support
 from .time import MOST_FRAMES, TimeSettings
 
 
@@ -33,10 +35,12 @@ class Scenario(Table):
         at_most=LARGEST_INTEGER,
     )
     time: TimeSettings
-    bridge: Bridge
+    bridge: Bridge | None = None
+    geometry: tuple[Geometry, ...] = ()
     ground: Ground = field(default_factory=Ground)
     fracture: FractureSettings
     connections: ConnectionSettings
+    supports: tuple[Support, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
@@ -67,6 +71,8 @@ class Scenario(Table):
 
     def _check_together(self) -> None:
         self._check_charges()
+        if self.bridge is None and not self.geometry:
+            raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
         for ball in (self.ball, *self.ball.hits) if self.ball else ():
             self._check_release(ball)
         for drop in self.ball.drops if self.ball else ():
@@ -117,10 +123,13 @@ class Scenario(Table):
             )
 
     def _check_on_deck(self, name: str, point: tuple[float, float]) -> None:
-        overhang = self.bridge.deck.overhang_m
-        half_width = self.bridge.deck.width_m / 2.0
-        deck = ((-overhang, self.bridge.spans_m + overhang), (-half_width, half_width))
-        for place, (position, (lowest, highest)) in enumerate(zip(point, deck, strict=True)):
+        if self.geometry:
+            return  # what lies there is found when the members are there
+        along, across = point
+        overhang, half_width = self.bridge.deck.overhang_m, self.bridge.deck.width_m / 2.0
+        skewed_by = across * self.bridge.shift_across
+        deck = ((skewed_by - overhang, skewed_by + self.bridge.spans_m + overhang), (-half_width, half_width))
+        for place, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True)):
             slack = ROUNDING * (highest - lowest)
             if not lowest - slack <= position <= highest + slack:
                 raise ScenarioError(

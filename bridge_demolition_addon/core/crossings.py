@@ -1,0 +1,76 @@
+"""Whether a surface crosses itself: triangles that an edge of another one goes through."""
+
+from __future__ import annotations
+
+import numpy as np
+
+_STRICTLY_INSIDE = 1e-7
+"""Part of a triangle or edge that a crossing has to keep from its ends: what only touches does not cross."""
+
+_CANDIDATES_PER_BLOCK = 2_000_000
+"""Pairs of triangles whose boxes are compared in one go; bounds the memory."""
+
+
+def first_crossing(corners: np.ndarray) -> np.ndarray | None:
+    """A place (3,) where an edge goes through the inside of a triangle, or none.
+
+    Triangles that lie in one plane and overlap there are not found.
+
+    Parameters
+    ----------
+    corners : (t, 3, 3) float
+        Corners of all triangles of a surface, m.
+
+    References
+    ----------
+    T. Möller, B. Trumbore (1997), Fast, minimum storage ray-triangle intersection, Journal of Graphics Tools 2, 21-28;
+    here for the edges of one triangle in place of rays.
+    """
+    lower, upper = corners.min(axis=1), corners.max(axis=1)
+    order = np.argsort(lower[:, 0], kind="stable")
+    last = np.searchsorted(lower[order, 0], upper[order, 0], side="right")
+    begin = 0
+    while begin < len(order):
+        # As many rows as keep the block small: each is compared with all that begin before it ends.
+        counts = np.cumsum(last[begin:] - np.arange(begin, len(order)))
+        end = begin + max(1, int(np.searchsorted(counts, _CANDIDATES_PER_BLOCK)))
+        rows = np.arange(begin, end)
+        lengths = last[rows] - rows - 1
+        first = np.repeat(rows, lengths)
+        second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+        one, other = order[first], order[second]
+        meet = ((lower[one] <= upper[other]) & (lower[other] <= upper[one])).all(axis=1)
+        place = _crossing(corners[one[meet]], corners[other[meet]])
+        if place is not None:
+            return place
+        begin = end
+    return None
+
+
+def _crossing(one: np.ndarray, other: np.ndarray) -> np.ndarray | None:
+    """A place where an edge of one of the triangles (m, 3, 3) goes through the other of its pair."""
+    for through, edged in ((one, other), (other, one)):
+        for corner in range(3):
+            start, end = edged[:, corner], edged[:, (corner + 1) % 3]
+            crosses, along = _pierced(through, start, end - start)
+            if crosses.any():
+                row = int(np.argmax(crosses))
+                return start[row] + along[row] * (end - start)[row]
+    return None
+
+
+def _pierced(triangles: np.ndarray, starts: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Whether each edge goes through the inside of its triangle (m,), and where along the edge (m,)."""
+    first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    across = np.cross(edges, second)
+    volume = np.einsum("ij,ij->i", first, across)
+    size = np.linalg.norm(np.cross(first, second), axis=1) * np.linalg.norm(edges, axis=1)
+    leaning = np.abs(volume) > _STRICTLY_INSIDE * size
+    scale = np.divide(1.0, volume, out=np.zeros_like(volume), where=leaning)
+    offset = starts - triangles[:, 0]
+    turned = np.cross(offset, first)
+    u = np.einsum("ij,ij->i", offset, across) * scale
+    v = np.einsum("ij,ij->i", edges, turned) * scale
+    along = np.einsum("ij,ij->i", second, turned) * scale
+    least = np.minimum.reduce([u, v, 1.0 - u - v, along, 1.0 - along])
+    return leaning & (least > _STRICTLY_INSIDE), along

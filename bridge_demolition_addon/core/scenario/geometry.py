@@ -1,0 +1,43 @@
+"""Members that the user brings along as mesh files."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .key import Table, check_exactly_one, key
+
+MESH_FILES = (".stl", ".obj", ".ply", ".glb")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Geometry(Table):
+    """A member of your own, from a file of closed surfaces: STL, OBJ, PLY or GLB. It stands beside the bridge, or in
+    its place. What is not closed, wound wrongly or overlaps itself is repaired where that is possible, and refused
+    where not. Files of the same name become one solid; what a member has in common with those before it is cut off."""
+
+    table: ClassVar[str] = "geometry"
+
+    name: str = key("Name of the member.")
+    file: str = key("Path of the file, from the scenario file's folder.")
+    kind: str = key("What kind of member it is, such as `deck` or `pier`.", default="member")
+    scale: float = key("Metres in one unit of the file: 0.001 for a file in millimetres.", default=1.0, above=0)
+    up: str | None = key(
+        "Axis of the file that points up; by default `y` for GLB, as its standard has it, and `z` for the others.",
+        default=None,
+        choices=("y", "z"),
+    )
+    rotation_deg: float = key(
+        "Turn about the vertical through the file's origin, counter-clockwise.", default=0.0, unit="°"
+    )
+    place_m: tuple[float, float, float] = key(
+        "Where the file's origin goes: along the road, across it, above the ground.", default=(0.0, 0.0, 0.0), unit="m"
+    )
+    density_kg_m3: float | None = key("Density. Give this or `mass_kg`.", default=None, unit="kg/m³", above=0)
+    mass_kg: float | None = key(
+        "Mass of what is in the file, before anything is cut off. Give this or `density_kg_m3`.",
+        default=None,
+        unit="kg",
+        above=0,
+    )
+
+    def _check_together(self) -> None:
+        check_exactly_one(self, "density_kg_m3", "mass_kg")
