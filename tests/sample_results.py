@@ -17,6 +17,8 @@ PAIRS = np.array([[1, 0], [1, 2]])
 POINTS = np.array([[0.0, 0.0, 20.0], [0.0, 0.0, 16.0]])
 NORMALS = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])
 CENTRES = np.array([[0.0, 0.0, 21.0], [0.0, 0.0, 18.0], [0.0, 0.0, 14.0], [5.0, 0.0, 22.5]])
+CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+SIZES_M = np.array([[20.0, 20.0, 2.0], [1.0, 1.0, 4.0], [0.5**0.5, 0.5**0.5, 4.0], [0.5, 0.5, 0.5]])
 VOLUMES_M3 = np.array([0.0, 4.0, 2.0, 0.125])
 BALL_POINT = np.array([5.0, 0.0, 22.0])
 
@@ -27,6 +29,7 @@ FRAME_SERIES = (
     "places_m",
     "rotations",
     "velocities_m_s",
+    "spins_rad_s",
     "asleep",
     "intact",
     "body_forces_n",
@@ -75,9 +78,14 @@ def hanging_chain() -> Results:
         body_kinds=np.array(["ground", "shard", "shard", "ball"]),
         masses_kg=np.array([0.0, 300.0, 200.0, 1000.0]),
         volumes_m3=VOLUMES_M3,
+        body_members=np.array(["", "upper column", "lower column", ""]),
+        body_member_kinds=np.array(["", "pier", "pier", ""]),
+        vertices_m=np.concatenate([size / 2.0 * CUBE for size in SIZES_M]),
+        vertex_counts=np.full(4, 8),
         places_m=places,
         rotations=np.broadcast_to(np.eye(3), (5, 4, 3, 3)).copy(),
         velocities_m_s=velocities,
+        spins_rad_s=np.zeros((5, 4, 3)),
         asleep=asleep,
         blast_impulses_ns=np.zeros((5, 4, 3)),
         connection_names=np.array(["Connection", "Connection.001"]),

@@ -29,8 +29,12 @@ class Results:
         (k,) length of the sub-steps that led to each frame; 0 for the first, in which no time passes.
     body_names, body_kinds, masses_kg, volumes_m3
         (n,) names, kinds (shard, ball, ground, tool, crane), masses and volumes; both 0 for a body that never moves.
-    places_m, rotations, velocities_m_s
-        (k, n, 3), (k, n, 3, 3) and (k, n, 3) at the end of each frame.
+    body_members, body_member_kinds
+        (n,) name and kind of the member that each body is a piece of; empty where it is of none.
+    vertices_m, vertex_counts
+        (v, 3) vertices of all bodies, each in its own axes from its own place, and (n,) how many each body has.
+    places_m, rotations, velocities_m_s, spins_rad_s
+        (k, n, 3), (k, n, 3, 3), (k, n, 3) and (k, n, 3) at the end of each frame.
     asleep
         (k, n) bodies that are not simulated because they rest; they keep the loads that they fell asleep with.
     body_forces_n, body_peaks_n
@@ -69,9 +73,14 @@ class Results:
     body_kinds: np.ndarray
     masses_kg: np.ndarray
     volumes_m3: np.ndarray
+    body_members: np.ndarray
+    body_member_kinds: np.ndarray
+    vertices_m: np.ndarray
+    vertex_counts: np.ndarray
     places_m: np.ndarray
     rotations: np.ndarray
     velocities_m_s: np.ndarray
+    spins_rad_s: np.ndarray
     asleep: np.ndarray
     body_forces_n: np.ndarray
     body_peaks_n: np.ndarray
@@ -102,6 +111,11 @@ class Results:
     def of_kind(self, kind: str) -> np.ndarray:
         """Indices of the bodies of a kind."""
         return np.flatnonzero(self.body_kinds == kind)
+
+    def vertices_of(self, body: int) -> np.ndarray:
+        """Vertices (v, 3) of a body in its own axes, m."""
+        first = int(self.vertex_counts[:body].sum())
+        return self.vertices_m[first : first + self.vertex_counts[body]]
 
     def save(self, path: Path) -> None:
         """Write all arrays into one file that `numpy.load` and `load_results` read."""

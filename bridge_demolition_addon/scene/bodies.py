@@ -9,12 +9,15 @@ import bpy
 import numpy as np
 import trimesh
 
+from ..core.bridge import Member
 from ..core.fracture import Shard
 from ..core.scenario import Ball, Ground, ShardSettings
 from ..core.solids import box
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
+_MEMBER = "bda_member"
+_MEMBER_KIND = "bda_member_kind"
 _GROUND_THICKNESS_M = 2.0
 _BALL_SEGMENTS = (32, 64)
 
@@ -39,6 +42,11 @@ def kind_of(body: bpy.types.Object) -> Kind:
     if _KIND in body:
         return Kind(body[_KIND])
     return Kind.SHARD if body.rigid_body.type == "ACTIVE" else Kind.GROUND
+
+
+def member_of(body: bpy.types.Object) -> tuple[str, str]:
+    """Name and kind of the member that a body is a piece of, both empty where it is of none."""
+    return str(body.get(_MEMBER, "")), str(body.get(_MEMBER_KIND, ""))
 
 
 def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:

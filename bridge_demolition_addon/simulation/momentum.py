@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..core.frame_loads import FrameLoads
+from ..core.motion import turn
 from ..scene.inventory import Inventory
 from ..scene.slow_motion import time_step_at
 
@@ -33,6 +34,8 @@ class MomentumReader:
         self._scene, self._bodies, self._inventory = scene, bodies, inventory
         self._places: np.ndarray | None = None
         self._velocities = np.zeros((len(bodies), 3))
+        self._rotations: np.ndarray | None = None
+        self._spins = np.zeros((len(bodies), 3))
 
     def read_frame(self, depsgraph: bpy.types.Depsgraph) -> dict[str, np.ndarray | float]:
         """The frame just evaluated, one on from the last."""
@@ -50,7 +53,8 @@ class MomentumReader:
             force = self._inventory.masses_kg[:, None] * acceleration
             loads |= {"body_forces_n": force, "body_peaks_n": np.linalg.norm(force, axis=1)}
             self._velocities = velocities
-        self._places = places
+            self._spins = turn(self._rotations, rotations) / step.frame_s
+        self._places, self._rotations = places, rotations
         return {
             "frames": self._scene.frame_current,
             "times_s": self.elapsed_s,
@@ -58,6 +62,7 @@ class MomentumReader:
             "places_m": places,
             "rotations": rotations,
             "velocities_m_s": self._velocities,
+            "spins_rad_s": self._spins,
             "asleep": np.zeros(len(self._bodies), bool),
             "intact": np.zeros(0, bool),
             **loads,

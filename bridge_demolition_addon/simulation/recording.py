@@ -363,6 +363,7 @@ class Recording:
             "places_m": places,
             "rotations": rotations,
             "velocities_m_s": self._world.velocities(),
+            "spins_rad_s": self._world.spins(),
             "asleep": self._world.asleep(),
             "intact": self._world.intact(),
             **loads,

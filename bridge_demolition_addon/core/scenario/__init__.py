@@ -19,6 +19,7 @@ from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .output import PictureSettings, RecordingSettings
 from .scenario import Scenario
+from .site import Exclusion, Neighbour, Site, Zone
 from .supports import Support
 from .time import TimeSettings
 
@@ -35,6 +36,7 @@ __all__ = [
     "ConnectionBetween",
     "ConnectionSettings",
     "Deck",
+    "Exclusion",
     "Finer",
     "FracturePoint",
     "FractureSettings",
@@ -43,6 +45,7 @@ __all__ = [
     "Ground",
     "Jackhammer",
     "MemberFracture",
+    "Neighbour",
     "PictureSettings",
     "PierCaps",
     "Piers",
@@ -51,7 +54,9 @@ __all__ = [
     "SawCut",
     "Scenario",
     "ShardSettings",
+    "Site",
     "Support",
     "TimeSettings",
     "Weakening",
+    "Zone",
 ]

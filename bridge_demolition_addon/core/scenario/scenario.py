@@ -17,6 +17,7 @@ from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .key import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .output import PictureSettings, RecordingSettings
+from .site import Exclusion, Neighbour, Site, Zone
 from .supports import Support
 from .time import MOST_FRAMES, TimeSettings
 
@@ -51,6 +52,10 @@ class Scenario(Table):
     weakenings: tuple[Weakening, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
+    zones: tuple[Zone, ...] = ()
+    exclusion: Exclusion | None = None
+    site: Site | None = None
+    neighbours: tuple[Neighbour, ...] = ()
 
     @property
     def placed_charges(self) -> tuple[Charge, ...]:
