@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError
-from . import charge, charts, check, run
+from . import charge, charts, check, report, run
 
 DONE = 0
 RUN_FAILED = 1
 WRONG_INPUT = 2
 INTERRUPTED = 130
 
-COMMANDS = (check, run, charge, charts)
+COMMANDS = (check, run, report, charge, charts)
 
 
 class UsageError(DemolitionError):

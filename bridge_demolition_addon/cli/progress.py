@@ -20,7 +20,13 @@ class TerminalBar:
 
     def frame(self, done: int, total: int, broken: int) -> None:
         """Say how many frames are done and how many connections broken."""
-        counts = _counts(done, total, broken)
+        self._draw(done, total, _counts(done, total, broken))
+
+    def part(self, done: int, total: int, text: str) -> None:
+        """Say how many parts of a stage are done."""
+        self._draw(done, total, _parts(done, total, text))
+
+    def _draw(self, done: int, total: int, counts: str) -> None:
         length = max(0, min(LONGEST_BAR, shutil.get_terminal_size().columns - len(counts) - 4))
         filled = length * done // total
         bar = f"[{'#' * filled}{'.' * (length - filled)}] " if length else ""
@@ -52,6 +58,11 @@ class PlainLines:
             print(_counts(done, total, broken), file=self._stream, flush=True)
         self._tenths = tenths
 
+    def part(self, done: int, total: int, text: str) -> None:
+        """Say that all parts of a stage are done."""
+        if done == total:
+            print(_parts(done, total, text), file=self._stream, flush=True)
+
     def finish(self) -> None:
         """Nothing is left open."""
 
@@ -63,6 +74,9 @@ class Silence:
         """Say nothing."""
 
     def frame(self, done: int, total: int, broken: int) -> None:
+        """Say nothing."""
+
+    def part(self, done: int, total: int, text: str) -> None:
         """Say nothing."""
 
     def finish(self) -> None:
@@ -77,6 +91,10 @@ def progress_on(stream: TextIO, *, quiet: bool) -> Progress:
     if quiet:
         return Silence()
     return TerminalBar(stream) if stream.isatty() else PlainLines(stream)
+
+
+def _parts(done: int, total: int, text: str) -> str:
+    return f"{done:{len(str(total))}} of {total} {text}"
 
 
 def _counts(done: int, total: int, broken: int) -> str:

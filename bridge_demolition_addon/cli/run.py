@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
@@ -22,6 +22,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the results, made if new")
     parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
     parser.add_argument("--no-pictures", action="store_true", help="render no pictures")
+    parser.add_argument("--report", action="store_true", help="make a report of the run at its end")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=run)
 
@@ -33,10 +34,11 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         with _blender_silenced() if arguments.quiet else nullcontext():
             summary = _run_scenario(scenario, arguments, progress)
+            report = _report(arguments, progress) if arguments.report else []
     finally:
         progress.finish()
     if not arguments.quiet:
-        _print_results(summary, arguments.output)
+        _print_results(summary, arguments.output, report)
 
 
 def _run_scenario(scenario: Scenario, arguments: argparse.Namespace, progress: Progress) -> Mapping[str, Any]:
@@ -70,14 +72,22 @@ def _blender_silenced() -> Iterator[None]:
         os.close(standard_output)
 
 
-def _print_results(summary: Mapping[str, Any], output: Path) -> None:
+def _report(arguments: argparse.Namespace, progress: Progress) -> list[Path]:
+    from ..report.write import write_report
+
+    return write_report([arguments.output], None, progress=progress)
+
+
+def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path]) -> None:
     print()
     for name, value in _result_facts(summary):
         print(f"{name:<24}{value}")
     print()
     for path in (output / name for name in RESULT_FILES):
-        if path.exists():
+        if path.exists() and path not in report:
             print(path)
+    for path in report:
+        print(path)
 
 
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

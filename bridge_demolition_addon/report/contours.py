@@ -32,7 +32,7 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     largest = float(stresses_mpa.max(initial=0.0)) or 1.0
     scale = LogNorm(largest / 10.0**DECADES, largest)
     axes = figure.add_subplot()
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_aspect("equal", adjustable="box")
     nearest_last = np.argsort(-results.places_m[step, shards, 1], kind="stable")
     polygons = [_elevation(results, step, body) for body in shards[nearest_last]]
     drawn = PolyCollection(polygons, edgecolors="black", linewidths=0.25, cmap="YlOrRd", norm=scale)

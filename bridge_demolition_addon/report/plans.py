@@ -129,7 +129,7 @@ def plain(text: str) -> str:
 
 def _plan_axes(figure: FigureBase) -> Axes:
     axes = figure.add_subplot()
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_aspect("equal", adjustable="box")
     axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
     axes.grid(alpha=0.25)
     axes.set_axisbelow(True)

@@ -10,6 +10,12 @@ from ..core.errors import OutputError
 from ..core.results import Results
 from ..report.force_plot import plot_forces
 
+SCENARIO_FILE = "scenario_as_run.toml"
+"""The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
+
+REPORT_FILES = ("report.html", "report.pdf", "exclusion_zone.dxf", "exclusion_zone.geojson")
+"""What a report of an earlier run left, which would be wrong for a new one; its tables are cleared away as well."""
+
 RESULT_FILES = (
     "summary.json",
     "force_log.csv",
@@ -22,8 +28,11 @@ RESULT_FILES = (
     "frames/before.png",
     "frames/impact.png",
     "frames/after.png",
+    SCENARIO_FILE,
+    *REPORT_FILES,
 )
 PICTURE_FOLDER = "frames"
+TABLE_FOLDER = "tables"
 
 
 def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
@@ -42,6 +51,8 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         for name in RESULT_FILES:
             (folder / name).unlink(missing_ok=True)
+        for table in (folder / TABLE_FOLDER).glob("*.csv"):
+            table.unlink()
         (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
     except OSError as error:
         raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error

@@ -19,12 +19,13 @@ from ..core.model import Model, build_model
 from ..core.rest import Rest, last_event_s
 from ..core.results import Results
 from ..core.scenario import Scenario
+from ..core.scenario.file import scenario_text
 from ..core.summary import settling, summarise
 from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
 from . import handlers
-from .output import PICTURE_FOLDER, keep_results, prepared_folder
+from .output import PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
 from .recording import Recording
 
 PICTURES = ("before", "impact", "after")
@@ -79,6 +80,7 @@ def run_scenario(
     model = build_model(scenario)
     schedule(scenario.changes, model_structure(model))  # refuses what concerns nothing
     folder = prepared_folder(output, overwrite=overwrite)
+    (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
     scene = _empty_scene(scenario.title)
     build_demolition(scene, scenario, model)
     _prepare_view(scene, scenario, model)

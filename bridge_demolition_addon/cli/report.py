@@ -1,0 +1,39 @@
+"""``bda report``: what an engineer hands over, from the folder of a run; several folders are set side by side."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from .progress import progress_on
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser(
+        "report",
+        help="make a report, as a page and as a PDF, from the folder of a run",
+        description="From one folder: a report beside its results. From several: a comparison, in --output.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="folder that bda run made")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="folder for the report (the run's own)")
+    parser.add_argument("--trajectories", action="store_true", help="draw the paths of the shards on the map of debris")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.set_defaults(execute=report)
+
+
+def report(arguments: argparse.Namespace) -> None:
+    """Write the report and say where it is."""
+    # Loading matplotlib takes a second, which the other commands need not wait.
+    from ..report.write import write_report
+
+    progress = progress_on(sys.stdout, quiet=arguments.quiet)
+    try:
+        written = write_report(
+            arguments.folders, arguments.output, trajectories=arguments.trajectories, progress=progress
+        )
+    finally:
+        progress.finish()
+    if not arguments.quiet:
+        for path in written:
+            print(path)

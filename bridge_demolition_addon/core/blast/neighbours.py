@@ -1,0 +1,127 @@
+"""What charges do to places near them: pressure and impulse with all delays, and the vibration of the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import vibration
+from .charges import Charge
+from .models import BlastModel, blast_wave
+from .pulses import Pulses, blast_pulses, pressure_at
+
+ONE_DELAY_S = 0.008
+"""Charges that detonate within this time shake the ground as one (the 8 ms of USBM Bulletin 656 and RI 8507)."""
+
+_TIMES_PER_PULSE = 24
+
+
+def charges_per_delay(charges: Sequence[Charge], window_s: float = ONE_DELAY_S) -> list[tuple[Charge, ...]]:
+    """Charges that shake the ground together, in order of time: each group within a window from its first charge."""
+    groups: list[list[Charge]] = []
+    for charge in sorted(charges, key=lambda each: each.delay_s):
+        if charge.mass_kg <= 0.0:
+            continue
+        if groups and charge.delay_s - groups[-1][0].delay_s < window_s:
+            groups[-1].append(charge)
+        else:
+            groups.append([charge])
+    return [tuple(group) for group in groups]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlaceLoads:
+    """What reaches one place.
+
+    Attributes
+    ----------
+    distance_m
+        To the nearest charge.
+    arrival_s
+        When the first wave arrives, from the start of the blasting.
+    times_s, pressures_pa
+        (t,) times from the start of the blasting, and (t,) the incident overpressures of all charges added up.
+    peak_pa
+        Largest of these.
+    impulse_pa_s
+        Impulse per area of the positive phases of all charges.
+    peak_velocity_m_s
+        Largest peak particle velocity of the ground, of all groups of charges that detonate together.
+    """
+
+    distance_m: float
+    arrival_s: float
+    times_s: np.ndarray
+    pressures_pa: np.ndarray
+    peak_pa: float
+    impulse_pa_s: float
+    peak_velocity_m_s: float
+
+
+def loads_at(
+    place_m: Sequence[float],
+    charges: Sequence[Charge],
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    ground: vibration.Ground = vibration.FREE_FACE_AVERAGE,
+) -> PlaceLoads:
+    """What charges, at least one of them above 0 kg, do at a place (3,), m.
+
+    Pressures are free-field, from the explosives' TNT by pressure, impulses from that by impulse. Nothing stands
+    between charge and place, and no wall sends anything back.
+    """
+    charges = [charge for charge in charges if charge.mass_kg > 0.0]
+    stand_offs = np.array([[np.linalg.norm(np.subtract(place_m, charge.place_m)) for charge in charges]])
+    delays = np.array([charge.delay_s for charge in charges])
+    bursts = [charge.burst for charge in charges]
+    by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
+    by_impulse = np.array([charge.tnt_kg for charge in charges])
+    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, model=model)
+    times = _times(pulses)
+    impulses = blast_pulses(stand_offs, by_impulse, delays, bursts, model=model).impulses_pa_s
+    pressures = pressure_at(pulses, times[:, None]).sum(axis=1)
+    return PlaceLoads(
+        distance_m=float(stand_offs.min()),
+        arrival_s=float(pulses.arrivals_s.min()),
+        times_s=times,
+        pressures_pa=pressures,
+        peak_pa=float(pressures.max()),
+        impulse_pa_s=float(impulses.sum()),
+        peak_velocity_m_s=_peak_velocity(place_m, charges, ground),
+    )
+
+
+def peak_overpressures(
+    points_m: np.ndarray, charges: Sequence[Charge], model: BlastModel = BlastModel.KINGERY_BULMASH
+) -> np.ndarray:
+    """Largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.
+
+    Where waves of several charges meet, their pressures can add up to more.
+    """
+    peaks = np.zeros(len(points_m))
+    for charge in charges:
+        stand_offs = np.linalg.norm(points_m - np.array(charge.place_m), axis=1)
+        wave = blast_wave(stand_offs, charge.tnt_for_pressure_kg, charge.burst, model)
+        peaks = np.maximum(peaks, wave.peak_overpressure_pa)
+    return peaks
+
+
+def _times(pulses: Pulses) -> np.ndarray:
+    """Times from 0 to a little past the last pulse, among them every front, just before it and through each pulse."""
+    shares = np.linspace(0.0, 1.0, _TIMES_PER_PULSE)
+    fronts, ends = pulses.arrivals_s[0], pulses.ends_s[0]
+    before = np.nextafter(fronts, 0.0)
+    within = (fronts + shares[:, None] * (ends - fronts)).ravel()
+    return np.unique(np.concatenate([[0.0], before, within, [1.05 * ends.max()]]))
+
+
+def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge], ground: vibration.Ground) -> float:
+    """Of each group with all its mass at the distance of its nearest charge, which is on the safe side."""
+    velocities = []
+    for group in charges_per_delay(charges):
+        distance = min(float(np.linalg.norm(np.subtract(place_m, charge.place_m))) for charge in group)
+        mass = sum(charge.mass_kg for charge in group)
+        nearest = max(distance, 1e-3)
+        velocities.append(float(vibration.peak_particle_velocity(nearest, mass, ground)))
+    return max(velocities)

@@ -1,0 +1,96 @@
+"""Several runs side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from ..core.collapse import collapse_progress
+from ..core.debris import debris_of
+from .document import Block, Column, DataTable, Document, Paragraph, Picture, Section
+from .findings import findings
+from .histories import compared_histories
+from .plans import outlines_map
+from .run_folder import Run
+
+
+def comparison(runs: Sequence[Run], version: str) -> Document:
+    """Main findings of several runs in one table, and their courses in common charts.
+
+    Runs without results are named and left out of what needs them.
+    """
+    names = unique_names(runs)
+    whole = [(name, run) for name, run in zip(names, runs, strict=True) if run.results is not None]
+    notices = [
+        Paragraph(f"{name}: {text}", is_notice=True)
+        for name, run in zip(names, runs, strict=True)
+        for text in run.shortcomings
+    ]
+    listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
+    columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
+    sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
+    if whole:
+        sections.append(Section("Findings", (_finding_table(whole),)))
+        sections.append(Section("Courses", tuple(_charts(whole))))
+    return Document(f"Comparison of {len(runs)} runs", f"Bridge Demolition Add-on {version}", tuple(sections))
+
+
+def unique_names(runs: Sequence[Run]) -> list[str]:
+    """Names of the runs, with numbers where two folders are called the same."""
+    names = [run.name for run in runs]
+    return [f"{name} ({row + 1})" if names.count(name) > 1 else name for row, name in enumerate(names)]
+
+
+def _differences(run: Run) -> str:
+    if run.scenario is None:
+        return "not known"
+    ball, charges = run.scenario.ball, run.scenario.placed_charges
+    words = []
+    if ball:
+        target = f"({ball.target_m[0]:g}, {ball.target_m[1]:g}) m"
+        words.append(f"ball of {ball.mass_kg / 1e3:g} t from {ball.drop_height_m:g} m on {target}")
+    if charges and run.scenario.blast.explosion:
+        words.append(f"{len(charges)} charges, {sum(charge.mass_kg for charge in charges):g} kg")
+    return "; ".join(words) or "no ball and no charges"
+
+
+def _finding_table(runs: Sequence[tuple[str, Run]]) -> DataTable:
+    by_run = [findings(run) for _, run in runs]
+    columns = (
+        Column("", "finding"),
+        Column("unit", "unit"),
+        *(Column(name, name, ".4g") for name, _ in runs),
+    )
+    rows = [(same[0].label, same[0].unit, *(each.value for each in same)) for same in zip(*by_run, strict=True)]
+    return DataTable("comparison", "Main findings", columns, rows)
+
+
+def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
+    progress = [(name, run.results.times_s, 100.0 * collapse_progress(run.results)) for name, run in runs]
+    broken = [
+        (name, run.results.times_s, 100.0 * (~run.results.intact).mean(axis=1))
+        for name, run in runs
+        if run.results.intact.shape[1]
+    ]
+    loads = [
+        (
+            name,
+            run.results.times_s,
+            run.results.body_peak_sums_n[:, run.results.of_kind("shard")].max(axis=1, initial=0.0) / 1e3,
+        )
+        for name, run in runs
+    ]
+    charts = (
+        ("progress of the collapse (%)", progress),
+        ("connections broken (%)", broken),
+        ("largest load on a shard (kN)", loads),
+    )
+    blocks: list[Block] = [
+        Picture(partial(compared_histories, label=label, histories=histories), f"{label[0].upper()}{label[1:]}.")
+        for label, histories in charts
+        if histories
+    ]
+    debris = [(name, debris_of(run.results)) for name, run in runs]
+    areas = [(name, each.area) for name, each in debris]
+    told = "Footprints of the debris, and the bridge of the first run before."
+    return [*blocks, Picture(partial(outlines_map, areas=areas, bridge=debris[0][1].outline), told, 120.0)]

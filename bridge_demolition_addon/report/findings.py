@@ -1,0 +1,77 @@
+"""The main findings of a run, one number each: the summary of a report, and the columns of a comparison."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.collapse import collapse_progress, rest_of
+from ..core.debris import debris_of, percentiles_by_mass
+from ..core.loads import most_loaded
+from .run_folder import Run
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A number with its name and unit, and in words."""
+
+    label: str
+    unit: str
+    value: float | None
+    text: str
+
+
+def findings(run: Run) -> list[Finding]:
+    """Main findings of a run that has results, always in the same order; the value is None where there is none."""
+    results = run.results
+    debris, rest = debris_of(results), rest_of(results)
+    broken = int((~results.intact[-1]).sum())
+    count = results.intact.shape[1]
+    found = [
+        _finding("Impact of the ball", "s", run.impact_s, ".3f"),
+        Finding("Connections broken", "1", broken, f"{broken} of {count}"),
+        _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
+        _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", "not at rest at the end"),
+        _finding("Debris", "t", float(debris.masses_kg.sum()) / 1e3, ".1f"),
+        _finding("Footprint of the debris", "m²", debris.area.area(), ".0f"),
+        _finding("Height of the pile", "m", debris.highest_m, ".2f"),
+    ]
+    if len(debris.bodies):
+        farthest = debris.throws_m.argmax()
+        name = results.body_names[debris.bodies[farthest]]
+        ninety_five = float(percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,))[0])
+        reach = float(debris.reaches_m.max())
+        found += [
+            _finding("95 % of the debris's mass thrown up to", "m", ninety_five, ".2f"),
+            Finding(
+                "Largest throw", "m", float(debris.throws_m[farthest]), f"{debris.throws_m[farthest]:.2f} m, {name}"
+            ),
+            _finding("Debris beyond the bridge's outline, at most", "m", reach, ".2f"),
+        ]
+    else:
+        found += [
+            Finding(label, "m", None, "no debris")
+            for label in (
+                "95 % of the debris's mass thrown up to",
+                "Largest throw",
+                "Debris beyond the bridge's outline, at most",
+            )
+        ]
+    return [*found, _largest_load(run)]
+
+
+def _largest_load(run: Run) -> Finding:
+    results = run.results
+    peaks = most_loaded(results.body_peak_sums_n, results.of_kind("shard"), 1)
+    if not peaks:
+        return Finding("Largest load on a shard", "kN", None, "not known")
+    (peak,) = peaks
+    words = f"{peak.force_n / 1e3:.0f} kN on {results.body_names[peak.row]} at {results.times_s[peak.step]:.3f} s"
+    return Finding("Largest load on a shard", "kN", peak.force_n / 1e3, words)
+
+
+def _finding(label: str, unit: str, value: float | None, form: str, otherwise: str = "none") -> Finding:
+    if value is None or not np.isfinite(value):
+        return Finding(label, unit, None, otherwise)
+    return Finding(label, unit, value, f"{value:{form}} {unit}")

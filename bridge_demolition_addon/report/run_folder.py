@@ -1,0 +1,200 @@
+"""What is in a run's folder, whole or cut short."""
+
+from __future__ import annotations
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import OutputError, ScenarioError
+from ..core.results import Results, load_results
+from ..core.scenario import Scenario
+from ..core.scenario.file import read_scenario
+
+RESULTS = "results.npz"
+SUMMARY = "summary.json"
+SCENARIO = "scenario_as_run.toml"
+FORCE_LOG = "force_log.csv"
+BREAKING_LOG = "breaking_log.csv"
+PICTURES = {
+    "before": "Before",
+    "impact": "At the impact of the ball, or at the largest force where there is none",
+    "after": "At the end",
+}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LoggedForces:
+    """What a force log tells by itself: (k,) times, and largest sum and resultant on any body but the ground."""
+
+    times_s: np.ndarray
+    sums_n: np.ndarray
+    resultants_n: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Run:
+    """A run as far as its folder holds it.
+
+    Attributes
+    ----------
+    folder
+        The folder.
+    scenario, summary, results
+        Each None where it is missing or cannot be read.
+    logged_forces
+        Read from the log where there are no results; None where there is no log either.
+    logged_breaks
+        How many connections the breaking log names; None where it was not needed or is missing.
+    pictures
+        Rendered pictures by name.
+    shortcomings
+        What is missing or cannot be read, in whole sentences.
+    """
+
+    folder: Path
+    scenario: Scenario | None
+    summary: dict[str, Any] | None
+    results: Results | None
+    logged_forces: LoggedForces | None
+    logged_breaks: int | None
+    pictures: dict[str, Path]
+    shortcomings: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """What the run is called beside others."""
+        return self.folder.resolve().name
+
+    @property
+    def title(self) -> str:
+        """The scenario's title, or else the folder's name."""
+        if self.scenario:
+            return self.scenario.title
+        return str(self.summary["title"]) if self.summary and "title" in self.summary else self.name
+
+    @property
+    def impact_s(self) -> float | None:
+        """When the ball hit; None where it did not, or nobody knows."""
+        impact = self.summary.get("impact") if self.summary else None
+        return float(impact["time_s"]) if impact else None
+
+
+def read_run(folder: Path) -> Run:
+    """Read a run's folder, and say what is missing of it.
+
+    Raises
+    ------
+    OutputError
+        It is no folder, or holds neither results nor a log of a run.
+    """
+    if not folder.is_dir():
+        raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
+    if not any((folder / name).is_file() for name in (RESULTS, FORCE_LOG)):
+        raise OutputError(f"{folder}: holds no run: expected {RESULTS} or {FORCE_LOG} in it")
+    shortcomings: list[str] = []
+    results = _results(folder, shortcomings)
+    summary = _summary(folder, shortcomings)
+    if summary and not summary.get("completed", True):
+        shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
+    logged = _logged_forces(folder, shortcomings) if results is None else None
+    pictures = {name: folder / "frames" / f"{name}.png" for name in PICTURES}
+    return Run(
+        folder=folder,
+        scenario=_scenario(folder, shortcomings),
+        summary=summary,
+        results=results,
+        logged_forces=logged,
+        logged_breaks=_logged_breaks(folder) if results is None else None,
+        pictures={name: path for name, path in pictures.items() if path.is_file()},
+        shortcomings=tuple(shortcomings),
+    )
+
+
+def _results(folder: Path, shortcomings: list[str]) -> Results | None:
+    path = folder / RESULTS
+    if not path.is_file():
+        shortcomings.append(
+            f"The run was killed before it could write {RESULTS}: only its logs are here, and all that needs more "
+            "than them is left out: debris, zones, exclusion zone, spans, energy, stresses."
+        )
+        return None
+    try:
+        return load_results(path)
+    except OutputError as error:
+        shortcomings.append(f"{RESULTS} cannot be read, and all that needs it is left out. {error}")
+        return None
+
+
+def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
+    path = folder / SUMMARY
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        shortcomings.append(f"There is no {SUMMARY}: what the run came from, and the hits of the ball, are not known.")
+        return None
+    except (OSError, ValueError) as error:
+        shortcomings.append(f"{SUMMARY} cannot be read, and what it says is left out: {error}")
+        return None
+    if not isinstance(summary, dict):
+        shortcomings.append(f"{SUMMARY} is not what a run writes, and is left out.")
+        return None
+    return summary
+
+
+def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
+    path = folder / SCENARIO
+    if not path.is_file():
+        shortcomings.append(
+            f"There is no {SCENARIO}, as for a scene that was built by hand: zones, exclusion zone, charges and "
+            "lengths of spans are not known."
+        )
+        return None
+    try:
+        return read_scenario(path)
+    except ScenarioError as error:
+        shortcomings.append(f"The scenario of the run cannot be read: {error}")
+        return None
+
+
+def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None:
+    """Largest forces of every frame that the log holds whole."""
+    largest: dict[float, tuple[float, float]] = {}
+    bodies_of_frame: dict[float, int] = {}
+    try:
+        with (folder / FORCE_LOG).open(encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file):
+                if None in row.values():  # a line that was cut in two
+                    break
+                time_s = float(row["time_s"])
+                bodies_of_frame[time_s] = bodies_of_frame.get(time_s, 0) + 1
+                before = largest.get(time_s, (0.0, 0.0))
+                if row["body"] != "Ground":
+                    found = (float(row["peak_force_sum_N"]), float(row["peak_force_N"]))
+                    largest[time_s] = tuple(np.fmax(before, found))
+                else:
+                    largest.setdefault(time_s, before)
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError, KeyError, csv.Error) as error:
+        shortcomings.append(f"{FORCE_LOG} cannot be read: {error}")
+        return None
+    whole = [time_s for time_s, count in bodies_of_frame.items() if count == max(bodies_of_frame.values())]
+    if not whole:
+        shortcomings.append(f"{FORCE_LOG} holds no frame.")
+        return None
+    if len(whole) < len(bodies_of_frame):
+        shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
+    sums, resultants = np.array([largest[time_s] for time_s in whole]).T
+    return LoggedForces(np.array(whole), sums, resultants)
+
+
+def _logged_breaks(folder: Path) -> int | None:
+    path = folder / BREAKING_LOG
+    if not path.is_file():
+        return None
+    return max(0, path.read_text(encoding="utf-8", errors="replace").count("\n") - 1)

@@ -1,0 +1,149 @@
+"""From the folders of runs to a report: a page, a PDF, tables and site plans."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Protocol
+
+from ..core.errors import OutputError
+from ..core.plan import footprint
+from ..core.scenario.file import scenario_text
+from .blast_section import blast_section
+from .collapse_section import collapse_section
+from .comparison import comparison
+from .cover import cover_section, scenario_section, trust_section
+from .debris_section import corner_table, debris_section, exclusion_section, zone_of
+from .document import Document, Picture, Section, write_tables
+from .force_section import force_section, logged_section
+from .html import write_html
+from .pdf import write_pdf
+from .run_folder import Run, read_run
+from .site_plan import write_dxf, write_geojson
+
+HTML, PDF, TABLES = "report.html", "report.pdf", "tables"
+DXF, GEOJSON = "exclusion_zone.dxf", "exclusion_zone.geojson"
+
+_MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
+
+
+class Progress(Protocol):
+    """Whoever wants to know how far a report is."""
+
+    def stage(self, text: str) -> None:
+        """Say what is done now."""
+
+    def part(self, done: int, total: int, text: str) -> None:
+        """Say how many parts of a stage are done."""
+
+
+def write_report(
+    folders: Sequence[Path], output: Path | None, *, trajectories: bool = False, progress: Progress
+) -> list[Path]:
+    """Write the report of a run, or the comparison of several.
+
+    Parameters
+    ----------
+    folders
+        One folder or more.
+    output
+        Where the report goes, made if it is new; by default into the folder of the run, if it is only one.
+    trajectories
+        Whether the map of the debris shows the paths of the shards.
+    progress
+        Told about stages, pictures and pages.
+
+    Returns
+    -------
+    list of Path
+        All files written.
+
+    Raises
+    ------
+    OutputError
+        A folder holds no run, several runs are to be compared without a folder for it, or something cannot be written.
+    """
+    if output is None and len(folders) > 1:
+        raise OutputError("several runs are compared in a folder of their own: give one with --output")
+    progress.stage("reading the results" if len(folders) == 1 else f"reading the results of {len(folders)} runs")
+    runs = [read_run(folder) for folder in folders]
+    target = folders[0] if output is None else output
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+        if len(runs) > 1:
+            return _written(comparison(runs, add_on_version()), target, progress)
+        return _write_one(runs[0], target, trajectories, progress)
+    except OSError as error:
+        raise OutputError(f"{target}: the report cannot be written ({error.strerror or error})") from error
+
+
+def add_on_version() -> str:
+    """Version of this program."""
+    try:
+        return version("bridge-demolition-addon")
+    except PackageNotFoundError:  # an extension inside Blender, or a plain copy
+        return (
+            str(tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))["version"]) if _MANIFEST.is_file() else "unknown"
+        )
+
+
+def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -> list[Path]:
+    progress.stage("evaluating debris, zones, forces and energy")
+    zone = zone_of(run)
+    plans: list[Path] = []
+    extra = []
+    if zone is not None:
+        layers = {
+            "exclusion zone": zone.whole,
+            "predicted debris": zone.debris,
+            "designed drop": zone.drop,
+            "bridge": zone.plan,
+        }
+        plans.append(target / DXF)
+        write_dxf(plans[0], layers)
+        if run.scenario.site:
+            plans.append(target / GEOJSON)
+            write_geojson(plans[1], layers, run.scenario.site)
+        extra.append(corner_table(zone))
+    sections = [cover_section(run, add_on_version())]
+    if run.results is not None and len(run.results.of_kind("shard")):
+        sections.append(debris_section(run, trajectories=trajectories))
+        sections.append(exclusion_section(zone, run, [path.name for path in plans]))
+        sections.append(force_section(run))
+        sections.append(collapse_section(run))
+        if run.scenario and (blast := blast_section(run.scenario, _outline(run))):
+            sections.append(blast)
+    elif run.results is None:
+        sections.append(logged_section(run))
+    sections.append(trust_section(run))
+    if run.scenario:
+        sections.append(scenario_section(run, scenario_text(run.scenario)))
+    subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
+    document = Document(run.title, subtitle, tuple(sections))
+    only_as_table = Document("", "", (Section("", tuple(extra)),))
+    return [*_written(document, target, progress, only_as_table), *plans]
+
+
+def _outline(run: Run):
+    return footprint(run.results, run.results.of_kind("shard"), 0)
+
+
+def _written(document: Document, target: Path, progress: Progress, *more_tables: Document) -> list[Path]:
+    pictures = sum(isinstance(block, Picture) for block in document.blocks())
+    drawn = 0
+
+    def count(_: Picture) -> None:
+        nonlocal drawn
+        drawn += 1
+        progress.part(drawn, pictures, "pictures drawn")
+
+    progress.stage(f"writing {HTML}")
+    write_html(document, target / HTML, count)
+    progress.stage(f"writing {PDF}")
+    write_pdf(document, target / PDF, lambda done, total: progress.part(done, total, "pages written"))
+    tables = target / TABLES
+    tables.mkdir(exist_ok=True)
+    written = [path for each in (document, *more_tables) for path in write_tables(each, tables)]
+    return [target / HTML, target / PDF, *written]
