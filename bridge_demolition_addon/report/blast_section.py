@@ -8,12 +8,12 @@ from functools import partial
 from manifold3d import CrossSection
 
 from ..core.blast.charges import Charge
-from ..core.blast.damage import ring_radii
+from ..core.blast.damage import THRESHOLDS, ring_radii
 from ..core.blast.models import BlastModel
 from ..core.blast.neighbours import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
 from ..core.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
 from ..core.scenario import Scenario
-from .blast_maps import distinct_thresholds, neighbour_pressures, overpressure_map
+from .blast_maps import neighbour_pressures, overpressure_map
 from .document import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 
@@ -85,19 +85,23 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
 
 
 def _ring_table(charges: Sequence[Charge], model: BlastModel) -> DataTable:
-    thresholds = distinct_thresholds()
-    radii = ring_radii(charges, 0.0, thresholds, model).max(axis=1)
+    radii = ring_radii(charges, 0.0, THRESHOLDS, model).max(axis=1)
     columns = (
         Column("overpressure (kPa)", "overpressure_kPa", ".2f"),
         Column("damage", "damage"),
-        Column("largest ring on the ground (m)", "radius_m", ".1f"),
+        Column("ring (m)", "radius_m", ".1f"),
         Column("source", "source"),
     )
     rows = [
         (threshold.overpressure_pa / 1e3, threshold.damage, float(radius), threshold.source)
-        for threshold, radius in zip(thresholds, radii, strict=True)
+        for threshold, radius in zip(THRESHOLDS, radii, strict=True)
     ]
-    return DataTable("damage_rings", "Thresholds of damage, around the charge that reaches farthest", columns, rows)
+    return DataTable(
+        "damage_rings",
+        "Thresholds of damage, and the largest radius around a charge on the ground",
+        columns,
+        rows,
+    )
 
 
 def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:

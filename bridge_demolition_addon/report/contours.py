@@ -44,7 +44,9 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     axes.axhline(0.0, color="black", linewidth=1.2)
     axes.autoscale_view()
     axes.set(xlabel="x along the road (m)", ylabel="height above the ground (m)")
-    figure.colorbar(drawn, ax=axes, label="equivalent stress (MPa)", shrink=0.9, extend="min")
+    figure.colorbar(
+        drawn, ax=axes, label="equivalent stress (MPa)", extend="min", orientation="horizontal", aspect=40, shrink=0.6
+    )
 
 
 def _elevation(results: Results, step: int, body: int) -> np.ndarray:

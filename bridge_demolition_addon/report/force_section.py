@@ -135,7 +135,8 @@ def _hit_blocks(run: Run) -> list[Block]:
     told = (
         "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the impulse "
         "spread over Hertz's or the given contact time. Hertz: the force of an elastic hit, which steel and concrete "
-        "cannot reach, an upper bound."
+        "cannot reach, an upper bound for a ball that flies into something. Where falling debris pushes the ball "
+        "while it touches, the impulse is larger than the speed explains, and Hertz's force says nothing."
     )
     return [DataTable("hits_of_the_ball", "Hits of the ball", columns, rows), Paragraph(told)]
 

@@ -22,7 +22,7 @@ _MOST_KINDS = 7
 
 def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:
     """Total and largest contact force, and what the ground carries by contacts, over time."""
-    axes = _time_axes(figure, "force, mean over a frame (kN)", forces.times_s)
+    axes = _time_axes(figure, "contact force (kN)", forces.times_s)
     axes.plot(forces.times_s, forces.total_n / 1e3, **_style(0), label="all contacts together, at least")
     axes.plot(forces.times_s, forces.largest_n / 1e3, **_style(1), label="largest on one shard")
     axes.plot(forces.times_s, forces.ground_n / 1e3, **_style(2), label="upward force of the ground")
@@ -32,7 +32,7 @@ def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: f
 def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
     """Largest load on any shard over time, by connections and contacts together."""
     shards = results.of_kind("shard")
-    axes = _time_axes(figure, "largest load on a shard, peak in a frame (kN)", results.times_s)
+    axes = _time_axes(figure, "largest load on a shard (kN)", results.times_s)
     sums = results.body_peak_sums_n[:, shards].max(axis=1, initial=0.0)
     resultants = results.body_peaks_n[:, shards].max(axis=1, initial=0.0)
     axes.plot(results.times_s, sums / 1e3, **_style(0), label="sum of magnitudes")
@@ -42,7 +42,7 @@ def load_history(figure: FigureBase, results: Results, impact_s: float | None) -
 
 def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
     """The same from a log alone: times (k,), and (k,) largest sum and resultant on any body."""
-    axes = _time_axes(figure, "largest load on a body, peak in a frame (kN)", times_s)
+    axes = _time_axes(figure, "largest load on a body (kN)", times_s)
     axes.plot(times_s, sums_n / 1e3, **_style(0), label="sum of magnitudes")
     axes.plot(times_s, resultants_n / 1e3, **_style(1), label="resultant")
     _finish(figure, axes, None)
@@ -77,7 +77,7 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
 
 def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarray, impact_s: float | None) -> None:
     """Progress of the collapse over time."""
-    axes = _time_axes(figure, "height of the centre of mass lost (%)", times_s)
+    axes = _time_axes(figure, "progress (%)", times_s)
     axes.plot(times_s, 100.0 * progress, **_style(0), label="progress of the collapse")
     axes.set_ylim(min(0.0, 105.0 * progress.min()), 105.0)
     _finish(figure, axes, impact_s)
@@ -126,12 +126,13 @@ def _time_axes(figure: FigureBase, label: str, times_s: np.ndarray) -> Axes:
 
 
 def _style(number: int) -> dict[str, object]:
-    styles = {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": 1.4}
-    # A run of one frame is a point.
-    return styles | {"marker": ".", "markersize": 2.0}
+    return {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": 1.4}
 
 
-def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int = 4) -> None:
+def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int = 2) -> None:
+    for line in axes.lines:
+        if len(line.get_xdata()) == 1:  # a run of one frame has no line to show
+            line.set_marker("o")
     if impact_s is not None:
         axes.axvline(impact_s, color="black", linestyle=(0, (1, 1)), linewidth=1.0, label="impact of the ball")
     if axes.get_ylim()[0] > 0.0:

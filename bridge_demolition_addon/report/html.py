@@ -16,6 +16,9 @@ from .document import PAGE_WIDTH_MM, Block, DataTable, Document, Listing, Paragr
 
 MM_PER_INCH = 25.4
 
+_SHORT_TABLE_ROWS = 16
+"""Tables of no more rows are not broken over pages."""
+
 STYLE = """
 @page { size: A4; margin: 18mm 20mm; }
 html { font: 10.5pt/1.45 "DejaVu Sans", "Liberation Sans", Arial, sans-serif; color: #000; background: #fff; }
@@ -34,6 +37,7 @@ th { border-bottom: 1px solid #000; }
 td.number, th.number { text-align: right; }
 tr { break-inside: avoid; }
 thead { display: table-header-group; }
+table.short { break-inside: avoid; }
 pre { font: 0.75em/1.35 "DejaVu Sans Mono", "Liberation Mono", monospace; white-space: pre-wrap; }
 ol.contents { columns: 2; }
 ol.contents a { color: inherit; }
@@ -104,7 +108,8 @@ def _figure(kind: str, content: bytes, title: str) -> str:
 
 def _table(table: DataTable) -> str:
     classes = [' class="number"' if column.form else "" for column in table.columns]
-    lines = ["<table>", f"<caption>{escape(table.title)}</caption>"]
+    kind = ' class="short"' if len(table.rows) <= _SHORT_TABLE_ROWS else ""
+    lines = [f"<table{kind}>", f"<caption>{escape(table.title)}</caption>"]
     if any(column.heading for column in table.columns):
         cells = [
             f"<th{kind}>{escape(column.heading)}</th>" for kind, column in zip(classes, table.columns, strict=True)

@@ -28,6 +28,9 @@ LINE = 1.4
 
 TITLE_PT, HEADING_PT, TEXT_PT, SMALL_PT, LISTING_PT = 18.0, 13.0, 9.5, 8.0, 7.0
 SMALLEST_COLUMN_MM = 14.0
+_KEPT_TOGETHER_MM = 120.0
+"""A table that is not higher stays on one page."""
+
 GAP_MM = 3.0
 """Between columns of a table."""
 
@@ -125,7 +128,8 @@ class _Pages:
     def _table(self, table: DataTable) -> None:
         rows, headings = table.shown_rows(), [column.heading for column in table.columns]
         widths = _column_widths([headings, *rows])
-        self._need(20.0)
+        height = 8.0 + sum(_row_height(row, widths) for row in [headings, *rows])
+        self._need(height if height < _KEPT_TOGETHER_MM else 20.0)
         self.text(table.title, TEXT_PT, weight="bold", after_mm=1.0)
         has_heading = any(headings)
         if has_heading:
@@ -275,7 +279,7 @@ def _wrapped(
 ) -> Iterator[str]:
     """Text in lines that fit; a word that is longer than a line is cut."""
     line = text[: len(text) - len(text.lstrip())]
-    slack = 1e-6 + 0.01 * width_mm
+    slack = 1e-6
     for word in text.split():
         longer = f"{line} {word}" if line.strip() else line + word
         if _width_mm(longer, size_pt, weight, family) <= width_mm + slack:

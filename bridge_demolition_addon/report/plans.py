@@ -23,6 +23,9 @@ NAMED_THROWS = 5
 """Largest throws that the map names."""
 
 _ROOM = 0.04
+_LABEL_SHARE = 0.03
+"""Where in its length a zone has its name: at its beginning, beside the bridge and not on it."""
+
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
 
@@ -118,8 +121,9 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
         path = Outline(np.vstack([corners, corners[:1]]), closed=True)
         axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-        middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-        axes.annotate(plain(zone.name), middle, ha="center", va="center", fontsize=7, bbox=box, zorder=5)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        place = low + (high - low) * (_LABEL_SHARE, 0.5)
+        axes.annotate(plain(zone.name), place, ha="left", va="center", fontsize=7, bbox=box, zorder=5)
 
 
 def plain(text: str) -> str:

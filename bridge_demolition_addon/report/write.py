@@ -107,7 +107,7 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
             plans.append(target / GEOJSON)
             write_geojson(plans[1], layers, run.scenario.site)
         extra.append(corner_table(zone))
-    sections = [cover_section(run, add_on_version())]
+    sections = [cover_section(run, add_on_version()), trust_section(run)]
     if run.results is not None and len(run.results.of_kind("shard")):
         sections.append(debris_section(run, trajectories=trajectories))
         sections.append(exclusion_section(zone, run, [path.name for path in plans]))
@@ -117,7 +117,6 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
             sections.append(blast)
     elif run.results is None:
         sections.append(logged_section(run))
-    sections.append(trust_section(run))
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
