@@ -51,21 +51,28 @@ def write_pdf(document: Document, path: Path, finished: Callable[[int, int], Non
     """
     # Letters that stay letters: text can be searched and copied.
     with matplotlib.rc_context({"pdf.fonttype": 42}):
-        pages = _Pages()
-        pages.text(document.title, TITLE_PT, weight="bold")
-        pages.text(document.subtitle, TEXT_PT)
-        for number, section in enumerate(document.sections, start=1):
-            pages.heading(f"{number} {section.title}", section.blocks[0] if section.blocks else None)
-            for block in section.blocks:
-                pages.add(block)
+        pages = laid_out(document)
         # Without a date the same run gives the same file.
         with PdfPages(path, metadata={"Title": document.title, "CreationDate": None}) as file:
-            for number, page in enumerate(pages.figures, start=1):
-                foot = f"page {number} of {len(pages.figures)}"
-                _put(page, LEFT_MM, FOOT_MM, _shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL_PT), SMALL_PT)
-                _put(page, LEFT_MM + PAGE_WIDTH_MM, FOOT_MM, foot, SMALL_PT, align="right")
+            for number, page in enumerate(pages, start=1):
                 file.savefig(page)
-                finished(number, len(pages.figures))
+                finished(number, len(pages))
+
+
+def laid_out(document: Document) -> list[Figure]:
+    """The pages of a report."""
+    pages = _Pages()
+    pages.text(document.title, TITLE_PT, weight="bold")
+    pages.text(document.subtitle, TEXT_PT)
+    for number, section in enumerate(document.sections, start=1):
+        pages.heading(f"{number} {section.title}", section.blocks[0] if section.blocks else None)
+        for block in section.blocks:
+            pages.add(block)
+    for number, page in enumerate(pages.figures, start=1):
+        foot = f"page {number} of {len(pages.figures)}"
+        _put(page, LEFT_MM, FOOT_MM, _shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL_PT), SMALL_PT)
+        _put(page, LEFT_MM + PAGE_WIDTH_MM, FOOT_MM, foot, SMALL_PT, align="right")
+    return pages.figures
 
 
 class _Pages:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.motion import first_hit, throw, travel
+from bridge_demolition_addon.core.motion import first_hit, throw, travel, turn, turned
 
 GRAVITY = np.array([0.0, 0.0, -9.80665])
 
@@ -50,3 +50,26 @@ def test_too_short_to_tell():
     assert first_hit(np.zeros((1, 3)), np.zeros(1), GRAVITY) is None
     # Frames in which no time passes are no hits.
     assert first_hit(np.zeros((3, 3)), np.zeros(3), GRAVITY) is None
+
+
+def about(axis, degrees):
+    """A rotation vector."""
+    return np.radians(degrees) * np.array(axis, float) / np.linalg.norm(axis)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 1e-7, 30.0, 90.0, 179.0, -120.0])
+@pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, -3)])
+def test_turns_are_found_again(axis, degrees):
+    start = turned(np.eye(3)[None], about((3, 1, 2), 70.0)[None])
+    end = turned(start, about(axis, degrees)[None])
+    np.testing.assert_allclose(end @ np.swapaxes(end, 1, 2), np.eye(3)[None], atol=1e-14)
+    np.testing.assert_allclose(turn(start, end), about(axis, degrees)[None], atol=1e-12)
+
+
+def test_a_quarter_turn_about_z_takes_x_to_y():
+    np.testing.assert_allclose(turned(np.eye(3), about((0, 0, 1), 90.0)) @ (1, 0, 0), (0, 1, 0), atol=1e-15)
+
+
+def test_more_than_half_a_turn_seems_to_go_back():
+    end = turned(np.eye(3)[None], about((0, 0, 1), 200.0)[None])
+    np.testing.assert_allclose(turn(np.eye(3)[None], end), about((0, 0, 1), -160.0)[None], atol=1e-12)

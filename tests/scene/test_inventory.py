@@ -207,6 +207,31 @@ def test_a_connection_without_a_body_is_refused(blender, blocks, side, instead):
         inventory_of(blocks.scene)
 
 
+def test_vertices_are_as_large_as_the_body_and_in_its_own_axes(blocks):
+    blocks.block((0, 0, 0), size_m=(9, 9, 9))
+    body = blocks.block((100, 5, -3), 7.0, (1.0, 2.0, 0.5))
+    body.scale, body.rotation_euler = (2, 1, 4), (0.3, -0.5, 2.0)
+    inventory = inventory_of(blocks.scene)
+    assert inventory.vertex_counts.tolist() == [8, 8]
+    corners = inventory.vertices_m[8:]
+    np.testing.assert_allclose(np.ptp(corners, axis=0), (2.0, 2.0, 2.0), rtol=SINGLE)
+    np.testing.assert_allclose(abs(corners), np.ones((8, 3)), rtol=SINGLE)
+
+
+def test_members_are_known_where_the_add_on_cut_the_shards(blocks):
+    from bridge_demolition_addon.core.bridge import Member
+    from bridge_demolition_addon.core.solids import box
+    from bridge_demolition_addon.scene.bodies import mark_members
+
+    blocks.block((0, 0, 0))
+    shards = [blocks.block((x, 0, 2), 1.0) for x in (0, 2, 4)]
+    solid = box((1, 1, 1))
+    mark_members(shards[:2], [Member("deck", "deck", solid), Member("pier 1", "pier", solid)], np.array([1, 0]))
+    inventory = inventory_of(blocks.scene)
+    assert inventory.body_members.tolist() == ["", "pier 1", "deck", ""]
+    assert inventory.body_member_kinds.tolist() == ["", "pier", "deck", ""]
+
+
 def test_without_connections(blocks):
     blocks.block((0, 0, 0), 1.0)
     inventory = inventory_of(blocks.scene)

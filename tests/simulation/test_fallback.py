@@ -48,6 +48,26 @@ def test_net_force_comes_from_the_change_of_momentum(strange_blender, tmp_path):
     assert summary["connections"]["count"] == 0
 
 
+def test_spin_comes_from_the_change_of_direction(strange_blender, tmp_path):
+    """A plank that lies with its middle beside an edge tips over: its end falls, so that it turns about the edge."""
+    blocks = Blocks(frames_per_second=240, substeps_per_frame=1)
+    blocks.block((0, 0, -0.5), size_m=(2, 10, 1))
+    blocks.block((1.5, 0, 0.1), 50.0, (4, 1, 0.2))
+    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    for frame in range(1, 121):
+        blocks.scene.frame_set(frame)
+    handlers.stop()
+    results = recording.results()
+    spins = results.spins_rad_s[:, 1]
+    # The end at larger x goes down: positive about y.
+    assert spins[-1, 1] > 1.0
+    turned = results.rotations[-1, 1]
+    angle = np.arctan2(-turned[2, 0], turned[0, 0])
+    steps = np.diff(results.times_s)
+    assert np.sum(spins[1:, 1] * steps) == pytest.approx(angle, rel=1e-3)
+    np.testing.assert_allclose(spins[:, [0, 2]], 0.0, atol=0.05)
+
+
 def test_scene_is_left_as_it_was(strange_blender, tmp_path):
     blocks = Blocks()
     blocks.block((0, 0, 1.0), 10.0)

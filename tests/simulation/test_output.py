@@ -35,8 +35,9 @@ def test_a_folder_that_is_there_is_not_touched(tmp_path):
 
 def test_overwriting_clears_results_and_nothing_else(tmp_path):
     (tmp_path / "frames").mkdir()
-    others = ["notes.txt", "frames/mine.png", "scenario.toml", "summary.json.old"]
-    for name in [*RESULT_FILES, *others]:
+    (tmp_path / "tables").mkdir()
+    others = ["notes.txt", "frames/mine.png", "scenario.toml", "summary.json.old", "tables/mine.txt"]
+    for name in [*RESULT_FILES, "tables/debris.csv", *others]:
         (tmp_path / name).write_text("old")
     prepared_folder(tmp_path, overwrite=True)
     assert files_in(tmp_path) == sorted(others)

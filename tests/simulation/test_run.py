@@ -43,6 +43,17 @@ def test_shards_weigh_what_the_bridge_weighs(span):
     assert len(results.of_kind("shard")) == 200
 
 
+def test_members_shapes_and_scenario_are_kept(span):
+    folder, _, results = span
+    shards = results.of_kind("shard")
+    assert set(results.body_member_kinds[shards]) == {"deck", "pier", "pier cap"}
+    deck = shards[results.body_members[shards] == "deck"]
+    corners = np.concatenate([results.vertices_of(body) + results.places_m[0, body] for body in deck])
+    # The deck is 14 m long with its overhangs, 8.5 m wide and 0.25 m thick.
+    np.testing.assert_allclose(np.ptp(corners, axis=0), (14.0, 8.5, 0.25), atol=1e-5)
+    assert read_scenario(folder / "scenario_as_run.toml") == SPAN
+
+
 def test_deck_stands_until_the_ball_hits(span):
     """Bullet wakes the bridge when the ball's bounding box meets the deck's, one sub-step or two before they touch."""
     _, summary, results = span

@@ -64,7 +64,7 @@ def test_free_flight_with_spin_keeps_its_energy(blender, tmp_path):
 
 
 def test_a_pendulum_turns_height_into_motion_and_rotation_and_back(blender, tmp_path):
-    """A rigid block on a point swings from the horizontal. A seventh of its kinetic energy is rotation: I / (I + m l²)."""
+    """A block on a point swings from the horizontal. A seventh of its kinetic energy is rotation: I / (I + m l²)."""
     blocks = Blocks(frames_per_second=60, substeps_per_frame=20, solver_iterations=100)
     pivot = blocks.block((0, 0, 20), size_m=(0.2, 0.2, 0.2))
     bob = blocks.block((1, 0, 20), 50.0)

@@ -1,0 +1,96 @@
+"""``bda report``, and the report at the end of ``bda run``."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from run_folders import I235, flying_shards, keep_run
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.scenario import Exclusion
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+
+ROOT = Path(__file__).parents[2]
+
+
+def bda(*arguments):
+    command = [sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, encoding="utf-8", timeout=300)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return keep_run(tmp_path / "run", flying_shards(6, 13))
+
+
+def test_a_report_says_how_far_it_is_and_where_it_lies(folder, capsys):
+    assert main(["report", str(folder)]) == 0
+    printed = capsys.readouterr()
+    lines = printed.out.splitlines()
+    assert printed.err == ""
+    assert any(line.endswith(" pictures drawn") for line in lines)
+    assert any(line.endswith(" pages written") for line in lines)
+    for name in ("report.html", "report.pdf", "exclusion_zone.dxf"):
+        assert str(folder / name) in lines
+        assert (folder / name).stat().st_size > 0
+
+
+def test_it_goes_elsewhere_and_is_quiet_when_asked(folder, tmp_path, capsys):
+    before = sorted(folder.rglob("*"))
+    assert main(["report", str(folder), "--output", str(tmp_path / "a" / "b"), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+    assert (tmp_path / "a" / "b" / "report.html").is_file()
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_what_is_no_run_is_wrong_input(tmp_path, capsys):
+    assert main(["report", str(tmp_path)]) == 2
+    complained = capsys.readouterr().err
+    assert complained == f"bda: error: {tmp_path}: holds no run: expected results.npz or force_log.csv in it\n"
+
+
+def test_several_runs_without_a_folder_are_wrong_input(folder, capsys):
+    assert main(["report", str(folder), str(folder)]) == 2
+    assert "give one with --output" in capsys.readouterr().err
+
+
+def test_an_output_that_is_a_file_is_wrong_input(folder, tmp_path, capsys):
+    (tmp_path / "file").write_text("mine")
+    assert main(["report", str(folder), "--output", str(tmp_path / "file"), "--quiet"]) == 2
+    assert "the report cannot be written" in capsys.readouterr().err
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_a_report_needs_no_blender(folder):
+    code = (
+        "import sys; sys.modules['bpy'] = None\n"
+        "from bridge_demolition_addon.cli.main import main\n"
+        f"sys.exit(main(['report', {str(folder)!r}, '--quiet']))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_run_ends_with_a_report_when_asked(tmp_path):
+    small = replace(
+        I235,
+        time=replace(I235.time, duration_s=0.5),
+        fracture=replace(I235.fracture, shards=10),
+        connections=replace(I235.connections, search_radius_m=3.0),
+        ball=replace(I235.ball, drop_height_m=0.1, release_time_s=0.0),
+        exclusion=Exclusion(buffer_m=3.0),
+    )
+    path, output = tmp_path / "small.toml", tmp_path / "out"
+    path.write_text(scenario_text(small), encoding="utf-8")
+    done = bda("run", path, "--output", output, "--no-pictures", "--report")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    for name in ("report.html", "report.pdf", "exclusion_zone.dxf", "tables/debris.csv", "scenario_as_run.toml"):
+        assert lines.count(str(output / name)) == 1, name
+    assert read_scenario(output / "scenario_as_run.toml") == small
+    assert "I-235 bridge, one span, wrecking ball" in (output / "report.html").read_text(encoding="utf-8")
+    # Another run in the same folder leaves nothing of the report, which would be that of this one.
+    assert bda("run", path, "--output", output, "--no-pictures", "--overwrite", "--quiet").returncode == 0
+    assert not list(output.glob("report.*")) and not list(output.glob("tables/*.csv"))

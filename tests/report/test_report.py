@@ -1,0 +1,333 @@
+"""Reports from the folders of runs: complete in themselves, whole or cut short, one or several."""
+
+import csv
+import re
+import shutil
+import subprocess
+import time
+from base64 import b64decode
+from dataclasses import fields, replace
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from moving_boxes import moving_boxes
+from run_folders import I235, TOLD, flying_shards, keep_run
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.core.results import Results
+from bridge_demolition_addon.report.cover import cover_section
+from bridge_demolition_addon.report.document import Paragraph
+from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.report.write import write_report
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+class Page(HTMLParser):
+    """What is on a page: its texts, pictures and headings, and all that would be fetched from elsewhere."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.tags, self.texts, self.pictures, self.fetched, self.notices = [], [], [], [], []
+        self._in_notice = False
+        self.feed(html)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.tags.append(tag)
+        self._in_notice = "notice" in attributes.get("class", "")
+        for name in ("src", "href"):
+            if attributes.get(name, "#").startswith("data:image"):
+                self.pictures.append(attributes[name])
+            elif name in attributes and not attributes[name].startswith(("#", "data:,")):
+                self.fetched.append(attributes[name])
+
+    def handle_data(self, data):
+        self.texts.append(data)
+        if self._in_notice:
+            self.notices.append(data)
+
+    def handle_endtag(self, tag):
+        self._in_notice = False
+
+    @property
+    def text(self):
+        return " ".join(self.texts)
+
+
+def made(folder, *more, **options):
+    """The page of a report, and all files written."""
+    written = write_report([folder, *more], options.pop("output", None), progress=Silence(), **options)
+    return Page(written[0].read_text(encoding="utf-8")), written
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A run with everything there is to tell of, and its report."""
+    folder = keep_run(tmp_path_factory.mktemp("runs") / "whole", flying_shards())
+    return folder, *made(folder, trajectories=True)
+
+
+def notices_on_the_cover(run):
+    return {block.text for block in cover_section(run, "0").blocks if isinstance(block, Paragraph) and block.is_notice}
+
+
+def table(folder, name):
+    with (folder / "tables" / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_everything_is_in_the_page(whole):
+    _, page, _ = whole
+    assert page.fetched == [] and "script" not in page.tags
+    assert len(page.pictures) == page.tags.count("img") >= 12
+    for picture in page.pictures:
+        kind, content = picture.split(";base64,")
+        decoded = b64decode(content, validate=True)
+        if kind == "data:image/svg+xml":
+            assert ElementTree.fromstring(decoded).tag.endswith("svg")
+        else:
+            assert decoded.startswith(PNG)
+
+
+def test_names_of_the_user_are_text_and_nothing_else(whole):
+    _, page, _ = whole
+    assert TOLD.title in page.texts
+    assert "b" not in page.tags
+    assert "Road <1> $2$" in page.texts
+
+
+def test_all_sections_are_there(whole):
+    _, page, _ = whole
+    numbered = re.findall(
+        r"\d (The run|What is modelled[^1]*?|Debris|Exclusion zone|Forces|Collapse|Blast|The scenario)", page.text
+    )
+    assert len(set(numbered)) == 8
+
+
+def test_the_pdf_is_one(whole):
+    _, _, written = whole
+    content = written[1].read_bytes()
+    assert content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
+    assert len(re.findall(rb"/Type /Page\b", content)) >= 8
+
+
+def test_the_same_run_gives_the_same_report(whole, tmp_path):
+    folder, _, written = whole
+    made(folder, output=tmp_path, trajectories=True)
+    for path in written:
+        again = tmp_path / path.relative_to(folder)
+        assert again.read_bytes() == path.read_bytes(), path.name
+
+
+def test_tables_hold_what_the_results_say(whole):
+    folder, _, _ = whole
+    results = flying_shards()
+    first, last = results.places_m[0, :-1], results.places_m[-1, :-1]
+    throws = np.hypot(*(last - first)[:, :2].T)
+    rows = table(folder, "largest_throws")
+    assert [row["shard"] for row in rows] == [f"Shard {row:05d}" for row in np.argsort(-throws)[:10]]
+    assert [float(row["throw_m"]) for row in rows] == pytest.approx(sorted(throws, reverse=True)[:10])
+    road, far = table(folder, "zones")
+    assert int(road["bodies_entered"]) > 0 and float(road["first_entry_s"]) > 0.0
+    assert (far["bodies_entered"], far["first_entry_s"]) == ("0", "")
+    assert {row["charge"]: float(row["mass_kg"]) for row in table(folder, "charges")} == {"Charge 1": 5, "Charge 2": 2}
+    assert [row["neighbour"] for row in table(folder, "neighbours")] == ["House", "School & yard"]
+    broken = sum(int(row["broken"]) for row in table(folder, "breaking"))
+    assert broken == (~results.intact[-1]).sum()
+    (hit,) = table(folder, "hits_of_the_ball")
+    assert float(hit["impulse_kNs"]) == pytest.approx(50.0)
+
+
+def test_site_plans_lie_beside_it(whole):
+    _, _, written = whole
+    assert {path.name for path in written} >= {"exclusion_zone.dxf", "exclusion_zone.geojson", "exclusion_corners.csv"}
+    assert all(path.is_file() for path in written)
+
+
+def test_without_charges_and_ball_there_is_no_word_of_them(tmp_path):
+    results = moving_boxes([0, 1], [(1, 1, 1)] * 2, [[(0, 0, 5), (3, 0, 5)], [(1, 1, 0.5), (3, 2, 0.5)]])
+    page, written = made(keep_run(tmp_path / "run", results, replace(I235, ball=None)))
+    assert "Blast" not in page.texts and "There is no ball in this run." in page.texts
+    assert not any(path.name == "charges.csv" for path in written)
+    assert any("gives no exclusion zone" in text for text in page.notices)
+
+
+def test_a_run_of_one_frame_says_so(tmp_path):
+    results = flying_shards()
+    series = {
+        item.name: getattr(results, item.name)[:1]
+        for item in fields(Results)
+        if getattr(results, item.name).shape[:1] == (25,)
+    }
+    no_ball = {name: getattr(results, name)[:0] for name in ("ball_times_s", "ball_impulses_ns", "ball_velocities_m_s")}
+    page, written = made(keep_run(tmp_path / "run", replace(results, **series | no_ball)))
+    assert any("Only one frame" in text for text in page.notices)
+    assert any("there is no debris" in text for text in page.notices)
+    assert written[1].stat().st_size > 0
+
+
+def test_a_run_that_was_stopped_says_so(tmp_path):
+    run = read_run(keep_run(tmp_path / "run", flying_shards(), completed=False))
+    assert any("stopped before its time" in text for text in run.shortcomings)
+    assert notices_on_the_cover(run) >= set(run.shortcomings)
+
+
+def killed_run(folder, last_lines):
+    folder.mkdir()
+    header = "frame,time_s,body,force_x_N,peak_force_N,peak_force_sum_N"
+    lines = [
+        f"{2 + k},{0.5 * k},{body},1,{10 * k},{30 * k}" for k in range(3) for body in ("Ground", "Shard 0", "Shard 1")
+    ]
+    (folder / "force_log.csv").write_text("\n".join([header, *lines, *last_lines]), encoding="utf-8")
+    (folder / "breaking_log.csv").write_text("frame,time_s,connection\n3,0.5,A\n3,0.5,B\n", encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("last_lines", [[], ["5,1.5,Ground,1,2,3", "5,1.5,Sh"]], ids=["whole", "in mid-line"])
+def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
+    page, _ = made(killed_run(tmp_path / "run", last_lines))
+    assert any("was killed before it could write results.npz" in text for text in page.notices)
+    assert any("not whole" in text for text in page.notices) is bool(last_lines)
+    assert "1.000 s as far as logged" in page.texts
+    assert "Connections broken as far as logged: 2." in page.texts
+    assert len(page.pictures) == 1
+
+
+def test_a_scene_that_was_built_by_hand_has_no_scenario(tmp_path):
+    page, _ = made(keep_run(tmp_path / "run", flying_shards(), None))
+    assert any("There is no scenario_as_run.toml" in text for text in page.notices)
+    assert "By hand" in page.texts
+
+
+@pytest.mark.parametrize(
+    "name, content, said",
+    [
+        ("summary.json", "{", "summary.json cannot be read"),
+        ("summary.json", "[]", "summary.json is not what a run writes"),
+        ("summary.json", None, "There is no summary.json"),
+        ("scenario_as_run.toml", "x = ", "The scenario of the run cannot be read: "),
+        ("scenario_as_run.toml", None, "There is no scenario_as_run.toml"),
+    ],
+)
+def test_what_cannot_be_read_is_said(tmp_path, name, content, said):
+    folder = keep_run(tmp_path / "run", flying_shards())
+    (folder / name).unlink()
+    if content is not None:
+        (folder / name).write_text(content, encoding="utf-8")
+    run = read_run(folder)
+    (shortcoming,) = run.shortcomings
+    assert shortcoming.startswith(said)
+    assert shortcoming in notices_on_the_cover(run)
+    assert (run.summary is None) is (name == "summary.json")
+    assert (run.scenario is None) is (name != "summary.json")
+
+
+def test_damaged_results_are_said_and_left_out(tmp_path):
+    folder = killed_run(tmp_path / "run", [])
+    (folder / "results.npz").write_bytes(b"PK")
+    page, _ = made(folder)
+    assert any("results.npz cannot be read" in text for text in page.notices)
+
+
+def test_a_recording_without_forces_is_reported_without_them(tmp_path):
+    results = flying_shards()
+    unknown = {
+        name: np.full_like(getattr(results, name), np.nan)
+        for name in ("body_sums_n", "body_peak_sums_n", "body_contact_impulses_ns", "von_mises_pa", "stresses_pa")
+    }
+    page, _ = made(keep_run(tmp_path / "run", replace(results, **unknown)))
+    assert any("Forces were not recorded" in text for text in page.notices)
+    assert "6 Collapse" in page.texts
+
+
+@pytest.mark.parametrize("what", ["nothing", "a file", "an empty folder", "another folder"])
+def test_what_is_no_run_is_refused(tmp_path, what):
+    folder = tmp_path / "run"
+    if what == "a file":
+        folder.write_text("")
+    elif what != "nothing":
+        folder.mkdir()
+    if what == "another folder":
+        (folder / "summary.json").write_text("{}")
+    message = {"nothing": "found nothing", "a file": "found a file"}.get(what, "holds no run: expected results.npz")
+    with pytest.raises(OutputError, match=message):
+        made(folder)
+    assert not (folder / "report.html").exists()
+
+
+def test_runs_are_set_side_by_side(tmp_path):
+    results = flying_shards()
+    halved = replace(results, places_m=results.places_m[:1] + (results.places_m - results.places_m[:1]) / 2)
+    folders = [keep_run(tmp_path / name / "run", each) for name, each in (("a", results), ("b", halved))]
+    page, _ = made(*folders, output=tmp_path / "both")
+    rows = {row["finding"]: row for row in table(tmp_path / "both", "comparison")}
+    throw = rows["Largest throw"]
+    assert float(throw["run (1)"]) == pytest.approx(2.0 * float(throw["run (2)"]))
+    assert len(page.pictures) == 4
+    assert not (folders[0] / "report.html").exists()
+
+
+def test_a_killed_run_beside_a_whole_one_is_named(tmp_path):
+    folders = [keep_run(tmp_path / "whole", flying_shards()), killed_run(tmp_path / "killed", [])]
+    page, _ = made(*folders, output=tmp_path / "both")
+    assert any(text.startswith("killed: The run was killed") for text in page.notices)
+    assert list(table(tmp_path / "both", "comparison")[0]) == ["finding", "unit", "whole"]
+
+
+def test_several_runs_need_a_folder_of_their_own(tmp_path):
+    folder = keep_run(tmp_path / "run", flying_shards())
+    with pytest.raises(OutputError, match="give one with --output"):
+        made(folder, folder)
+
+
+def test_two_hundred_shards_take_less_than_twenty_seconds(tmp_path):
+    """Time of this process, so that others on the machine do not count."""
+    folder = keep_run(tmp_path / "run", flying_shards(200, 150))
+    began = time.process_time()
+    made(folder)
+    assert time.process_time() - began < 20.0
+
+
+needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on the path to open the page in")
+
+COUNT_PICTURES = """<script>addEventListener("load", () => {
+  const broken = [...document.images].filter(image => !image.complete || !image.naturalWidth);
+  document.body.dataset.broken = broken.length;
+});</script></body>"""
+
+
+def opened(tmp_path, *arguments):
+    options = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run")
+    command = [CHROMIUM, *options, f"--user-data-dir={tmp_path / 'profile'}", "--enable-logging=stderr", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, encoding="utf-8", timeout=120, check=True)
+
+
+def broken_pictures(tmp_path, html):
+    path = tmp_path / "counted.html"
+    path.write_text(html.replace("</body>", COUNT_PICTURES), encoding="utf-8")
+    shown = opened(tmp_path, "--dump-dom", path.as_uri())
+    return int(re.search(r'data-broken="(\d+)"', shown.stdout)[1]), shown.stderr
+
+
+@needs_chromium
+def test_a_browser_shows_it_without_a_complaint(whole, tmp_path):
+    _, _, written = whole
+    broken, complaints = broken_pictures(tmp_path, written[0].read_text(encoding="utf-8"))
+    assert broken == 0
+    assert "CONSOLE" not in complaints
+    spoilt = written[0].read_text(encoding="utf-8").replace("base64,PD94", "base64,AAAA", 1)
+    assert broken_pictures(tmp_path, spoilt)[0] == 1  # the count can tell
+
+
+@needs_chromium
+def test_a_browser_prints_it(whole, tmp_path):
+    _, _, written = whole
+    printed = tmp_path / "printed.pdf"
+    opened(tmp_path, f"--print-to-pdf={printed}", "--no-pdf-header-footer", written[0].as_uri())
+    assert printed.read_bytes().startswith(b"%PDF-")
+    assert len(re.findall(rb"/Type ?/Page\b", printed.read_bytes())) >= 5

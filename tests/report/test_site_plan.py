@@ -1,0 +1,85 @@
+"""Site plans: read back, and placed on earth as tables of the ellipsoid say."""
+
+import json
+
+import numpy as np
+import pytest
+from manifold3d import CrossSection
+
+from bridge_demolition_addon.core.scenario import Site
+from bridge_demolition_addon.report.site_plan import degrees, write_dxf, write_geojson
+
+SQUARE = CrossSection.square((10.0, 4.0))
+RING = CrossSection.square((10.0, 10.0)) - CrossSection.square((2.0, 2.0)).translate((4.0, 4.0))
+
+
+def polylines(path):
+    """Layer, closedness and corners of every polyline in a DXF file."""
+    lines = path.read_bytes().decode("ascii").split("\r\n")
+    pairs = [(lines[row].strip(), lines[row + 1]) for row in range(0, len(lines) - 1, 2)]
+    found = []
+    for code, value in pairs:
+        if (code, value) == ("0", "POLYLINE"):
+            found.append({"layer": None, "closed": None, "corners": [], "in vertex": False})
+        elif code == "0" and found:
+            found[-1]["in vertex"] = value == "VERTEX"
+            if value == "VERTEX":
+                found[-1]["corners"].append([0.0, 0.0])
+        elif code == "8" and found and found[-1]["layer"] is None:
+            found[-1]["layer"] = value
+        elif code == "70" and found:
+            found[-1]["closed"] = value == "1"
+        elif code in ("10", "20") and found and found[-1]["in vertex"]:
+            found[-1]["corners"][-1][int(code) // 10 - 1] = float(value)
+    assert pairs[-1] == ("0", "EOF")
+    return found
+
+
+def test_dxf_has_closed_lines_in_metres(tmp_path):
+    write_dxf(tmp_path / "plan.dxf", {"exclusion zone": SQUARE, "bridge": RING})
+    square, *ring = polylines(tmp_path / "plan.dxf")
+    assert (square["layer"], square["closed"]) == ("EXCLUSION_ZONE", True)
+    assert sorted(square["corners"]) == [[0, 0], [0, 4], [10, 0], [10, 4]]
+    assert [each["layer"] for each in ring] == ["BRIDGE", "BRIDGE"]  # outline and hole
+    assert all(len(each["corners"]) == 4 and each["closed"] for each in ring)
+
+
+@pytest.mark.parametrize(
+    "latitude, north_m, east_m",
+    # Lengths of a degree of latitude and of longitude on WGS 84 (NGA, length of a degree).
+    [(0.0, 110_574, 111_320), (30.0, 110_852, 96_486), (60.0, 111_412, 55_800)],
+)
+def test_a_degree_is_as_long_as_tables_say(latitude, north_m, east_m):
+    site = Site(latitude_deg=latitude, longitude_deg=10.0, bearing_deg=90.0)
+    (east, north) = degrees(np.array([[100.0, 0.0], [0.0, 100.0]]), site)
+    assert east == pytest.approx((10.0 + 100.0 / east_m, latitude), abs=1e-8)
+    assert north == pytest.approx((10.0, latitude + 100.0 / north_m), abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    "bearing, x_goes, y_goes", [(0, "north", "west"), (90, "east", "north"), (180, "south", "east")]
+)
+def test_bearings_run_clockwise_from_north(bearing, x_goes, y_goes):
+    site = Site(latitude_deg=0.0, longitude_deg=0.0, bearing_deg=bearing)
+    directions = {"north": (0, 1), "south": (0, -1), "east": (1, 0), "west": (-1, 0)}
+    for point, name in (((100.0, 0.0), x_goes), ((0.0, 100.0), y_goes)):
+        (place,) = degrees(np.array([point]), site)
+        np.testing.assert_allclose(place / np.abs(place).max(), directions[name], atol=1e-9)
+
+
+def test_geojson_has_closed_rings_and_holes(tmp_path):
+    two = RING + CrossSection.square((1.0, 1.0)).translate((50.0, 0.0))
+    write_geojson(tmp_path / "plan.geojson", {"zone": two}, Site(latitude_deg=41.6, longitude_deg=-93.6))
+    content = json.loads((tmp_path / "plan.geojson").read_text(encoding="utf-8"))
+    (feature,) = content["features"]
+    assert (content["type"], feature["geometry"]["type"]) == ("FeatureCollection", "MultiPolygon")
+    assert feature["properties"] == {"name": "zone", "area_m2": 97.0}
+    rings = sorted(len(part) for part in feature["geometry"]["coordinates"])
+    assert rings == [1, 2]
+    for part in feature["geometry"]["coordinates"]:
+        for number, ring in enumerate(part):
+            assert ring[0] == ring[-1]
+            x, y = np.array(ring).T
+            area = np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
+            assert (area > 0) == (number == 0)  # RFC 7946: outer rings anticlockwise, holes clockwise
+        assert np.abs(np.array(part[0]) - (-93.6, 41.6)).max() < 0.001
