@@ -63,6 +63,7 @@ def moving_boxes(
         "body_peak_sums_n": bodies,
         "body_contact_impulses_ns": vectors,
         "body_signed_2019_n": bodies,
+        "blast_impulses_ns": vectors,
         "stresses_pa": np.zeros((steps, count, 3, 3)),
         "von_mises_pa": bodies,
         "connection_names": np.zeros(0, str),
