@@ -1,1 +1,1 @@
-"""Charts made with matplotlib from the results of a run."""
+"""Reports and charts made with matplotlib from the results of a run."""

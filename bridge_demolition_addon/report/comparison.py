@@ -59,7 +59,7 @@ def _finding_table(runs: Sequence[tuple[str, Run]]) -> DataTable:
     columns = (
         Column("", "finding"),
         Column("unit", "unit"),
-        *(Column(name, name, ".4g") for name, _ in runs),
+        *(Column(name, name, ".5g") for name, _ in runs),
     )
     rows = [(same[0].label, same[0].unit, *(each.value for each in same)) for same in zip(*by_run, strict=True)]
     return DataTable("comparison", "Main findings", columns, rows)

@@ -43,7 +43,7 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
         axes.add_collection(PolyCollection([ball_outline], facecolors="0.25", edgecolors="black", linewidths=0.5))
     axes.axhline(0.0, color="black", linewidth=1.2)
     axes.autoscale_view()
-    axes.set(xlabel="x along the road (m)", ylabel="height above the ground (m)")
+    axes.set(xlabel="x along the road (m)", ylabel="height (m)")
     figure.colorbar(
         drawn, ax=axes, label="equivalent stress (MPa)", extend="min", orientation="horizontal", aspect=40, shrink=0.6
     )

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..core.collapse import rest_of
 from ..core.results import Results
 from .document import Block, Column, DataTable, Listing, Paragraph, Photo, Section, facts
-from .run_folder import PICTURES, Run
+from .findings import IMPACT, findings
+from .run_folder import Run
 
 SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
@@ -51,7 +53,7 @@ def cover_section(run: Run, version: str) -> Section:
     if run.results is not None:
         blocks += [Paragraph(text, is_notice=True) for text in _doubts(run)]
         blocks.append(DataTable("findings", "Main findings", _FACT_COLUMNS, list(_findings(run))))
-    blocks += [Photo(path, PICTURES[name]) for name, path in run.pictures.items()]
+    blocks += [Photo(path, _caption(run, name)) for name, path in run.pictures.items()]
     return Section("The run", tuple(blocks))
 
 
@@ -135,6 +137,12 @@ def _doubts(run: Run) -> Iterator[str]:
     results = run.results
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
+    rest = rest_of(results)
+    if rest.moving_at_end:
+        yield (
+            f"{rest.moving_at_end} of {len(results.of_kind('shard'))} shards still move at the end of the run: throws, "
+            "footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
+        )
     if np.isnan(results.body_sums_n[1:]).any():
         yield (
             "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
@@ -145,6 +153,13 @@ def _doubts(run: Run) -> Iterator[str]:
 
 
 def _findings(run: Run) -> Iterator[tuple[str, str]]:
-    from .findings import findings
+    has_ball = len(run.results.of_kind("ball")) > 0
+    yield from ((each.label, each.text) for each in findings(run) if has_ball or each.label != IMPACT)
 
-    yield from ((each.label, each.text) for each in findings(run))
+
+def _caption(run: Run, picture: str) -> str:
+    if picture == "impact":
+        if run.impact_s is not None:
+            return "At the impact of the ball"
+        return "When the blast last pushed" if run.summary and run.summary.get("blast") else "At the largest force"
+    return {"before": "Before", "after": "At the end"}[picture]

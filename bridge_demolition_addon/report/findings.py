@@ -11,6 +11,8 @@ from ..core.debris import debris_of, percentiles_by_mass
 from ..core.loads import most_loaded
 from .run_folder import Run
 
+IMPACT = "Impact of the ball"
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:
@@ -29,7 +31,7 @@ def findings(run: Run) -> list[Finding]:
     broken = int((~results.intact[-1]).sum())
     count = results.intact.shape[1]
     found = [
-        _finding("Impact of the ball", "s", run.impact_s, ".3f"),
+        _finding(IMPACT, "s", run.impact_s, ".3f"),
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
         _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", "not at rest at the end"),

@@ -24,7 +24,7 @@ NAMED_THROWS = 5
 
 _ROOM = 0.04
 _LABEL_SHARE = 0.03
-"""Where in its length a zone has its name: at its beginning, beside the bridge and not on it."""
+"""Where a zone has its name: in its upper left corner, so much of its sides away from them."""
 
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
@@ -122,8 +122,8 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
         axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
         low, high = corners.min(axis=0), corners.max(axis=0)
-        place = low + (high - low) * (_LABEL_SHARE, 0.5)
-        axes.annotate(plain(zone.name), place, ha="left", va="center", fontsize=7, bbox=box, zorder=5)
+        place = low + (high - low) * (_LABEL_SHARE, 1.0 - _LABEL_SHARE)
+        axes.annotate(plain(zone.name), place, ha="left", va="top", fontsize=7, bbox=box, zorder=5)
 
 
 def plain(text: str) -> str:

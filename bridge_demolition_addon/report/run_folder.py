@@ -20,11 +20,7 @@ SUMMARY = "summary.json"
 SCENARIO = "scenario_as_run.toml"
 FORCE_LOG = "force_log.csv"
 BREAKING_LOG = "breaking_log.csv"
-PICTURES = {
-    "before": "Before",
-    "impact": "At the impact of the ball, or at the largest force where there is none",
-    "after": "At the end",
-}
+PICTURES = ("before", "impact", "after")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -126,8 +122,13 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
     try:
         return load_results(path)
     except OutputError as error:
-        shortcomings.append(f"{RESULTS} cannot be read, and all that needs it is left out. {error}")
+        shortcomings.append(f"{RESULTS} cannot be read, and all that needs it is left out: {_reason(error, path)}.")
         return None
+
+
+def _reason(error: Exception, path: Path) -> str:
+    """What an error says, without the path that it begins with: a report is read elsewhere."""
+    return str(error).removeprefix(f"{path}: ")
 
 
 def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
@@ -157,7 +158,7 @@ def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
     try:
         return read_scenario(path)
     except ScenarioError as error:
-        shortcomings.append(f"The scenario of the run cannot be read: {error}")
+        shortcomings.append(f"The scenario of the run cannot be read: {_reason(error, path)}.")
         return None
 
 
