@@ -26,7 +26,8 @@ from .site_plan import write_dxf, write_geojson
 HTML, PDF, TABLES = "report.html", "report.pdf", "tables"
 DXF, GEOJSON = "exclusion_zone.dxf", "exclusion_zone.geojson"
 
-_MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
+_MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (1, 2))
+"""Of an extension inside Blender, and of the project's own folder."""
 
 
 class Progress(Protocol):
@@ -84,9 +85,8 @@ def add_on_version() -> str:
     try:
         return version("bridge-demolition-addon")
     except PackageNotFoundError:  # an extension inside Blender, or a plain copy
-        return (
-            str(tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))["version"]) if _MANIFEST.is_file() else "unknown"
-        )
+        found = [path for path in _MANIFESTS if path.is_file()]
+        return str(tomllib.loads(found[0].read_text(encoding="utf-8"))["version"]) if found else "unknown"
 
 
 def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -> list[Path]:

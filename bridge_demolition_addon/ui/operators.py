@@ -117,7 +117,57 @@ class BDA_OT_unregister_handler(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (BDA_OT_build_scenario, BDA_OT_register_handler, BDA_OT_unregister_handler)
+class BDA_OT_make_report(bpy.types.Operator):
+    """Make a report, as a page and as a PDF, from the results in the folder"""
+
+    bl_idname = "bda.make_report"
+    bl_label = "Make Report"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not context.scene.bda.output_directory:
+            cls.poll_message_set("Choose the folder with the results first")
+            return False
+        if handlers.current():
+            cls.poll_message_set("The recording still goes on: unregister the handler first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.
+        from ..report.write import write_report
+
+        progress = _CursorProgress(context.window_manager)
+        try:
+            written = write_report([_absolute(context.scene.bda.output_directory)], None, progress=progress)
+        except DemolitionError as error:
+            return _refused(self, error)
+        finally:
+            progress.finish()
+        self.report({"INFO"}, f"Report: {written[0]} and {written[1].name}")
+        return {"FINISHED"}
+
+
+class _CursorProgress:
+    """How far a report is, at the mouse."""
+
+    def __init__(self, manager: bpy.types.WindowManager):
+        self._manager = manager
+        manager.progress_begin(0.0, 1.0)
+
+    def stage(self, text: str) -> None:
+        """Blender's cursor shows numbers only."""
+
+    def part(self, done: int, total: int, text: str) -> None:
+        """Show how many parts of a stage are done."""
+        self._manager.progress_update(done / total)
+
+    def finish(self) -> None:
+        """Give the mouse back."""
+        self._manager.progress_end()
+
+
+CLASSES = (BDA_OT_build_scenario, BDA_OT_register_handler, BDA_OT_unregister_handler, BDA_OT_make_report)
 
 
 def register() -> None:

@@ -54,7 +54,16 @@ class BDA_PT_handler(_SidebarPanel, bpy.types.Panel):
             _draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
 
 
-CLASSES = (BDA_PT_scenario, BDA_PT_handler)
+class BDA_PT_report(_SidebarPanel, bpy.types.Panel):
+    """What is handed over of a run."""
+
+    bl_label = "Report"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.operator("bda.make_report")
+
+
+CLASSES = (BDA_PT_scenario, BDA_PT_handler, BDA_PT_report)
 
 
 def register() -> None:

@@ -151,7 +151,7 @@ def test_site_plans_lie_beside_it(whole):
 
 def test_without_charges_and_ball_there_is_no_word_of_them(tmp_path):
     results = moving_boxes([0, 1], [(1, 1, 1)] * 2, [[(0, 0, 5), (3, 0, 5)], [(1, 1, 0.5), (3, 2, 0.5)]])
-    page, written = made(keep_run(tmp_path / "run", results, replace(I235, ball=None)))
+    page, written = made(keep_run(tmp_path / "run", results, replace(I235, ball=None, exclusion=None)))
     assert "Blast" not in page.texts and "There is no ball in this run." in page.texts
     assert not any(path.name == "charges.csv" for path in written)
     assert any("gives no exclusion zone" in text for text in page.notices)
