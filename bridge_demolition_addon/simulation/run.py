@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -25,7 +26,8 @@ from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
 from . import handlers
-from .output import PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
+from .film import make_film
+from .output import FILM_FILE, PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
 from .recording import Recording
 
 PICTURES = ("before", "impact", "after")
@@ -40,9 +42,12 @@ class Progress(Protocol):
     def frame(self, done: int, total: int, broken: int) -> None:
         """Say how many frames are done and how many connections broken."""
 
+    def part(self, done: int, total: int, text: str) -> None:
+        """Say how many parts of a stage are done."""
+
 
 def run_scenario(
-    scenario: Scenario, output: Path, *, overwrite: bool, pictures: bool, progress: Progress
+    scenario: Scenario, output: Path, *, overwrite: bool, pictures: bool, progress: Progress, film: bool = False
 ) -> dict[str, Any]:
     """Simulate a scenario in a new, otherwise empty Blender file and keep everything in a folder.
 
@@ -58,6 +63,8 @@ def run_scenario(
         Whether to render pictures.
     progress
         Told about every stage and frame.
+    film
+        Whether to make a film, which takes a second or more for every frame where there is no graphics card.
 
     Returns
     -------
@@ -110,6 +117,11 @@ def run_scenario(
     if pictures:
         progress.stage("rendering pictures")
         _render(scene, folder, summary)
+    if film:
+        progress.stage("rendering the film")
+        moment = _decisive_moment(summary)
+        path = folder.resolve() / FILM_FILE
+        make_film(scene, results, moment and moment["time_s"], path, partial(progress.part, text="frames rendered"))
     return summary
 
 
@@ -221,9 +233,14 @@ def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
     }
 
 
+def _decisive_moment(summary: dict[str, Any]) -> dict[str, Any] | None:
+    """Frame and time of the impact, or else of the blast or of the largest force."""
+    blast = summary["blast"] and summary["blast"]["last_load"]
+    return summary["impact"] or blast or summary["largest_force_sum"]
+
+
 def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
     """Pictures at the start, at the impact (or else the blast, or the largest force) and at the end."""
-    blast = summary["blast"] and summary["blast"]["last_load"]
-    moment = summary["impact"] or blast or summary["largest_force_sum"] or {"frame": scene.frame_end}
+    moment = _decisive_moment(summary) or {"frame": scene.frame_end}
     for name, frame in zip(PICTURES, (START_FRAME, moment["frame"], scene.frame_end), strict=True):
         render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")
