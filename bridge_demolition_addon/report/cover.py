@@ -124,9 +124,10 @@ def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
 
 def _breaking_text(run: Run) -> str:
     settings = run.scenario.connections
+    others = "; differently between some members, see the scenario" if settings.between else ""
     if settings.breaking_force_newton is not None:
-        return f"at one force, {settings.breaking_force_newton / 1e3:.1f} kN"
-    return f"by the strength of {settings.material}"
+        return f"at one force, {settings.breaking_force_newton / 1e3:.1f} kN{others}"
+    return f"by the strength of {settings.material}{others}"
 
 
 def _range_text(low: float, high: float, unit: str) -> str:
