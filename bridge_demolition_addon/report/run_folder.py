@@ -14,6 +14,7 @@ from ..core.errors import OutputError, ScenarioError
 from ..core.results import Results, load_results
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
+from ..core.taken_away import without_taken_away
 
 RESULTS = "results.npz"
 SUMMARY = "summary.json"
@@ -120,10 +121,16 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
         )
         return None
     try:
-        return load_results(path)
+        results, taken_away = without_taken_away(load_results(path))
     except OutputError as error:
         shortcomings.append(f"{RESULTS} cannot be read, and all that needs it is left out: {_reason(error, path)}.")
         return None
+    if taken_away:
+        shortcomings.append(
+            f"{taken_away} shards were taken away in the course of the run, as the scenario says. They are no "
+            "debris, and are left out of everything here, masses, loads and energies of the time before included."
+        )
+    return results
 
 
 def _reason(error: Exception, path: Path) -> str:

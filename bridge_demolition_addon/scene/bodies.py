@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 import trimesh
 
-from ..core.bridge import Member
 from ..core.fracture import Shard
 from ..core.scenario import Ball, Ground, ShardSettings
 from ..core.solids import box

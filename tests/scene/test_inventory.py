@@ -218,15 +218,14 @@ def test_vertices_are_as_large_as_the_body_and_in_its_own_axes(blocks):
     np.testing.assert_allclose(abs(corners), np.ones((8, 3)), rtol=SINGLE)
 
 
-def test_members_are_known_where_the_add_on_cut_the_shards(blocks):
-    from bridge_demolition_addon.core.bridge import Member
-    from bridge_demolition_addon.core.solids import box
-    from bridge_demolition_addon.scene.bodies import mark_members
+def test_members_are_known_where_they_are_marked(blocks):
+    from bridge_demolition_addon.scene.changes import mark_member
 
     blocks.block((0, 0, 0))
-    shards = [blocks.block((x, 0, 2), 1.0) for x in (0, 2, 4)]
-    solid = box((1, 1, 1))
-    mark_members(shards[:2], [Member("deck", "deck", solid), Member("pier 1", "pier", solid)], np.array([1, 0]))
+    pier, deck = (blocks.block((x, 0, 2), 1.0) for x in (0, 2))
+    blocks.block((4, 0, 2), 1.0)
+    mark_member(deck, "deck", "deck")
+    mark_member(pier, "pier 1", "pier")
     inventory = inventory_of(blocks.scene)
     assert inventory.body_members.tolist() == ["", "pier 1", "deck", ""]
     assert inventory.body_member_kinds.tolist() == ["", "pier", "deck", ""]
