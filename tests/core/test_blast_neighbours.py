@@ -34,7 +34,8 @@ def test_waves_that_arrive_together_add_up_and_apart_they_do_not():
 def test_the_pressure_over_time_has_the_impulse_of_the_pulse():
     load = loads_at((10.0, 0.0, 0.0), [charge(0.0, 8.0)])
     # Straight lines between 24 times of a decaying pulse.
-    assert np.trapezoid(load.pressures_pa, load.times_s) == pytest.approx(load.impulse_pa_s, rel=0.01)
+    means = (load.pressures_pa[1:] + load.pressures_pa[:-1]) / 2.0
+    assert np.sum(means * np.diff(load.times_s)) == pytest.approx(load.impulse_pa_s, rel=0.01)
 
 
 def test_explosives_count_by_pressure_for_pressure_and_by_impulse_for_impulse():
