@@ -16,7 +16,8 @@ from .run_folder import Run
 def collapse_section(run: Run) -> Section:
     """How the bridge came down."""
     results = run.results
-    lengths = run.scenario.bridge.span_lengths_m if run.scenario else ()
+    bridge = run.scenario.bridge if run.scenario else None  # there is none where all is of files or objects
+    lengths = bridge.span_lengths_m if bridge else ()
     spans, progress, energy = spans_of(results, lengths), collapse_progress(results), energy_of(results)
     told = (
         "Progress is the part of the height of the shards' common centre of mass above the ground that is lost: 100 % "
