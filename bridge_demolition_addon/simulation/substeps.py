@@ -20,6 +20,8 @@ from .events import Events
 from .load_reader import LoadReader
 from .ties import Ties
 
+_SINGLE_PRECISION = 1e-6
+
 
 @dataclass(frozen=True, slots=True)
 class Breaks:
@@ -100,13 +102,18 @@ class SubstepRecorder:
                 # As Bullet's own damping: a share of the velocity in a second, whatever the step.
                 self._world.slow_down(self._shards, (1.0 - self._breaking.warm_up_damping) ** substep_s)
             self._events.before_substep(self.elapsed_s, substep_s)
-            self._world.scale_thresholds(substep_s / self._threshold_step_s)
+            self._world.scale_thresholds(self._threshold_factor(substep_s))
             if self._ties:
                 self._ties.before_substep(substep_s)
             if self._blast:
                 self._blast.before_substep(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
+
+    def _threshold_factor(self, substep_s: float) -> float:
+        """Impulse of a steady force in this sub-step over that in the one that thresholds were made for."""
+        factor = substep_s / self._threshold_step_s
+        return 1.0 if abs(factor - 1.0) < _SINGLE_PRECISION else factor  # Blender reckons steps in single precision
 
     def after_substep(self, substep_s: float) -> None:
         """Take down a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
