@@ -34,7 +34,8 @@ TITLES = {
     Quantity.PRINCIPAL: "Largest principal stress",
 }
 
-_STRESSES = (Quantity.VON_MISES, Quantity.PRINCIPAL)
+STRESSES = (Quantity.VON_MISES, Quantity.PRINCIPAL)
+"""Quantities in Pa; all others are in N."""
 
 
 class RangeKind(StrEnum):
@@ -137,7 +138,7 @@ class Unit:
 
 def unit_of(quantity: Quantity, high: float) -> Unit:
     """The unit for a quantity whose largest magnitude is `high`, in N or Pa."""
-    if quantity in _STRESSES:
+    if quantity in STRESSES:
         return Unit("N/mm²", 1e6) if high >= 1e4 else Unit("kPa", 1e3)
     return Unit("MN", 1e6) if high >= 1e6 else Unit("kN", 1e3) if high >= 1e3 else Unit("N", 1.0)
 

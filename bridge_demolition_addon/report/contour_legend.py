@@ -1,4 +1,4 @@
-"""The colour bar of contours, laid over a rendered picture."""
+"""The colour bar of contours, beside a rendered picture."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ _DPI = 100.0
 _BAR_HEIGHT = 0.62
 _BAR_LEFT_EM, _BAR_WIDTH_EM, _PANEL_EM = 1.0, 1.6, 13.5
 _EM_SHARE = 1.0 / 40.0
-_SHADE = (0.08, 0.08, 0.08, 0.72)
+_SHADE = (0.1, 0.1, 0.1)
 
 
 def add_legend(picture: Path, settings: ContourSettings, frame: ContourFrame) -> None:
-    """Lay a colour bar with ticks, unit, name of the quantity, frame and time over the left of a PNG picture."""
+    """Put a colour bar with ticks, unit, name of the quantity, frame and time to the left of a PNG picture."""
     pixels = _opaque(imread(picture))
     legend = legend_pixels(pixels.shape[0], settings, frame)
-    width = min(legend.shape[1], pixels.shape[1])
-    legend, covered = legend[:, :width], pixels[:, :width]
-    opacity = legend[..., 3:]
-    pixels[:, :width] = legend[..., :3] * opacity + covered * (1.0 - opacity)
-    imsave(picture, np.clip(pixels, 0.0, 1.0))
+    imsave(picture, np.clip(np.hstack((legend, pixels)), 0.0, 1.0))
+
+
+def legend_width(height_px: int) -> int:
+    """How wide the legend of a picture is, px; an even number."""
+    return 2 * round(_PANEL_EM * _EM_SHARE * height_px / 2.0)
 
 
 def legend_pixels(height_px: int, settings: ContourSettings, frame: ContourFrame) -> np.ndarray:
-    """Pixels (height, width, 4) of the colour bar by itself, 0 to 1, from top to bottom."""
-    em_px = height_px * _EM_SHARE
-    width_px = round(_PANEL_EM * em_px)
+    """Pixels (height, width, 3) of the colour bar by itself, 0 to 1, from top to bottom."""
+    em_px, width_px = height_px * _EM_SHARE, legend_width(height_px)
     figure = Figure(figsize=(width_px / _DPI, height_px / _DPI), dpi=_DPI)
     canvas = FigureCanvasAgg(figure)
     figure.patch.set_facecolor(_SHADE)
@@ -56,7 +56,7 @@ def legend_pixels(height_px: int, settings: ContourSettings, frame: ContourFrame
     figure.text(left, 1.0 - bottom / 3.0, "\n".join([*lines, f"({unit.name})"]), va="top", **text)
     figure.text(left, bottom / 2.0, f"frame {frame.frame}\n{frame.time_s:.3f} s", va="center", **text)
     canvas.draw()
-    return np.asarray(canvas.buffer_rgba(), float) / 255.0
+    return np.asarray(canvas.buffer_rgba(), float)[..., :3] / 255.0
 
 
 def _opaque(pixels: np.ndarray) -> np.ndarray:

@@ -21,7 +21,13 @@ _HAD_MATERIAL, _MATERIAL_BEFORE = "bda_contours", "bda_material_before"
 
 _PLAIN = {
     "view_settings": {"view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0},
-    "display.shading": {"light": "FLAT", "color_type": "OBJECT", "show_shadows": False, "show_cavity": False},
+    "display.shading": {
+        "light": "FLAT",
+        "color_type": "OBJECT",
+        "show_shadows": False,
+        "show_cavity": False,
+        "show_object_outline": True,
+    },
 }
 """Settings with which a colour comes out of a render as it went in."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 
@@ -14,7 +14,7 @@ import numpy as np
 from ..core.contours import ContourSeries, ContourSettings
 from ..core.errors import ContourError, OutputError
 from ..core.film import film_rows
-from ..report.contour_legend import add_legend
+from ..report.contour_legend import add_legend, legend_width
 from ..scene.film import PictureSettings, encode_film, set_up_for_pictures
 from . import contours
 
@@ -56,6 +56,12 @@ class FilmSettings:
     last_frame: int | None = None
     legend: bool = True
     picture: PictureSettings = field(default_factory=PictureSettings)
+
+    @property
+    def rendered(self) -> PictureSettings:
+        """The part of a picture that is rendered: all but the colour bar."""
+        beside = legend_width(self.picture.height_px) if self.legend else 0
+        return replace(self.picture, width_px=self.picture.width_px - beside)
 
 
 def render_film(
@@ -119,7 +125,7 @@ class FilmRendering:
             A picture could not be rendered.
         """
         scene = self._scene
-        with _contours_shown(scene, self._contours), set_up_for_pictures(scene, self._film.picture):
+        with _contours_shown(scene, self._contours), set_up_for_pictures(scene, self._film.rendered):
             for frame in sorted(set(self._frames)):
                 path = self._path(frame)
                 scene.frame_set(frame)
