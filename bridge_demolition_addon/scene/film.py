@@ -121,13 +121,12 @@ def _set_up_encoder(render: bpy.types.RenderSettings, film: Path, pictures_per_s
 
 
 def _lay_out(scene: bpy.types.Scene, pictures: Sequence[Path]) -> None:
-    """One strip of all pictures, from the first frame on."""
+    """One strip of all pictures, from the first frame on; it grows with each."""
     editor = scene.sequence_editor_create()
-    strips = editor.strips if hasattr(editor, "strips") else editor.sequences  # renamed in Blender 4.4
+    strips = editor.strips if hasattr(editor, "strips") else editor.sequences  # their name before Blender 4.4
     strip = strips.new_image("Pictures", str(pictures[0]), 1, 1)
     for picture in pictures[1:]:
         strip.elements.append(picture.name)
-    strip.frame_final_duration = len(pictures)
     scene.frame_start, scene.frame_end = 1, len(pictures)
 
 

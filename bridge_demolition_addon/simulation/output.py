@@ -22,6 +22,7 @@ RESULT_FILES = (
     "frames/before.png",
     "frames/impact.png",
     "frames/after.png",
+    "contours.mp4",
 )
 PICTURE_FOLDER = "frames"
 

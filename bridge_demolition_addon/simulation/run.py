@@ -13,6 +13,7 @@ from typing import Any, Protocol
 import bpy
 import numpy as np
 
+from ..core.contours import ContourSettings
 from ..core.events import model_structure, schedule
 from ..core.extent import extent, surface_height
 from ..core.model import Model, build_model
@@ -24,6 +25,7 @@ from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
 from . import handlers
+from .film import FilmSettings, render_film
 from .output import PICTURE_FOLDER, keep_results, prepared_folder
 from .recording import Recording
 
@@ -41,7 +43,7 @@ class Progress(Protocol):
 
 
 def run_scenario(
-    scenario: Scenario, output: Path, *, overwrite: bool, pictures: bool, progress: Progress
+    scenario: Scenario, output: Path, *, overwrite: bool, pictures: bool, progress: Progress, film: bool = False
 ) -> dict[str, Any]:
     """Simulate a scenario in a new, otherwise empty Blender file and keep everything in a folder.
 
@@ -57,6 +59,8 @@ def run_scenario(
         Whether to render pictures.
     progress
         Told about every stage and frame.
+    film
+        Whether to render a film of the contours.
 
     Returns
     -------
@@ -108,6 +112,9 @@ def run_scenario(
     if pictures:
         progress.stage("rendering pictures")
         _render(scene, folder, summary)
+    if film:
+        progress.stage("rendering the film")
+        render_film(scene, folder, ContourSettings(), FilmSettings())
     return summary
 
 

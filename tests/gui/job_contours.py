@@ -11,13 +11,17 @@ from traces import handlers
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
     yield from build(person)
+    person.expect_reports("nothing but the building is reported", "30 shards")
     look(person)
+    bpy.data.objects["Cube"].hide_set(True)  # of Blender's start-up file, it stands in the bridge
     yield from person.picture("built")
     own = colours(person)
     yield from person.click("contours")
     yield 0.5
     person.expect("the box is ticked", person.scene.bda.contours)
-    yield from register(person, person.folder / "results")
+    results = person.folder / "results"
+    yield from register(person, results)
+    person.expect_reports("nothing but the registering is reported", "Recording to")
     yield from play_or_pause(person)
     yield from person.wait_for("the timeline plays", lambda: person.scene.frame_current >= 20)
     yield from person.picture("playing")
@@ -25,6 +29,7 @@ def steps(person: Person) -> Steps:
     yield from play_or_pause(person)
     yield from person.click("bda.unregister_handler")
     yield 1.0
+    person.expect_reports("nothing but the results is reported", f"Results are in {results}")
     yield from go_to_start(person)
     yield from person.picture("start")
     shown = {}
@@ -42,6 +47,7 @@ def steps(person: Person) -> Steps:
     settings.contour_quantity, settings.contour_map, settings.contour_logarithmic = "VON_MISES", "VIRIDIS", True
     settings.contour_peak, settings.show_vectors = True, True
     settings.vectors = {"BODIES", "CONNECTIONS", "CONTACTS"}
+    person.scene.frame_set(21)
     yield 0.5
     yield from person.picture("vectors")
     settings.show_vectors = False
@@ -60,7 +66,6 @@ def steps(person: Person) -> Steps:
     person.expect("no handler is left", dict(handlers()), {})
     person.expect("the bodies show their own colours", bool((colours(person, shown=True) == own).all()))
     person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
-    person.take_reports()
     yield from film(person)
 
 
@@ -91,8 +96,8 @@ def add_charge(person: Person) -> None:
 
     charge = import_module(f"{EXTENSION}.core.blast.charges").Charge
     create = import_module(f"{EXTENSION}.scene.charges").create_charges
-    charges = [charge("Charge A", (1.0, 0.0, 1.0), 0.2, "TNT"), charge("Charge B", (7.0, 0.0, 1.0), 0.4, "TNT")]
-    create(person.scene, charges)
+    places = {"Charge A": (1.0, 0.0, 1.0), "Charge B": (7.0, 0.0, 1.0)}
+    create(person.scene, [charge(name=name, place_m=place, mass_kg=0.4) for name, place in places.items()])
 
 
 def colours(person: Person, shown: bool = False) -> np.ndarray:
