@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import bpy
 import numpy as np
+from mathutils import Matrix, Vector
 
 from ..core.colour_maps import linear
 
@@ -53,6 +54,36 @@ def paint(
         colour = body.color if row is None else wanted[row]
         if colour is not None:
             _set_colour(body, depsgraph, colour)
+
+
+def place(
+    scene: bpy.types.Scene,
+    depsgraph: bpy.types.Depsgraph,
+    rows: Mapping[str, int],
+    places_m: np.ndarray,
+    rotations: np.ndarray,
+) -> None:
+    """Show bodies where they were recorded, until Blender evaluates them anew, as `paint` shows colours.
+
+    Blender forgets the frames it played with any change to a setting of the scene, be it one of the sidebar.
+
+    Parameters
+    ----------
+    scene, depsgraph
+        Scene with a rigid-body world, and whose evaluated copies are placed.
+    rows
+        Which place, by the names of the bodies that are to be placed.
+    places_m, rotations
+        (n, 3) and (n, 3, 3) of their origins.
+    """
+    for body in _bodies(scene):
+        row = rows.get(body.name)
+        if row is None:
+            continue
+        evaluated = body.evaluated_get(depsgraph)
+        if evaluated.is_evaluated:
+            rotation = Matrix(rotations[row]).to_quaternion()
+            evaluated.matrix_world = Matrix.LocRotScale(Vector(places_m[row]), rotation, body.scale)
 
 
 def unpaint(scene: bpy.types.Scene) -> None:

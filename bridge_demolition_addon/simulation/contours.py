@@ -17,7 +17,7 @@ from ..core.contours import ContourFrame, ContourSeries, ContourSettings
 from ..core.errors import ContourError
 from ..core.results import Results
 from ..scene.bodies import bodies_of
-from ..scene.contours import colours_are_shown, paint, show_colours, show_materials, unpaint
+from ..scene.contours import colours_are_shown, paint, place, show_colours, show_materials, unpaint
 from . import handlers
 from .recording import Recording
 
@@ -133,6 +133,15 @@ def shown_frame(scene: bpy.types.Scene) -> tuple[ContourFrame, int] | None:
     return series.show(row, shown.settings), row
 
 
+def is_placed(scene: bpy.types.Scene) -> bool:
+    """Whether bodies are shown where they were recorded, as Blender has forgotten the frames it played."""
+    recording, world = handlers.current(), scene.rigidbody_world
+    if recording and recording.scene_uid == scene.session_uid:
+        return False
+    is_of_file = scene.session_uid in _loaded and series_of(scene) is _loaded[scene.session_uid][0]
+    return is_of_file or bool(world and world.point_cache.is_outdated) or not (world and world.enabled)
+
+
 def _followed(uid: int, recording: Recording) -> ContourSeries | None:
     """The series of a recording, with the frames that came since the last look."""
     frames, series = recording.frames, _recorded.get(uid)
@@ -153,9 +162,13 @@ def _paint(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     found = shown_frame(scene)
     if found is None:
         return
-    frame, _ = found
+    frame, row = found
     series = series_of(scene)
     rows = {name: row for row, name in enumerate(series.body_names)}
+    if is_placed(scene):
+        moving = {name: body for name, body in rows.items() if series.moves[body]}
+        arrays = series.arrays(row)
+        place(scene, depsgraph, moving, arrays["places_m"], arrays["rotations"])
     paint(scene, depsgraph, rows, np.where(series.moves[:, None], frame.screen_colours, np.nan))
 
 

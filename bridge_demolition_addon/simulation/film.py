@@ -125,7 +125,11 @@ class FilmRendering:
             A picture could not be rendered.
         """
         scene = self._scene
-        with _contours_shown(scene, self._contours), set_up_for_pictures(scene, self._film.rendered):
+        with (
+            _contours_shown(scene, self._contours),
+            _simulation_at_rest(scene),
+            set_up_for_pictures(scene, self._film.rendered),
+        ):
             for frame in sorted(set(self._frames)):
                 path = self._path(frame)
                 scene.frame_set(frame)
@@ -167,6 +171,23 @@ def _frames_of(series: ContourSeries, settings: FilmSettings) -> list[int]:
         return frames[wanted].tolist()
     rows = film_rows(times[wanted], settings.pictures_per_second, settings.slowness)
     return frames[wanted][rows].tolist()
+
+
+@contextmanager
+def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
+    """Have the bodies placed as they were recorded where the played frames are forgotten.
+
+    A render would simulate them anew, beside the simulation of the 3D view in one and the same world, and crash.
+    """
+    world = scene.rigidbody_world
+    if not contours.is_placed(scene) or not world.enabled:
+        yield
+        return
+    world.enabled = False
+    try:
+        yield
+    finally:
+        world.enabled = True
 
 
 @contextmanager

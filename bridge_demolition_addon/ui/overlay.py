@@ -230,7 +230,7 @@ def _write_at(context: bpy.types.Context, place_m: tuple, text: str, dot: bool =
     blf.size(_FONT, _FONT_PX * scale)
     width, height = blf.dimensions(_FONT, text)
     edge = 4.0 * scale
-    x, y = where.x + 2.0 * edge, where.y + 2.0 * edge
+    x, y = min(where.x + 2.0 * edge, _right_end(context) - width - 2.0 * edge), where.y + 2.0 * edge
     if dot:
         _draw_rectangle(where.x - edge, where.y - edge, where.x + edge, where.y + edge, _RING_COLOUR)
     _draw_rectangle(x - edge, y - edge, x + width + edge, y + height + edge, _PANEL_COLOUR)
@@ -243,6 +243,16 @@ def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tup
 
 def _tools_width(context: bpy.types.Context) -> float:
     """How much of the view's left the toolbar covers, px."""
-    tools = next((region for region in context.area.regions if region.type == "TOOLS"), None)
-    covers = tools and context.preferences.system.use_region_overlap and tools.width > 1
-    return float(tools.width) if covers else 0.0
+    return _covered(context, "TOOLS")
+
+
+def _right_end(context: bpy.types.Context) -> float:
+    """Where the sidebar begins to cover the view, px."""
+    return context.region.width - _covered(context, "UI")
+
+
+def _covered(context: bpy.types.Context, kind: str) -> float:
+    """Width of a region of the 3D view that lies over the view itself, px."""
+    region = next((each for each in context.area.regions if each.type == kind), None)
+    covers = region and context.preferences.system.use_region_overlap and region.width > 1
+    return float(region.width) if covers else 0.0
