@@ -57,6 +57,7 @@ def steps(person: Person) -> Steps:
     yield 0.5
     yield from person.picture("charges")
     settings.show_charges = settings.show_rings = False
+    yield from sub_panels(person)
     bpy.ops.bda.toggle_symbols()
     yield 0.5
     yield from person.picture("symbols_hidden")
@@ -67,6 +68,17 @@ def steps(person: Person) -> Steps:
     person.expect("the bodies show their own colours", bool((colours(person, shown=True) == own).all()))
     person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
     yield from film(person)
+
+
+def sub_panels(person: Person) -> Steps:
+    """Open each sub-panel by the arrow of its header, below the last button, and close it again."""
+    yield from person.hover("bda.load_results")
+    x, y = person._mouse
+    for name, below in (("film", 58), ("vectors_and_charges", 32)):
+        for _ in range(2):
+            yield from person.move(x, y - below)
+            yield from person.press("LEFTMOUSE")
+            yield from person.picture(f"panel_{name}")
 
 
 def film(person: Person) -> Steps:
