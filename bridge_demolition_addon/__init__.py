@@ -16,6 +16,6 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
-    from .ui import operators, panels, properties
+    from .ui import contour_operators, contour_panel, contour_view, operators, overlay, panels, properties
 
-    return properties, operators, panels
+    return properties, contour_view, operators, contour_operators, panels, contour_panel, overlay

@@ -22,7 +22,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the results, made if new")
     parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
     parser.add_argument("--no-pictures", action="store_true", help="render no pictures")
-    parser.add_argument("--film", action="store_true", help="make a film with contours of stress; it takes minutes")
+    parser.add_argument(
+        "--film", action="store_true", help="make a film with contours of force, contours.mp4; it takes minutes"
+    )
     parser.add_argument("--report", action="store_true", help="make a report of the run at its end")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=run)
@@ -54,8 +56,8 @@ def _run_scenario(scenario: Scenario, arguments: argparse.Namespace, progress: P
         arguments.output,
         overwrite=arguments.overwrite,
         pictures=not arguments.no_pictures,
-        progress=progress,
         film=arguments.film,
+        progress=progress,
     )
 
 

@@ -27,3 +27,7 @@ class SimulationError(DemolitionError):
 
 class BlastError(DemolitionError):
     """A charge, a stand-off or a wanted load is not a number that a blast can have."""
+
+
+class ContourError(DemolitionError):
+    """What contours are to show cannot be shown: a range without an extent, or results of another scene."""

@@ -1,56 +1,45 @@
-"""What a film of a run shows, picture by picture: the whole run in real time, then its decisive moment slowed down."""
+"""Which recorded frame each picture of a film shows, in real time or slowed down."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-PICTURES_PER_SECOND = 24
-SLOWNESS = 4.0
-HOLD_S = 1.0
-BEFORE_S, AFTER_S = 0.25, 1.5
-"""How much before and after the decisive moment is shown in slow motion."""
+from .errors import OutputError
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class FilmPlan:
-    """Pictures of a film in order.
+def film_rows(times_s: np.ndarray, pictures_per_second: float, slowness: float = 1.0) -> np.ndarray:
+    """Rows (p,) of recorded frames, one for every picture of a film from the first frame to the last.
 
-    Attributes
-    ----------
-    steps
-        (p,) recorded step that each picture shows.
-    speeds
-        (p,) simulated seconds in one second of film: 1, less in slow motion, 0 while the picture stands still.
-    """
-
-    steps: np.ndarray
-    speeds: np.ndarray
-
-
-def film_plan(times_s: np.ndarray, moment_s: float | None) -> FilmPlan:
-    """The film of a run.
-
-    A picture shows the last recorded step before its time: nothing is drawn that was not simulated, and in slow motion
-    pictures stand for as long as their step lasts.
+    The film shows the frame whose time is nearest. So it keeps time where frames are of different lengths, as around a
+    detonation, and where it is slowed down it shows frames several times, as nothing is known between them.
 
     Parameters
     ----------
     times_s
-        (k,) times of the recorded steps.
-    moment_s
-        The decisive moment, such as an impact; None for a film without slow motion.
+        (k,) simulated times of the frames, rising.
+    pictures_per_second
+        Of the film.
+    slowness
+        How many seconds of film a second of the simulation takes: 1 is real time, 10 is ten times slower.
+
+    Raises
+    ------
+    OutputError
+        There are no frames, or a number is not positive.
     """
-    interval_s = 1.0 / PICTURES_PER_SECOND
-    hold = round(HOLD_S * PICTURES_PER_SECOND)
-    parts = [(np.full(hold, times_s[0]), 0.0), (np.arange(times_s[0], times_s[-1] + interval_s / 2, interval_s), 1.0)]
-    parts.append((np.full(hold, times_s[-1]), 0.0))
-    if moment_s is not None:
-        first, last = max(times_s[0], moment_s - BEFORE_S), min(times_s[-1], moment_s + AFTER_S)
-        parts.append((np.arange(first, last + interval_s / SLOWNESS / 2, interval_s / SLOWNESS), 1.0 / SLOWNESS))
-        parts.append((np.full(hold, times_s[-1]), 0.0))
-    shown_s = np.concatenate([times for times, _ in parts])
-    rounding_s = 1e-6  # times add up in single precision
-    steps = np.searchsorted(times_s, shown_s + rounding_s, side="right") - 1
-    return FilmPlan(steps, np.concatenate([np.full(len(times), speed) for times, speed in parts]))
+    times_s = np.asarray(times_s, float)
+    if not len(times_s):
+        raise OutputError("film: there are no recorded frames; play the timeline with the handler registered first")
+    if not (pictures_per_second > 0.0 and slowness > 0.0):
+        raise OutputError(
+            f"film: expected positive numbers, found {pictures_per_second:g} pictures a second and a "
+            f"slowness of {slowness:g}"
+        )
+    duration = times_s[-1] - times_s[0]
+    count = int(np.floor(duration * slowness * pictures_per_second + 1e-6)) + 1
+    wanted = times_s[0] + np.arange(count) / (pictures_per_second * slowness)
+    after = np.clip(np.searchsorted(times_s, wanted), 1, max(len(times_s) - 1, 1))
+    if len(times_s) == 1:
+        return np.zeros(count, int)
+    before = after - 1
+    return np.where(wanted - times_s[before] <= times_s[after] - wanted, before, after)

@@ -53,6 +53,11 @@ def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Objec
     return Built(len(missing), len(pushed) - len(missing), len(gone))
 
 
+def force_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection that force objects are in, where there is one."""
+    return find_collection(scene, _ROLE)
+
+
 def force_objects(scene: bpy.types.Scene) -> dict[bpy.types.Object, bpy.types.Object]:
     """The force object of each body that has one."""
     return {each[_BODY]: each for each in _all(scene) if each[_BODY] is not None}

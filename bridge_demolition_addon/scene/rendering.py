@@ -18,7 +18,7 @@ _EXPOSURE = 1.0
 
 def prepare_pictures(scene: bpy.types.Scene, points: np.ndarray, width_px: int, height_px: int) -> None:
     """Aim a camera at points (n, 3) in m that are to be seen, and set up the renderer."""
-    scene.camera = _camera(scene, points, width_px / height_px)
+    aim_camera(scene, points, width_px / height_px)
     render = scene.render
     render.engine = "BLENDER_WORKBENCH"
     render.resolution_x, render.resolution_y, render.resolution_percentage = width_px, height_px, 100
@@ -43,8 +43,8 @@ def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
-def _camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:
-    """Camera beside the road that sees all points."""
+def aim_camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:
+    """Give a scene a camera beside the road that sees points (n, 3) in m, in pictures of an aspect (width : height)."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
     camera.data.sensor_fit = "HORIZONTAL"  # by default a picture that is higher than wide turns the sensor
@@ -53,6 +53,7 @@ def _camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.ty
     farthest = float(np.linalg.norm(points - camera.location, axis=1).max())
     camera.data.clip_start, camera.data.clip_end = farthest / 1000.0, farthest * 10.0
     scene.collection.objects.link(camera)
+    scene.camera = camera
     return camera
 
 

@@ -1,68 +1,204 @@
-"""The film of a run: contours of stress on the simulated scene, in real time and in slow motion."""
+"""Contours as pictures and as a film, in a folder."""
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from pathlib import Path
 
 import bpy
+import numpy as np
 
-from ..core.film import PICTURES_PER_SECOND, film_plan
-from ..core.results import Results
-from ..report.film_pictures import lay_over, stress_colours, stress_scale
-from ..scene.film import contour_shading, encode_film, render_coloured
+from ..core.contours import ContourSeries, ContourSettings
+from ..core.errors import ContourError, OutputError
+from ..core.film import film_rows
+from ..report.contour_legend import add_legend, legend_width
+from ..scene.film import PictureSettings, encode_film, set_up_for_pictures
+from . import contours
+from .output import FILM_FILE
+
+_PICTURE = "contours_{:06d}.png"
 
 
-def make_film(
-    scene: bpy.types.Scene,
-    results: Results,
-    moment_s: float | None,
-    path: Path,
-    done: Callable[[int, int], None] = lambda *_: None,
-) -> None:
-    """Render a film of frames that were simulated already. Shards are coloured by stress, everything else is as it is.
+class FilmKind(StrEnum):
+    """What is made."""
+
+    PICTURES = "pictures"
+    FILM = "film"
+
+
+@dataclass(frozen=True, slots=True)
+class FilmSettings:
+    """A film, or the pictures of one.
+
+    Attributes
+    ----------
+    kind
+        Whether pictures are made into a film and then removed.
+    pictures_per_second
+        Of the film.
+    slowness
+        Seconds of film for a second of the simulation: 1 is real time.
+    first_frame, last_frame
+        Which frames; all that were recorded for None.
+    legend
+        Whether pictures have a colour bar.
+    picture
+        Size and renderer.
+    """
+
+    kind: FilmKind = FilmKind.FILM
+    pictures_per_second: float = 25.0
+    slowness: float = 1.0
+    first_frame: int | None = None
+    last_frame: int | None = None
+    legend: bool = True
+    picture: PictureSettings = field(default_factory=PictureSettings)
+
+    @property
+    def rendered(self) -> PictureSettings:
+        """The part of a picture that is rendered: all but the colour bar."""
+        beside = legend_width(self.picture.height_px) if self.legend else 0
+        return replace(self.picture, width_px=self.picture.width_px - beside)
+
+
+def render_film(
+    scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
+) -> list[Path]:
+    """Render all of it at once: the files written."""
+    rendering = FilmRendering(scene, folder, contour_settings, film_settings)
+    for _ in rendering.pictures():
+        pass
+    return rendering.finish()
+
+
+class FilmRendering:
+    """A film in the making, picture by picture.
 
     Parameters
     ----------
     scene
-        The scene with its camera, as it was played.
-    results
-        What was recorded of it.
-    moment_s
-        The moment that slow motion is about; None for none.
-    path
-        File to write, MP4.
-    done
-        Told how many pictures are rendered, and how many there are to render.
+        Scene whose frames were played already; Blender plays them back from its cache.
+    folder
+        Where to; made if new.
+    contour_settings, film_settings
+        What the pictures show, and how they are put together.
+
+    Raises
+    ------
+    ContourError
+        Nothing was recorded.
+    OutputError
+        The folder cannot be written; or there are no frames.
     """
-    plan, scale = film_plan(results.times_s, moment_s), stress_scale(results)
-    shards = results.of_kind("shard")
-    bodies = [scene.objects[str(name)] for name in results.body_names[shards]]
-    kept = [tuple(body.color) for body in bodies]
-    shown = sorted(set(plan.steps.tolist()))
-    with tempfile.TemporaryDirectory() as folder, contour_shading(scene):
-        rendered = {}
-        for number, step in enumerate(shown, start=1):
-            rendered[step] = Path(folder) / f"rendered_{step:06d}.png"
-            colours = stress_colours(results.von_mises_pa[step, shards], scale)
-            render_coloured(scene, int(results.frames[step]), bodies, colours, rendered[step])
-            done(number, len(shown))
-        pictures = []
-        made: set[Path] = set()
-        for step, speed in zip(plan.steps.tolist(), plan.speeds.tolist(), strict=True):
-            picture = Path(folder) / f"picture_{step:06d}_{speed:g}.png"
-            if picture not in made:
-                lay_over(rendered[step], picture, scale, _words(float(results.times_s[step]), speed))
-                made.add(picture)
-            pictures.append(picture)
-        render = scene.render
-        encode_film(pictures, path, PICTURES_PER_SECOND, (render.resolution_x // 2 * 2, render.resolution_y // 2 * 2))
-        for body, colour in zip(bodies, kept, strict=True):
-            body.color = colour
+
+    def __init__(
+        self, scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
+    ):
+        series = contours.series_of(scene)
+        if series is None:
+            raise ContourError(f"scene {scene.name!r} has no recording to show: record one, or load its results")
+        self._scene, self._folder = scene, folder
+        self._contours, self._film = contour_settings, film_settings
+        self._frames = _frames_of(series, film_settings)
+        self._series = series
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            for old in (*folder.glob("contours_[0-9][0-9][0-9][0-9][0-9][0-9].png"), folder / FILM_FILE):
+                old.unlink(missing_ok=True)
+        except OSError as error:
+            raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
+
+    @property
+    def picture_count(self) -> int:
+        """How many pictures are to be rendered."""
+        return len(set(self._frames))
+
+    def pictures(self) -> Iterator[Path]:
+        """Render one picture after the other; the scene is put back when the last is done, or none is wanted any more.
+
+        Raises
+        ------
+        OutputError
+            A picture could not be rendered.
+        """
+        scene = self._scene
+        with (
+            _contours_shown(scene, self._contours),
+            _simulation_at_rest(scene),
+            set_up_for_pictures(scene, self._film.rendered),
+        ):
+            for frame in sorted(set(self._frames)):
+                path = self._path(frame)
+                scene.frame_set(frame)
+                scene.render.filepath = str(path)
+                bpy.ops.render.render(write_still=True, scene=scene.name)
+                if error := contours.error_of(scene):
+                    raise error
+                if not path.exists():
+                    raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
+                if self._film.legend:
+                    shown = self._series.show(self._series.row_at(frame), self._contours)
+                    add_legend(path, self._contours, shown)
+                yield path
+
+    def finish(self) -> list[Path]:
+        """Make the film, if one is wanted, and tell which files were written."""
+        paths = [self._path(frame) for frame in self._frames]
+        if self._film.kind == FilmKind.PICTURES:
+            return sorted(set(paths))
+        film = self._folder / FILM_FILE
+        encode_film(paths, film, self._film.pictures_per_second)
+        for path in set(paths):
+            path.unlink()
+        return [film]
+
+    def _path(self, frame: int) -> Path:
+        return self._folder.resolve() / _PICTURE.format(frame)
 
 
-def _words(time_s: float, speed: float) -> str:
-    if speed == 1.0:
-        return f"{time_s:.2f} s, real time"
-    return f"{time_s:.2f} s, {1.0 / speed:g} times slower" if speed > 0.0 else f"{time_s:.2f} s"
+def _frames_of(series: ContourSeries, settings: FilmSettings) -> list[int]:
+    """The frame of every picture of the film."""
+    frames, times = np.array(series.frames), series.times_s
+    first = frames[0] if settings.first_frame is None else settings.first_frame
+    last = frames[-1] if settings.last_frame is None else settings.last_frame
+    wanted = np.flatnonzero((frames >= first) & (frames <= last))
+    if not len(wanted):
+        raise OutputError(f"film: of the recorded frames {frames[0]} to {frames[-1]} none is within {first} to {last}")
+    if settings.kind == FilmKind.PICTURES:
+        return frames[wanted].tolist()
+    rows = film_rows(times[wanted], settings.pictures_per_second, settings.slowness)
+    return frames[wanted][rows].tolist()
+
+
+@contextmanager
+def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
+    """Have the bodies placed as they were recorded where the played frames are forgotten.
+
+    A render would simulate them anew, beside the simulation of the 3D view in one and the same world, and crash.
+    """
+    world = scene.rigidbody_world
+    if not contours.is_placed(scene) or not world.enabled:
+        yield
+        return
+    world.enabled = False
+    try:
+        yield
+    finally:
+        world.enabled = True
+
+
+@contextmanager
+def _contours_shown(scene: bpy.types.Scene, settings: ContourSettings) -> Iterator[None]:
+    """Colour the bodies by these settings, and afterwards as before."""
+    before = contours.settings_of(scene)
+    contours.show(scene, settings)
+    try:
+        yield
+    finally:
+        if before is None:
+            contours.hide(scene)
+        else:
+            contours.show(scene, before)

@@ -12,15 +12,16 @@ from ..core.errors import SimulationError
 from .recording import Recording
 
 _current: Recording | None = None
+_latest: Recording | None = None
 
 
 def start(recording: Recording) -> None:
     """Let a recording follow its scene's timeline, in place of one that may still run."""
-    global _current
+    global _current, _latest
     stop()
-    _current = recording
+    _current = _latest = recording
     for handlers, ours in _handlers():
-        handlers.append(ours)
+        handlers.insert(0, ours)  # before those that look at what is recorded
 
 
 def stop() -> Recording | None:
@@ -38,6 +39,11 @@ def stop() -> Recording | None:
 def current() -> Recording | None:
     """The recording that runs now."""
     return _current
+
+
+def latest() -> Recording | None:
+    """The recording that runs now, or else ran last; its scene may be gone by now."""
+    return _latest
 
 
 def _handlers() -> tuple[tuple[list, Callable], ...]:

@@ -13,7 +13,7 @@ from ..report.force_plot import plot_forces
 SCENARIO_FILE = "scenario_as_run.toml"
 """The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
 
-FILM_FILE = "film.mp4"
+FILM_FILE = "contours.mp4"
 
 REPORT_FILES = ("report.html", "report.pdf", "exclusion_zone.dxf", "exclusion_zone.geojson")
 """What a report of an earlier run left, which would be wrong for a new one; its tables are cleared away as well."""

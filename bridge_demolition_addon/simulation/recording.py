@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +49,8 @@ class Recording:
     ----------
     scene, folder
         As given.
+    scene_uid
+        What tells the scene from others as long as Blender runs, also when it is gone.
     error
         Why the recording ended before its time, or None.
     distrust
@@ -67,6 +69,7 @@ class Recording:
             )
         rewrite_thresholds(scene)  # the step may have changed since the scene was built
         self.scene = scene
+        self.scene_uid = scene.session_uid
         self.folder = folder
         self.error: Exception | None = None
         self.distrust: LayoutError | None = None
@@ -142,6 +145,16 @@ class Recording:
         if self._logs:
             self._logs.close(self._frames[-1] if self._frames else None)
             self._logs = None
+
+    @property
+    def frames(self) -> Sequence[Mapping[str, np.ndarray | float]]:
+        """What was recorded of each frame so far; begun anew with every simulation."""
+        return self._frames
+
+    @property
+    def inventory(self) -> Inventory | None:
+        """The bodies and connections; None before the first frame."""
+        return self._inventory
 
     @property
     def recorded_frames(self) -> int:

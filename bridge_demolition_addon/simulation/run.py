@@ -7,13 +7,13 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
 import bpy
 import numpy as np
 
+from ..core.contours import ContourSettings
 from ..core.events import model_structure, schedule
 from ..core.extent import extent, surface_height
 from ..core.model import Model, build_model
@@ -26,8 +26,8 @@ from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
 from . import handlers
-from .film import make_film
-from .output import FILM_FILE, PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
+from .film import FilmRendering, FilmSettings
+from .output import PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
 from .recording import Recording
 
 PICTURES = ("before", "impact", "after")
@@ -64,7 +64,7 @@ def run_scenario(
     progress
         Told about every stage and frame.
     film
-        Whether to make a film, which takes a second or more for every frame where there is no graphics card.
+        Whether to render a film of the contours, which takes a second or more for every frame without a graphics card.
 
     Returns
     -------
@@ -119,10 +119,15 @@ def run_scenario(
         _render(scene, folder, summary)
     if film:
         progress.stage("rendering the film")
-        moment = _decisive_moment(summary)
-        path = folder.resolve() / FILM_FILE
-        make_film(scene, results, moment and moment["time_s"], path, partial(progress.part, text="frames rendered"))
+        _render_film(scene, folder, progress)
     return summary
+
+
+def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> None:
+    film = FilmRendering(scene, folder, ContourSettings(), FilmSettings())
+    for done, _ in enumerate(film.pictures(), start=1):
+        progress.part(done, film.picture_count, "frames rendered")
+    film.finish()
 
 
 def _empty_scene(title: str) -> bpy.types.Scene:

@@ -3,8 +3,10 @@
 import bpy
 from bpy.props import BoolProperty, PointerProperty, StringProperty
 
+from .contour_properties import ContourProperties
 
-class BDA_PG_settings(bpy.types.PropertyGroup):
+
+class BDA_PG_settings(ContourProperties, bpy.types.PropertyGroup):
     """What the panels ask for."""
 
     scenario_path: StringProperty(

@@ -67,6 +67,16 @@ def test_no_pictures_are_rendered_when_none_are_wanted(finished):
     assert not list(output.glob("frames/*.png"))
 
 
+def test_a_film_is_made_when_it_is_wanted(scenario_path, tmp_path):
+    output = tmp_path / "results"
+    status, printed, _ = outcome(bda("run", scenario_path, "--output", output, "--no-pictures", "--film"))
+    assert status == 0
+    assert str(output / "contours.mp4") in printed.splitlines()
+    # An MP4 file begins with a box of type ftyp (ISO/IEC 14496-12).
+    assert (output / "contours.mp4").read_bytes()[4:8] == b"ftyp"
+    assert [path.name for path in output.glob("*.png")] == ["force_over_time.png"]
+
+
 def test_results_are_not_overwritten_unasked(finished, scenario_path):
     output, _ = finished
     before = {path: path.stat().st_mtime_ns for path in output.rglob("*")}

@@ -37,6 +37,9 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|(Info: )?Saved (as |session recovery to )?\""
     r"|(WARNING )?[Cc]ould not get a list of mounted file-systems$"
     r"|Read blend: "
+    r"|Saved: '"
+    r"|Time: \d+:\d\d\.\d\d \(Saving: "
+    r"|(Video )?[Aa]ppend frame \d+"
 )
 """Lines that Blender writes as it goes."""
 

@@ -1,0 +1,170 @@
+"""What the buttons for contours, films and symbols do."""
+
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import DemolitionError
+from ..core.results import load_results
+from ..scene.film import PictureSettings
+from ..scene.symbols import has_symbols, hide_symbols, symbols_are_hidden
+from ..simulation import contours, handlers
+from ..simulation.film import FilmKind, FilmRendering, FilmSettings
+from . import contour_view
+from .operators import _absolute as absolute
+from .operators import _refused as refused
+
+_TICK_S = 0.01
+
+
+class BDA_OT_load_results(bpy.types.Operator):
+    """Show contours of an earlier recording of this scene, kept in a file results.npz"""
+
+    bl_idname = "bda.load_results"
+    bl_label = "Load Results"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if handlers.current():
+            cls.poll_message_set("A recording runs: unregister the handler first")
+            return False
+        if not context.scene.bda.results_path:
+            cls.poll_message_set("Choose a file results.npz first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene = context.scene
+        try:
+            results = load_results(absolute(scene.bda.results_path))
+            contours.use_results(scene, results)
+        except DemolitionError as error:
+            return refused(self, error)
+        contour_view.follow(scene)
+        self.report({"INFO"}, f"{len(results.frames)} frames of {len(results.body_names)} bodies")
+        return {"FINISHED"}
+
+
+class BDA_OT_render_contours(bpy.types.Operator):
+    """Render the recorded frames with their contours, as a film or as pictures, to the folder; Esc stops"""
+
+    bl_idname = "bda.render_contours"
+    bl_label = "Render Contours"
+
+    _rendering: FilmRendering
+    _pictures = None
+    _timer = None
+    _done = 0
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if handlers.current():
+            cls.poll_message_set("A recording runs: unregister the handler first")
+            return False
+        if not context.scene.bda.film_directory:
+            cls.poll_message_set("Choose a folder for the film first")
+            return False
+        if contours.series_of(context.scene) is None:
+            cls.poll_message_set("Nothing was recorded in this scene: record it, or load its results")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            self._begin(context.scene)
+            for _ in self._pictures:
+                pass
+            return self._finish()
+        except DemolitionError as error:
+            return refused(self, error)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        try:
+            self._begin(context.scene)
+        except DemolitionError as error:
+            return refused(self, error)
+        manager = context.window_manager
+        manager.progress_begin(0, self._rendering.picture_count)
+        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"WARNING"}, f"Stopped after {self._done} of {self._rendering.picture_count} pictures")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            if next(self._pictures, None) is not None:
+                self._done += 1
+                context.window_manager.progress_update(self._done)
+                return {"RUNNING_MODAL"}
+            self._end(context)
+            return self._finish()
+        except DemolitionError as error:
+            self._end(context)
+            return refused(self, error)
+
+    def _begin(self, scene: bpy.types.Scene) -> None:
+        self._rendering = FilmRendering(
+            scene, absolute(scene.bda.film_directory), contour_view.settings_of(scene), _film_settings(scene)
+        )
+        self._pictures = self._rendering.pictures()
+
+    def _end(self, context: bpy.types.Context) -> None:
+        self._pictures.close()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+
+    def _finish(self) -> set[str]:
+        paths = self._rendering.finish()
+        place: Path = paths[0] if len(paths) == 1 else paths[0].parent
+        self.report({"INFO"}, f"{self._rendering.picture_count} pictures rendered: {place}")
+        return {"FINISHED"}
+
+
+class BDA_OT_toggle_symbols(bpy.types.Operator):
+    """Hide the empties of all connections and force objects, or show them; they work all the same"""
+
+    bl_idname = "bda.toggle_symbols"
+    bl_label = "Hide Connections and Forces"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not has_symbols(context.view_layer, context.scene):
+            cls.poll_message_set("This scene has neither connections nor force objects")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene, layer = context.scene, context.view_layer
+        hide_symbols(layer, scene, hidden=not symbols_are_hidden(layer, scene))
+        return {"FINISHED"}
+
+
+CLASSES = (BDA_OT_load_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)
+
+
+def register() -> None:
+    """Make the operators known to Blender."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    """Take the operators away."""
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
+
+
+def _film_settings(scene: bpy.types.Scene) -> FilmSettings:
+    settings = scene.bda
+    return FilmSettings(
+        kind=FilmKind[settings.film_kind],
+        pictures_per_second=settings.film_rate,
+        slowness=settings.film_slowness,
+        picture=PictureSettings(settings.film_width, settings.film_height),
+    )

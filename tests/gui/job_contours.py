@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Show contours while a recording plays and when scrubbing afterwards, with vectors and colour bar; then a film."""
+
+import bpy
+import numpy as np
+from habits import build, go_to_start, play_or_pause, register
+from person import Person, Steps
+from traces import handlers
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    yield from build(person)
+    person.expect_reports("nothing but the building is reported", "30 shards")
+    look(person)
+    bpy.data.objects["Cube"].hide_set(True)  # of Blender's start-up file, it stands in the bridge
+    yield from person.picture("built")
+    own = colours(person)
+    yield from person.click("contours")
+    yield 0.5
+    person.expect("the box is ticked", person.scene.bda.contours)
+    results = person.folder / "results"
+    yield from register(person, results)
+    person.expect_reports("nothing but the registering is reported", "Recording to")
+    yield from play_or_pause(person)
+    yield from person.wait_for("the timeline plays", lambda: person.scene.frame_current >= 20)
+    yield from person.picture("playing")
+    yield from person.wait_for("it plays to its end", lambda: person.scene.frame_current < 20)
+    yield from play_or_pause(person)
+    yield from person.click("bda.unregister_handler")
+    yield 1.0
+    person.expect_reports("nothing but the results is reported", f"Results are in {results}")
+    yield from go_to_start(person)
+    yield from person.picture("start")
+    shown = {}
+    for frame in (8, 14, 30):
+        person.scene.frame_set(frame)
+        yield 0.5
+        yield from person.picture(f"frame_{frame}")
+        shown[frame] = colours(person, shown=True)
+    person.expect("frames differ in their colours", bool((shown[8] != shown[14]).any()))
+    person.expect("the bodies' own colours are not touched", bool((colours(person) == own).all()))
+    person.scene.frame_set(8)
+    yield 0.5
+    person.expect("a frame has the same colours again", bool((colours(person, shown=True) == shown[8]).all()))
+    settings = person.scene.bda
+    settings.contour_quantity, settings.contour_map, settings.contour_logarithmic = "VON_MISES", "VIRIDIS", True
+    settings.contour_peak, settings.show_vectors = True, True
+    settings.vectors = {"BODIES", "CONNECTIONS", "CONTACTS"}
+    person.scene.frame_set(21)
+    yield 0.5
+    yield from person.picture("vectors")
+    settings.show_vectors = False
+    add_charge(person)
+    settings.show_charges = settings.show_rings = True
+    settings.ring_damage = "8"
+    yield 0.5
+    yield from person.picture("charges")
+    settings.show_charges = settings.show_rings = False
+    yield from sub_panels(person)
+    bpy.ops.bda.toggle_symbols()
+    yield 0.5
+    yield from person.picture("symbols_hidden")
+    yield from person.click("contours")
+    yield 0.5
+    yield from person.picture("contours_off")
+    person.expect("no handler is left", dict(handlers()), {})
+    person.expect("the bodies show their own colours", bool((colours(person, shown=True) == own).all()))
+    person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
+    yield from film(person)
+
+
+def sub_panels(person: Person) -> Steps:
+    """Open each sub-panel by the arrow of its header, below the last button, and close it again."""
+    yield from person.hover("bda.load_results")
+    x, y = person._mouse
+    for name, below in (("film", 58), ("vectors_and_charges", 32)):
+        for _ in range(2):
+            yield from person.move(x, y - below)
+            yield from person.press("LEFTMOUSE")
+            yield from person.picture(f"panel_{name}")
+
+
+def film(person: Person) -> Steps:
+    person.scene.bda.film_directory = str(person.folder / "film")
+    person.scene.bda.film_width, person.scene.bda.film_height = 640, 360
+    with person._in_sidebar():
+        bpy.ops.bda.render_contours("INVOKE_DEFAULT")
+    file = person.folder / "film" / "contours.mp4"
+    yield 5.0
+    yield from person.picture("film_in_the_making")
+    yield from person.wait_for("there is a film", file.exists, 120.0)
+    yield 1.0
+    person.expect_reports("nothing but the film is reported", "37 pictures rendered")
+    yield from person.picture("film_done")
+
+
+def look(person: Person) -> None:
+    """Look at the bridge from beside it."""
+    space = person.view.spaces.active.region_3d
+    space.view_location, space.view_distance = (4.0, 0.0, 2.0), 16.0
+
+
+def add_charge(person: Person) -> None:
+    from importlib import import_module
+
+    from traces import EXTENSION
+
+    charge = import_module(f"{EXTENSION}.core.blast.charges").Charge
+    create = import_module(f"{EXTENSION}.scene.charges").create_charges
+    places = {"Charge A": (1.0, 0.0, 1.0), "Charge B": (7.0, 0.0, 1.0)}
+    create(person.scene, [charge(name=name, place_m=place, mass_kg=0.4) for name, place in places.items()])
+
+
+def colours(person: Person, shown: bool = False) -> np.ndarray:
+    """Colours of all bodies, their own or as they are shown."""
+    bodies = person.scene.rigidbody_world.collection.all_objects
+    graph = person.window.view_layer.depsgraph
+    return np.array([(each.evaluated_get(graph) if shown else each).color for each in bodies])
