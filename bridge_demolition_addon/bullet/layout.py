@@ -17,6 +17,7 @@ class BlenderLayout:
     """Blender's own structures, the same on every platform."""
 
     body_shared: int = 80
+    world_last_frame: int = 36
     world_shared: int = 40
     world_substeps: int = 76
     shared_physics_world: int = 24
@@ -86,6 +87,11 @@ class BodyLayout:
         """First entry of that list."""
         return self.user_pointer + 72
 
+    @property
+    def constraints(self) -> int:
+        """Array of the constraints that keep the body from colliding, behind damping and motion state."""
+        return self.linear_damping + 80
+
 
 @dataclass(frozen=True, slots=True)
 class ConstraintLayout:
@@ -129,6 +135,17 @@ class WorldLayout:
     broadphase: int = 128
     solver_settings: int = 176
     solver: int = 456
+    bodies: int = 8
+
+    @property
+    def constraints(self) -> int:
+        """Array of all constraints, two pointers behind the solver."""
+        return self.solver + 16
+
+    @property
+    def moving_bodies(self) -> int:
+        """Array of the bodies that can move, behind that of the constraints."""
+        return self.solver + 48
 
     @property
     def after_step(self) -> int:
@@ -245,6 +262,15 @@ class DispatcherLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class ArrayLayout:
+    """btAlignedObjectArray."""
+
+    count: int = 4
+    capacity: int = 8
+    data: int = 16
+
+
+@dataclass(frozen=True, slots=True)
 class Layout:
     """All offsets of one platform."""
 
@@ -255,6 +281,7 @@ class Layout:
     blender: BlenderLayout = BlenderLayout()
     constraint: ConstraintLayout = ConstraintLayout()
     world: WorldLayout = WorldLayout()
+    array: ArrayLayout = ArrayLayout()
 
 
 SYSTEM_V = Layout(
