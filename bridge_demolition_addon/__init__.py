@@ -16,6 +16,7 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
+    from .simulation import safe_undo, watch
     from .ui import operators, panels, properties
 
-    return properties, operators, panels
+    return properties, operators, panels, safe_undo, watch

@@ -29,6 +29,10 @@ class Members:
         """Whether the world still has just these objects."""
         return self._numbers() == self._numbers_at_first
 
+    def any_is_gone(self) -> bool:
+        """Whether something was taken out of the world."""
+        return not self._names_at_first.keys() <= self._names().keys()
+
     def changes(self) -> str:
         """What was added and removed since."""
         before, now = self._names_at_first, self._names()

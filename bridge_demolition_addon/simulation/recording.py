@@ -106,7 +106,8 @@ class Recording:
         if world is None or world.collection is None:
             raise SimulationError("the rigid-body world was removed while it was recorded")
         if not self._members.are_the_same():
-            stand_still(self.scene, self._world)
+            if self._members.any_is_gone():
+                stand_still(self.scene, self._world)
             changes = self._members.changes()
             raise SimulationError(f"rigid-body world changed, {changes}: go to the start frame and record anew")
 
