@@ -17,6 +17,6 @@ def unregister() -> None:
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
     from .simulation import safe_undo, watch
-    from .ui import operators, panels, properties
+    from .ui import operators, panels, properties, run_operator
 
-    return properties, operators, panels, safe_undo, watch
+    return properties, operators, run_operator, panels, safe_undo, watch

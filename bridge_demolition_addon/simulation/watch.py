@@ -124,7 +124,7 @@ def _after_frame(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None
         if watch and (watch.given_up or not watch.has_what_there_is()):
             del _watches[number]
         return
-    if _is_recorded(scene) or stands_still(scene):
+    if _is_recorded(scene) or stands_still(scene) or bpy.app.is_job_running("RENDER"):
         return
     if number not in _watches or not _watches[number].has_what_there_is():
         _watches[number] = Watch(scene)
