@@ -40,7 +40,8 @@ class Watch:
         self._scene = scene
         self._members = Members(scene)
         bodies = bodies_of(scene)
-        self._world = BulletWorld(scene, bodies, connections_of(scene))
+        # A deleted shard leaves connections behind that Blender does not simulate.
+        self._world = BulletWorld(scene, bodies, [each for each in connections_of(scene) if _has_bodies(each)])
         self.given_up = not any(map(is_marked, bodies))
 
     def has_what_there_is(self) -> bool:
@@ -69,6 +70,11 @@ class Watch:
         """Leave the world to whoever wants it."""
         self._world.release()
         self.given_up = True
+
+
+def _has_bodies(connection: bpy.types.Object) -> bool:
+    constraint = connection.rigid_body_constraint
+    return constraint.object1 is not None and constraint.object2 is not None
 
 
 _watches: dict[int, Watch] = {}
