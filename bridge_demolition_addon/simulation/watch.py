@@ -41,7 +41,9 @@ class Watch:
         self._members = Members(scene)
         bodies = bodies_of(scene)
         # A deleted shard leaves connections behind that Blender does not simulate.
-        self._world = BulletWorld(scene, bodies, [each for each in connections_of(scene) if _has_bodies(each)])
+        there = set(bodies)
+        simulated = [each for each in connections_of(scene) if _ends(each) <= there]
+        self._world = BulletWorld(scene, bodies, simulated)
         self.given_up = not any(map(is_marked, bodies))
 
     def has_what_there_is(self) -> bool:
@@ -72,9 +74,9 @@ class Watch:
         self.given_up = True
 
 
-def _has_bodies(connection: bpy.types.Object) -> bool:
+def _ends(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
     constraint = connection.rigid_body_constraint
-    return constraint.object1 is not None and constraint.object2 is not None
+    return {constraint.object1, constraint.object2}
 
 
 _watches: dict[int, Watch] = {}

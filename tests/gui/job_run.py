@@ -31,6 +31,8 @@ def run_to_the_end(person: Person) -> Steps:
     while handlers():
         yield
         now = time.perf_counter()
+        if not handlers():  # it has just written the results, and drawn their chart
+            break
         longest, last = max(longest, now - last), now
         if person.scene.frame_current > 15 and not undone:
             yield from person.picture("running")

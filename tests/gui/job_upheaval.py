@@ -46,6 +46,9 @@ def prepare(person: Person, company: str, number: int) -> None:
             bpy.ops.ed.undo_push(message="built")
             bpy.ops.wm.save_as_mainfile(filepath=str(person.folder / "built.blend"))
         person.scene.frame_set(1)
+        for link in list(person.scene.rigidbody_world.constraints.objects):
+            if None in (link.rigid_body_constraint.object1, link.rigid_body_constraint.object2):
+                bpy.data.objects.remove(link)  # left over by a deleted shard, and not simulated
         if company == RECORDED:
             if bpy.ops.bda.unregister_handler.poll():
                 bpy.ops.bda.unregister_handler()

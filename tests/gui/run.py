@@ -48,7 +48,8 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|(Info: )?Saved (as |session recovery to )?\""
     r"|(WARNING )?[Cc]ould not get a list of mounted file-systems$"
     r"|Read blend: "
-    r"|(Info|Warning|Error): (Deleted \d+ object|30 shards, |Recording to |The recording ended early|Results are in)"
+    r"|(Info|Warning|Error): (Deleted \d+ object|30 shards, |Recording to |Stopped after |Baked: )"
+    r"|(Info|Warning|Error): (The recording ended early|Results are in)"
 )
 """Lines that Blender writes as it goes, and reports of operators that a job calls."""
 

@@ -59,7 +59,6 @@ DELETIONS = {
     "connection removed": "bpy.data.objects.remove(held_by[0])",
     "body and connections deleted": "delete(doomed, *held_by)",
     "connections, then body removed": "bpy.data.batch_remove([*held_by, doomed])",
-    "body taken out of the world": "blocks.world.collection.objects.unlink(doomed)",
     "everything removed": "for each in [*row[1:], *links, ground]: bpy.data.objects.remove(each)",
 }
 
@@ -127,6 +126,11 @@ def test_deleting_while_recorded(tmp_path, deletion):
 def test_deleting_by_a_script_that_plays_on_at_once(tmp_path, deletion):
     afterwards = AFTERWARDS.replace("UPDATE", "")
     in_own_process(tmp_path, RECORDED, DELETIONS[deletion], afterwards, RECORDED_ANEW)
+
+
+def test_taking_a_body_out_of_the_world(tmp_path):
+    afterwards = AFTERWARDS.replace("UPDATE", "bpy.context.view_layer.update()")
+    in_own_process(tmp_path, RECORDED, "blocks.world.collection.objects.unlink(doomed)", afterwards)
 
 
 @pytest.mark.parametrize("deletion", ["body removed", "body deleted", "connection removed"])
