@@ -17,7 +17,6 @@ class BlenderLayout:
     """Blender's own structures, the same on every platform."""
 
     body_shared: int = 80
-    world_last_frame: int = 36
     world_shared: int = 40
     world_substeps: int = 76
     shared_physics_world: int = 24
@@ -25,6 +24,11 @@ class BlenderLayout:
     physics_world_dispatcher: int = 16
     physics_world_broadphase: int = 24
     physics_world_solver: int = 32
+
+    @property
+    def world_last_frame(self) -> int:
+        """Frame simulated last, a float before the shared part."""
+        return self.world_shared - 4
 
     @property
     def world_iterations(self) -> int:
@@ -135,7 +139,11 @@ class WorldLayout:
     broadphase: int = 128
     solver_settings: int = 176
     solver: int = 456
-    bodies: int = 8
+
+    @property
+    def bodies(self) -> int:
+        """Array of all bodies, just before the dispatcher."""
+        return self.dispatcher - 32
 
     @property
     def constraints(self) -> int:
