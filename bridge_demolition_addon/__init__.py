@@ -16,6 +16,8 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
-    from .ui import contour_operators, contour_panel, contour_view, operators, overlay, panels, properties
+    from .simulation import safe_undo, watch
+    from .ui import contour_operators, contour_panel, contour_view, operators, overlay, panels, properties, run_operator
 
-    return properties, contour_view, operators, contour_operators, panels, contour_panel, overlay
+    interface = (properties, contour_view, operators, run_operator, contour_operators, panels, contour_panel, overlay)
+    return (*interface, safe_undo, watch)

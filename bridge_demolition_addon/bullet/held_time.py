@@ -13,9 +13,13 @@ from __future__ import annotations
 
 import bpy
 
+from ..core.errors import LayoutError
 from . import checks
 from .layout import platform_layout
-from .memory import write_float
+from .memory import read_value, write_float
+
+_NEVER = -2_000_000.0
+"""No frame comes after this one: Blender's first is -1 048 574."""
 
 
 def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
@@ -40,6 +44,26 @@ def release_time(scene: bpy.types.Scene) -> None:
     for world in _evaluated_worlds(scene):
         if world.time_scale == 0.0:
             _write_time_scale(world, scene.rigidbody_world.time_scale)
+
+
+def stop_time(scene: bpy.types.Scene) -> None:
+    """Let Blender take no step until the start frame: it simulates only the frame that follows on its last one.
+
+    Unlike a time scale of 0 this outlasts animation, and an update of the scene's evaluated copy.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+    layout = platform_layout()
+    for world in _evaluated_worlds(scene):
+        checks.check_settings(layout, world)
+        field = world.as_pointer() + layout.blender.world_last_frame
+        last = read_value(field, "f")
+        if last != _NEVER and not (abs(last) < -_NEVER and last == int(last)):
+            raise LayoutError(f"last frame of the world is {last:g}")
+        write_float(field, _NEVER)
 
 
 def _evaluated_worlds(scene: bpy.types.Scene) -> list[bpy.types.RigidBodyWorld]:

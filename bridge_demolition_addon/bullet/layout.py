@@ -26,6 +26,11 @@ class BlenderLayout:
     physics_world_solver: int = 32
 
     @property
+    def world_last_frame(self) -> int:
+        """Frame simulated last, a float before the shared part."""
+        return self.world_shared - 4
+
+    @property
     def world_iterations(self) -> int:
         """Iterations of the solver, a short after the sub-steps."""
         return self.world_substeps + 2
@@ -86,6 +91,11 @@ class BodyLayout:
         """First entry of that list."""
         return self.user_pointer + 72
 
+    @property
+    def constraints(self) -> int:
+        """Array of the constraints that keep the body from colliding, behind damping and motion state."""
+        return self.linear_damping + 80
+
 
 @dataclass(frozen=True, slots=True)
 class ConstraintLayout:
@@ -129,6 +139,21 @@ class WorldLayout:
     broadphase: int = 128
     solver_settings: int = 176
     solver: int = 456
+
+    @property
+    def bodies(self) -> int:
+        """Array of all bodies, just before the dispatcher."""
+        return self.dispatcher - 32
+
+    @property
+    def constraints(self) -> int:
+        """Array of all constraints, two pointers behind the solver."""
+        return self.solver + 16
+
+    @property
+    def moving_bodies(self) -> int:
+        """Array of the bodies that can move, behind that of the constraints."""
+        return self.solver + 48
 
     @property
     def after_step(self) -> int:
@@ -245,6 +270,15 @@ class DispatcherLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class ArrayLayout:
+    """btAlignedObjectArray."""
+
+    count: int = 4
+    capacity: int = 8
+    data: int = 16
+
+
+@dataclass(frozen=True, slots=True)
 class Layout:
     """All offsets of one platform."""
 
@@ -255,6 +289,7 @@ class Layout:
     blender: BlenderLayout = BlenderLayout()
     constraint: ConstraintLayout = ConstraintLayout()
     world: WorldLayout = WorldLayout()
+    array: ArrayLayout = ArrayLayout()
 
 
 SYSTEM_V = Layout(

@@ -32,6 +32,7 @@ from .memory import (
     write_pointers,
     write_vectors,
 )
+from .retirement import Fingerprints, retire
 
 OUT_OF_REACH_M = 1000.0
 """How far below its place a removed body stays."""
@@ -309,11 +310,34 @@ class BulletWorld:
         except (LayoutError, ReferenceError):  # the scene is gone, and its world with it
             ours = False
         if ours:
+            self._forget_freed_connections()
             self._point_feedback_at(np.uint64(0))
             for field in (self._layout.world.before_step, self._layout.world.after_step):
                 write_pointers(dynamics + field, 0)
             write_pointers(dynamics + self._layout.world.user_info, 0)
         self._dynamics = 0
+
+    def retire(self) -> None:
+        """Make a world safe that objects are being taken out of; it must not be simulated any more.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected; nothing has been written.
+        """
+        dynamics = self._find_dynamics_world()
+        if not dynamics or dynamics != self._dynamics or not self._is_marked(dynamics):
+            return
+        connections = self._connection_addresses[self._exists]
+        alive = self._fingerprints.still_there(connections)
+        self._forget_freed_connections()
+        self._point_feedback_at(np.uint64(0))
+        retire(self._layout, dynamics, self._body_addresses, connections, alive)
+        self._exists[:] = False
+
+    def _forget_freed_connections(self) -> None:
+        """Leave those alone that Blender has freed by now."""
+        self._exists[self._exists] = self._fingerprints.still_there(self._connection_addresses[self._exists])
 
     def _find_dynamics_world(self) -> int:
         """Address of the btDiscreteDynamicsWorld, 0 while there is none."""
@@ -354,6 +378,7 @@ class BulletWorld:
         ignored = IgnoredCollisions(self._layout, connection_addresses[forbids_collision], body_addresses)
         self._body_addresses, self._connection_addresses = body_addresses, connection_addresses
         self._exists = self._connection_addresses != 0
+        self._fingerprints = Fingerprints(self._layout, connection_addresses[self._exists])
         self._forbids_collision, self._ignored = forbids_collision, ignored
         self._thresholds = gather_doubles(self._threshold_fields())[:, 0]
         self._threshold_factor, self._holds_connections = 1.0, False

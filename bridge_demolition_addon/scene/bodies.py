@@ -48,6 +48,11 @@ def member_of(body: bpy.types.Object) -> tuple[str, str]:
     return str(body.get(_MEMBER, "")), str(body.get(_MEMBER_KIND, ""))
 
 
+def is_marked(body: bpy.types.Object) -> bool:
+    """Whether a body was made here."""
+    return _KIND in body
+
+
 def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """All mesh objects that take part in the scene's rigid-body world."""
     return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]

@@ -77,7 +77,7 @@ def _before_update(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | Non
 def _before_upheaval(*_: object) -> None:
     """Undo, redo and loading a file free what a recording looks at: it ends while that is still there."""
     if _current and not _current.error:
-        _current.fail(SimulationError("recording ended, as undo, redo or loading a file replaces what it looks at"))
+        _current.fail(SimulationError("undo, redo or loading a file took away what was recorded"))
 
 
 def _follow(scene: bpy.types.Scene, action: Callable[[Recording], None]) -> None:

@@ -25,12 +25,11 @@ from ..scene.thresholds import rewrite_thresholds
 from .blast import Blast, goes_off
 from .events import Events
 from .logs import Logs
+from .members import Members
 from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
+from .standstill import stand_still
 from .substeps import SubstepRecorder, no_ball_history
-
-_MOST_NAMES = 3
-"""Names of objects in a message."""
 
 
 class Recording:
@@ -77,8 +76,7 @@ class Recording:
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         self._lifted = [body for body in self._bodies if lifts_of(body)]
-        self._objects_at_start = self._objects()
-        self._names_at_start = self._names()
+        self._members = Members(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
         self._substeps: SubstepRecorder | None = None
@@ -111,8 +109,11 @@ class Recording:
         world = self.scene.rigidbody_world
         if world is None or world.collection is None:
             raise SimulationError("the rigid-body world was removed while it was recorded")
-        if self._objects() != self._objects_at_start:
-            raise SimulationError(f"{self._changes()}: go to the start frame and record anew")
+        if not self._members.are_the_same():
+            if self._members.any_is_gone():
+                stand_still(self.scene, self._world)
+            changes = self._members.changes()
+            raise SimulationError(f"rigid-body world changed, {changes}: go to the start frame and record anew")
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take down the frame.
@@ -296,32 +297,6 @@ class Recording:
                 if self.scene.frame_current == lift_frame - 1:
                     lift_from(ball, lift_frame, shares, end, ball.evaluated_get(depsgraph).matrix_world)
 
-    def _objects(self) -> bytes:
-        """What tells the objects in the world from all others, quickly."""
-        numbers = []
-        for objects in self._collections():
-            numbers.append(np.zeros(len(objects), np.int32))
-            objects.foreach_get("session_uid", numbers[-1])
-        return b"|".join(each.tobytes() for each in numbers)
-
-    def _names(self) -> dict[int, str]:
-        """Names of the objects in the world, by the numbers that stay theirs while Blender runs."""
-        return {each.session_uid: each.name for objects in self._collections() for each in objects}
-
-    def _collections(self) -> list[bpy.types.bpy_prop_collection]:
-        world = self.scene.rigidbody_world
-        return [each.all_objects for each in (world.collection, world.constraints) if each]
-
-    def _changes(self) -> str:
-        """What was added and removed since the beginning."""
-        before, now = self._names_at_start, self._names()
-        changes = {
-            "removed": [name for number, name in before.items() if number not in now],
-            "added": [name for number, name in now.items() if number not in before],
-        }
-        texts = [f"{_some(names)} {change}" for change, names in changes.items() if names]
-        return "rigid-body world changed, " + (" and ".join(texts) or "its objects are in another order")
-
     def _record(self, state: WorldState, held: bool) -> None:
         if state is WorldState.ABSENT:
             return
@@ -391,9 +366,3 @@ class Recording:
         if self._blast and frame_s > 0.0:
             loads, frame["blast_impulses_ns"] = self._blast.after_frame(frame["places_m"])
             self._logs.write_blast(frame, loads, frame_s)
-
-
-def _some(names: Sequence[str]) -> str:
-    """The first of some names, and how many more there are."""
-    shown = ", ".join(repr(name) for name in names[:_MOST_NAMES])
-    return shown + (f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else "")

@@ -12,7 +12,7 @@ from ..core.model import build_model
 from ..core.scenario.file import read_scenario
 from ..core.summary import summarise
 from ..scene.demolition import build_demolition
-from ..simulation import handlers
+from ..simulation import handlers, standstill
 from ..simulation.output import keep_results, prepared_folder
 from ..simulation.recording import Recording
 from . import redraw
@@ -179,6 +179,7 @@ def register() -> None:
 def unregister() -> None:
     """End a recording that runs, and take the operators away."""
     handlers.stop()
+    standstill.forget()
     redraw.unregister()
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

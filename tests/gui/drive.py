@@ -20,7 +20,8 @@ TURN_S = 0.03
 
 job, folder = sys.argv[sys.argv.index("--") + 1 :]
 person = Person(Path(folder))
-steps = importlib.import_module(f"job_{job}").steps(person)
+module, *words = job.split("-")
+steps = importlib.import_module(f"job_{module}").steps(person, *words)
 
 
 def next_step() -> float | None:

@@ -69,7 +69,7 @@ def switch_off_while_playing(person: Person) -> Steps:
     yield 1.0
     yield from person.picture("switched_off_while_playing")
     person.expect("it plays on without the extension", person.playing)
-    person.expect("no handler is left after switching off", dict(handlers()), {})
+    person.expect("no handler is left after switching off", dict(handlers("")), {})
     person.expect("its log is whole", len(rows(person.folder / "switched_off" / "force_log.csv")) % 32, 0)
     person.expect_reports("nothing but the registering is reported before", "Recording to")
     yield from play_or_pause(person)

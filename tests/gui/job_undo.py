@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Undo while a recording runs.
 
-Blender alone, without any add-on, may crash when it plays on after an undo in the middle of a simulation: this job is
-by itself, so that such a crash spoils no other.
+Blender alone, without any add-on, crashes when it plays on after an undo in the middle of a simulation (job upheaval):
+this job looks at what becomes of the recording.
 """
 
 from habits import build, play_or_pause, play_until, register
@@ -24,7 +24,7 @@ def steps(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield 2.0
     yield from person.picture("undone_and_unregistered")
-    reports = ("30 shards", "Recording to", "as undo", "Results are in")
+    reports = ("30 shards", "Recording to", "undo, redo", "Results are in")
     person.expect_reports("undo ends the recording with a warning", *reports)
     person.expect("what was recorded is kept", (person.folder / "undone" / "summary.json").exists())
     person.expect("no handler is left after undo", dict(handlers()), {})

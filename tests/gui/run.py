@@ -17,15 +17,26 @@ import re
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 from machine import CHECKOUT, DebianRoot, SetupError, System, debian_root, found_system
+from upheavals import ALONE, RECORDED, UPHEAVALS, WATCHED
+from upheavals import job as upheaval_job
 
 HERE = Path(__file__).resolve().parent
-JOBS = tuple(sorted(path.stem.removeprefix("job_") for path in HERE.glob("job_*.py")))
+JOBS = tuple(
+    sorted({path.stem.removeprefix("job_") for path in HERE.glob("job_*.py")} - {"upheaval"})
+    + [upheaval_job(upheaval, company) for upheaval in UPHEAVALS for company in (RECORDED, WATCHED)]
+)
+REPEATED = (*JOBS, *(upheaval_job(upheaval, ALONE) for upheaval in UPHEAVALS))
+"""Those that may crash for Blender's own sake are not part of a run of all."""
 JOB_SECONDS = 300
+
+ENDED_BY_SIGNAL = 128
+"""Exit statuses above this one are signals."""
 
 LOG_PREFIX = re.compile(r"\d+:\d\d\.\d{3}  \S+ +\| ")
 """What Blender 5 begins its lines with: time and category."""
@@ -40,8 +51,10 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Saved: '"
     r"|Time: \d+:\d\d\.\d\d \(Saving: "
     r"|(Video )?[Aa]ppend frame \d+"
+    r"|(Info|Warning|Error): (Deleted \d+ object|30 shards, |Recording to |Stopped after |Baked: )"
+    r"|(Info|Warning|Error): (The recording ended early|Results are in)"
 )
-"""Lines that Blender writes as it goes."""
+"""Lines that Blender writes as it goes, and reports of operators that a job calls."""
 
 
 def main() -> int:
@@ -54,7 +67,11 @@ def main() -> int:
     except SetupError as error:
         print(f"gui_test: {error}", file=sys.stderr)
         return 1
-    failures = sum([run_job(machine, output, job) for job in options.job or JOBS])
+    jobs = options.job or JOBS
+    if options.repeat > 1:
+        failures = sum([repeat_job(machine, output, job, options.repeat) for job in jobs])
+    else:
+        failures = sum([run_job(machine, output, job) for job in jobs])
     print(f"{failures} failed" if failures else "all as it should be", f"- screenshots and logs are in {output}")
     return 1 if failures else 0
 
@@ -75,14 +92,19 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--output", type=Path, default=CHECKOUT / "runs" / "gui_test", metavar="DIR", help="where it goes"
     )
-    parser.add_argument("--job", action="append", choices=JOBS, help="only this job; may be repeated")
+    parser.add_argument(
+        "--job", action="append", choices=REPEATED, metavar="NAME", help="only this job; may be repeated"
+    )
+    parser.add_argument(
+        "--repeat", type=int, default=1, metavar="N", help="do every job so often, and count how often Blender crashes"
+    )
     return parser.parse_args()
 
 
 def emptied(folder: Path) -> Path:
     """The output folder, cleared of an earlier run's jobs and of nothing else."""
     folder.mkdir(parents=True, exist_ok=True)
-    for name in ("home", "user", "extension", *JOBS):
+    for name in ("home", "user", "extension", *REPEATED):
         shutil.rmtree(folder / name, ignore_errors=True)
         (folder / name).mkdir()
     return folder
@@ -146,8 +168,41 @@ def environment(output: Path) -> dict[str, str]:
 def run_job(machine: System | DebianRoot, output: Path, job: str) -> int:
     """Do one job, print what was checked, and return how much was not as it should be."""
     print(f"== {job}", flush=True)
-    folder = output / job
-    window = ("--enable-event-simulate", "--gpu-backend", "opengl", "--window-geometry", "0", "0", "1280", "800")
+    _, checks = do(machine, output, job, output / job)
+    for what, trouble in checks:
+        print(f"FAILED  {what}: {trouble}" if trouble else f"ok      {what}", flush=True)
+    return sum(bool(trouble) for _, trouble in checks)
+
+
+def repeat_job(machine: System | DebianRoot, output: Path, job: str, times: int) -> int:
+    """Do one job again and again, print how often Blender crashed, and return how often something went wrong."""
+    crashes, survived, failures, wrong = 0, 0, 0, Counter()
+    for number in range(1, times + 1):
+        folder = output / job / f"{number:02}"
+        folder.mkdir()
+        status, checks = do(machine, output, job, folder)
+        troubles = [f"{what}: {trouble}" for what, trouble in checks if trouble]
+        crashes += status > ENDED_BY_SIGNAL
+        failures += bool(troubles)
+        survived += sum(what.startswith("survived") for what, _ in checks)
+        if status <= ENDED_BY_SIGNAL:
+            wrong.update(troubles)
+    often = f", which survived {survived} times of it" if survived else ""
+    print(f"{job}: {crashes} of {times} Blenders crashed{often}; in {failures - crashes} something else was wrong")
+    for trouble, count in wrong.items():
+        print(f"  {count} times {trouble}")
+    sys.stdout.flush()
+    return failures
+
+
+def window_size(job: str) -> tuple[str, str]:
+    """Small where nothing is clicked, as it is drawn without a graphics card."""
+    return ("640", "480") if job.startswith("upheaval") else ("1280", "800")
+
+
+def do(machine: System | DebianRoot, output: Path, job: str, folder: Path) -> tuple[int, list[tuple[str, str]]]:
+    """Do one job; Blender's exit status, and what was checked with what was wrong with it."""
+    window = ("--enable-event-simulate", "--gpu-backend", "opengl", "--window-geometry", "0", "0", *window_size(job))
     driven = ("--python", str(HERE / "drive.py"), "--", job, str(folder))
     session = ("python3", str(HERE / "session.py"), str(JOB_SECONDS), machine.blender, *window, *driven)
     with (folder / "console.txt").open("w") as console:
@@ -155,9 +210,7 @@ def run_job(machine: System | DebianRoot, output: Path, job: str) -> int:
         status = subprocess.run(command, env=environment(output), stdout=console, stderr=subprocess.STDOUT).returncode
     checks = [*checked(folder), ("Blender ends by itself and in peace", "" if status == 0 else f"exit status {status}")]
     checks += [("console", f"unexpected: {line}") for line in unexpected(folder)]
-    for what, trouble in checks:
-        print(f"FAILED  {what}: {trouble}" if trouble else f"ok      {what}", flush=True)
-    return sum(bool(trouble) for _, trouble in checks)
+    return status, checks
 
 
 def checked(folder: Path) -> list[tuple[str, str]]:

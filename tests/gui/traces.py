@@ -11,15 +11,15 @@ EXTENSION = "bl_ext.user_default.bridge_demolition_addon"
 SCENARIO = Path(__file__).resolve().parent / "small.toml"
 
 
-def handlers() -> Counter[str]:
-    """How often each of the extension's handlers is registered."""
+def handlers(module: str = "simulation.handlers") -> Counter[str]:
+    """How often each handler of a module of the extension is registered, by default those of a recording."""
     lists = {name: getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)}
     return Counter(
         f"{name}: {handler.__qualname__}"
         for name, functions in lists.items()
         if isinstance(functions, list)
         for handler in functions
-        if handler.__module__.startswith(EXTENSION)
+        if handler.__module__.startswith(f"{EXTENSION}.{module}")
     )
 
 

@@ -1,0 +1,151 @@
+"""Making a Bullet world safe that objects were taken out of.
+
+When a body or a connection is deleted, Blender frees Bullet's part of it, but not everything that points at it: freed
+constraints stay in the world, and in the lists of their bodies; freed bodies stay in their constraints and, depending
+on how they were deleted, in the world. Blender comes to grief over them when it next takes a step, validates the
+constraints or frees the world for a new one, which it makes at the start frame.
+
+So all these pointers are taken out here. What is left must not be simulated any more (`held_time.stop_time`), as
+collision detection still knows the freed bodies.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import bpy
+import numpy as np
+
+from ..core.errors import LayoutError
+from .layout import Layout
+from .memory import read, read_pointer, read_value, write_integers, write_pointers
+
+_MOST_ENTRIES = 10_000_000
+_INERT_BYTES = 4096
+"""More than a btRigidBody takes."""
+
+_inert_bodies: list[np.ndarray] = []
+"""Stand-ins for the bodies of constraints, never to be freed: Blender asks for them when it deletes a constraint."""
+
+
+class PointerArray:
+    """One of Bullet's arrays of pointers, read without trust.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    address
+        Of the array's structure.
+    known
+        All pointers that may be in it.
+
+    Raises
+    ------
+    LayoutError
+        There is no such array.
+    """
+
+    def __init__(self, layout: Layout, address: int, known: set[int]):
+        self._count_field = address + layout.array.count
+        count, capacity = (read_value(address + field, "i") for field in (layout.array.count, layout.array.capacity))
+        if not 0 <= count <= capacity <= _MOST_ENTRIES:
+            raise LayoutError(f"an array of Bullet has {count} of {capacity} entries")
+        self._data = read_pointer(address + layout.array.data) if count else 0
+        raw = read(self._data, 8 * count) if count else b""
+        if raw is None:
+            raise LayoutError("an array of Bullet cannot be read")
+        self.entries = np.frombuffer(raw, np.uint64).tolist()
+        if not known.issuperset(self.entries):
+            raise LayoutError("an array of Bullet holds what Blender did not put there")
+
+    def keep(self, kept: set[int]) -> None:
+        """Take out all entries but those to keep."""
+        entries = np.array([entry for entry in self.entries if entry in kept], np.uint64)
+        if len(entries) == len(self.entries):
+            return
+        write_pointers(self._data + 8 * np.arange(len(entries)), entries)
+        write_integers(np.array([self._count_field]), len(entries))
+
+
+class Fingerprints:
+    """What constraints in use begin with, to tell them from memory that was freed.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    constraints
+        (m,) addresses of btTypedConstraints that have been checked.
+    """
+
+    def __init__(self, layout: Layout, constraints: np.ndarray):
+        # Class, type and the two bodies; a flag in between changes when the constraint breaks.
+        bodies = range(layout.constraint.body_a, layout.constraint.body_b + 8)
+        self._columns = np.array([*range(layout.constraint.type + 4), *bodies])
+        self._size = layout.constraint.body_b + 8
+        self._prints = {address: self._print(address) for address in constraints.tolist()}
+
+    def still_there(self, addresses: np.ndarray) -> np.ndarray:
+        """Whether each of the addresses (k,) is still the constraint that it was, and not freed."""
+        prints = (self._print(address) == self._prints[address] for address in addresses.tolist())
+        return np.fromiter(prints, bool, len(addresses))
+
+    def _print(self, address: int) -> bytes | None:
+        raw = read(address, self._size)
+        return np.frombuffer(raw, np.uint8)[self._columns].tobytes() if raw else None
+
+
+def retire(layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.ndarray, alive: np.ndarray) -> None:
+    """Take out of a world all that may point at freed memory.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    dynamics
+        Address of the btDiscreteDynamicsWorld.
+    bodies, connections
+        Addresses (n,), (m,) of all bodies and constraints that it had when it was checked.
+    alive
+        (m,) whether each constraint is still there.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+    known_bodies, known_connections = set(bodies.tolist()), set(connections.tolist())
+    living = known_bodies & _bodies_in_use(layout)
+    world = layout.world
+    constraints = PointerArray(layout, dynamics + world.constraints, known_connections)
+    everything = PointerArray(layout, dynamics + world.bodies, known_bodies)
+    moving = PointerArray(layout, dynamics + world.moving_bodies, known_bodies)
+    lists = [PointerArray(layout, body + layout.body.constraints, known_connections) for body in living]
+    for array in (constraints, *lists):
+        array.keep(set())
+    for array in (everything, moving):
+        array.keep(living)
+    inert = _inert_body(read_pointer(min(living)) if living else 0)
+    for field in (layout.constraint.body_a, layout.constraint.body_b):
+        write_pointers(connections[alive] + np.uint64(field), inert)
+
+
+def _bodies_in_use(layout: Layout) -> set[int]:
+    """Addresses of the btRigidBodies of all objects that there are now."""
+    addresses = set()
+    for body in itertools.compress(bpy.data.objects, (each.rigid_body for each in bpy.data.objects)):
+        shared = read_pointer(body.rigid_body.as_pointer() + layout.blender.body_shared)
+        holder = read_pointer(shared) if shared else 0
+        if holder:
+            addresses.add(read_pointer(holder))
+    return addresses
+
+
+def _inert_body(class_address: int) -> int:
+    """Address of a body that no constraint holds and that ignores no other."""
+    raw = np.zeros(_INERT_BYTES // 8 + 1, np.uint64)
+    _inert_bodies.append(raw)
+    address = raw.ctypes.data + raw.ctypes.data % 16
+    raw[(address - raw.ctypes.data) // 8] = class_address
+    return address

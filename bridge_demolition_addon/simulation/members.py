@@ -1,0 +1,66 @@
+"""What belongs to a scene's rigid-body world, to see when something is added or removed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+_MOST_NAMES = 3
+"""Names of objects in a message."""
+
+
+class Members:
+    """The objects of a scene's rigid-body world as they are now.
+
+    Parameters
+    ----------
+    scene
+        Scene with a rigid-body world.
+    """
+
+    def __init__(self, scene: bpy.types.Scene):
+        self._scene = scene
+        self._numbers_at_first = self._numbers()
+        self._names_at_first = self._names()
+
+    def are_the_same(self) -> bool:
+        """Whether the world still has just these objects."""
+        return self._numbers() == self._numbers_at_first
+
+    def any_is_gone(self) -> bool:
+        """Whether something was taken out of the world."""
+        return not self._names_at_first.keys() <= self._names().keys()
+
+    def changes(self) -> str:
+        """What was added and removed since."""
+        before, now = self._names_at_first, self._names()
+        changes = {
+            "removed": [name for number, name in before.items() if number not in now],
+            "added": [name for number, name in now.items() if number not in before],
+        }
+        texts = [f"{_some(names)} {change}" for change, names in changes.items() if names]
+        return " and ".join(texts) or "its objects are in another order"
+
+    def _numbers(self) -> bytes:
+        """What tells the objects in the world from all others, quickly."""
+        numbers = []
+        for objects in self._collections():
+            numbers.append(np.zeros(len(objects), np.int32))
+            objects.foreach_get("session_uid", numbers[-1])
+        return b"|".join(each.tobytes() for each in numbers)
+
+    def _names(self) -> dict[int, str]:
+        """Names of the objects in the world, by the numbers that stay theirs while Blender runs."""
+        return {each.session_uid: each.name for objects in self._collections() for each in objects}
+
+    def _collections(self) -> list[bpy.types.bpy_prop_collection]:
+        world = self._scene.rigidbody_world
+        return [each.all_objects for each in (world.collection, world.constraints) if each]
+
+
+def _some(names: Sequence[str]) -> str:
+    """The first of some names, and how many more there are."""
+    shown = ", ".join(repr(name) for name in names[:_MOST_NAMES])
+    return shown + (f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else "")

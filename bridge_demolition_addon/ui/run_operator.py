@@ -1,0 +1,227 @@
+"""The buttons that simulate a scene in one go, keep it as a bake, and throw the bake away."""
+
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import DemolitionError, OutputError
+from ..scene.world import keep_played_frames
+from ..simulation import handlers
+from ..simulation.output import prepared_folder
+from ..simulation.playing import Playing
+from . import redraw
+
+_TICK_S = 0.001
+"""Between two frames: Blender takes in mouse and keyboard, and draws."""
+
+_LOOKING_ROUND = {
+    "MOUSEMOVE",
+    "INBETWEEN_MOUSEMOVE",
+    "MIDDLEMOUSE",
+    "WHEELUPMOUSE",
+    "WHEELDOWNMOUSE",
+    "WINDOW_DEACTIVATE",
+}
+"""Events that Blender gets as ever; all others would change what is simulated, or undo it."""
+
+_SLOW_FRAME_S = 0.5
+
+_timers: list[bpy.types.Timer] = []
+"""Of the run that goes on, if any: switching the extension off takes its operator away without a word to it."""
+
+
+class BDA_OT_run(bpy.types.Operator):
+    """Simulate and record from the start frame to the last one, and write the results; Esc stops"""
+
+    bl_idname = "bda.run"
+    bl_label = "Run"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not context.scene.rigidbody_world:
+            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
+            return False
+        if context.scene.rigidbody_world.point_cache.is_baked:
+            cls.poll_message_set("The simulation is baked and only played back: delete the bake first")
+            return False
+        if handlers.current():
+            cls.poll_message_set("A recording runs already: unregister its handler first")
+            return False
+        if not context.scene.bda.output_directory:
+            cls.poll_message_set("Choose a folder for the results first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """The whole run in one call, for scripts."""
+        if not self._begin(context):
+            return {"CANCELLED"}
+        try:
+            while not self._playing.finished:
+                self._playing.step()
+        except DemolitionError:
+            pass  # the recording knows why, and is reported with what it has
+        return self._end()
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if context.screen.is_animation_playing:
+            bpy.ops.screen.animation_cancel(restore_frame=False)
+        if not self._begin(context):
+            return {"CANCELLED"}
+        manager = context.window_manager
+        manager.progress_begin(0, self._playing.total)
+        _timers.append(manager.event_timer_add(_TICK_S, window=context.window))
+        manager.modal_handler_add(self)
+        redraw.follow_recording()
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "ESC":
+            return self._leave(context)
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in _LOOKING_ROUND else {"RUNNING_MODAL"}
+        try:
+            self._playing.step()
+        except (DemolitionError, ReferenceError):
+            return self._leave(context)
+        if self._playing.finished:
+            return self._leave(context)
+        self._show(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends the run itself, as it does before another file is loaded."""
+        self._playing.abandon()
+        _stop_showing(context)
+
+    def _begin(self, context: bpy.types.Context) -> bool:
+        settings = context.scene.bda
+        try:
+            folder = prepared_folder(_absolute(settings.output_directory), overwrite=settings.overwrite)
+            self._playing = Playing(context.scene, folder, settings.title or context.scene.name)
+        except DemolitionError as error:
+            self.report({"ERROR"}, str(error))
+            return False
+        return True
+
+    def _show(self, context: bpy.types.Context) -> None:
+        playing = self._playing
+        context.window_manager.progress_update(playing.done)
+        context.workspace.status_text_set(progress_text(playing))
+
+    def _leave(self, context: bpy.types.Context) -> set[str]:
+        _stop_showing(context)
+        return self._end()
+
+    def _end(self) -> set[str]:
+        playing = self._playing
+        recording = playing.recording
+        try:
+            playing.end()
+        except (DemolitionError, OSError) as error:
+            self.report({"ERROR"}, str(recording.error or error))
+            return {"CANCELLED"}
+        if recording.error:
+            self.report({"WARNING"}, f"The recording ended early: {recording.error}")
+        elif not playing.finished:
+            self.report({"WARNING"}, f"Stopped after {playing.done} of {playing.total} frames")
+        if recording.distrust:
+            self.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
+        self.report({"INFO"}, f"Results are in {recording.folder}")
+        return {"FINISHED"}
+
+
+class BDA_OT_bake(bpy.types.Operator):
+    """Keep the frames simulated so far as a bake: saved with the file, and played back instead of simulated"""
+
+    bl_idname = "bda.bake"
+    bl_label = "Bake"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        world = context.scene.rigidbody_world
+        if not world:
+            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
+            return False
+        if world.point_cache.is_baked:
+            cls.poll_message_set("The simulation is baked already")
+            return False
+        if handlers.current():
+            cls.poll_message_set("A recording runs: unregister its handler first")
+            return False
+        if not world.point_cache.info or world.point_cache.is_outdated:
+            cls.poll_message_set("Nothing has been simulated since the last change: run or play it first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        keep_played_frames(context.scene)
+        self.report({"INFO"}, f"Baked: {context.scene.rigidbody_world.point_cache.info}")
+        return {"FINISHED"}
+
+
+class BDA_OT_delete_bake(bpy.types.Operator):
+    """Delete the bake, so that the scene is simulated again"""
+
+    bl_idname = "bda.delete_bake"
+    bl_label = "Delete Bake"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        world = context.scene.rigidbody_world
+        if not world or not world.point_cache.is_baked:
+            cls.poll_message_set("There is no bake")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        cache = context.scene.rigidbody_world.point_cache
+        with bpy.context.temp_override(scene=context.scene, point_cache=cache):
+            bpy.ops.ptcache.free_bake()
+        context.scene.frame_set(cache.frame_start)
+        return {"FINISHED"}
+
+
+CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
+
+
+def register() -> None:
+    """Make the operators known to Blender."""
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    """Take the operators away, and what a run that goes on shows."""
+    _stop_showing(bpy.context)
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
+
+
+def progress_text(playing: Playing) -> str:
+    """How far a run is, for the status bar."""
+    left = round(playing.remaining_s)
+    parts = [
+        f"Running: {playing.done} of {playing.total} frames",
+        f"{playing.recording.broken} connections broken",
+        f"{left // 60}:{left % 60:02d} min left",
+        "Esc: stop",
+    ]
+    if playing.longest_frame_s > _SLOW_FRAME_S:
+        parts.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
+    return " | ".join(parts)
+
+
+def _stop_showing(context: bpy.types.Context) -> None:
+    if not _timers:
+        return
+    context.window_manager.event_timer_remove(_timers.pop())
+    context.window_manager.progress_end()
+    if context.workspace:
+        context.workspace.status_text_set(None)
+
+
+def _absolute(path: str) -> Path:
+    if path.startswith("//") and not bpy.data.filepath:
+        raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
+    return Path(bpy.path.abspath(path))
