@@ -16,6 +16,6 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
-    from .ui import contour_operators, contour_panel, contour_view, operators, overlay, panels, properties
+    from .ui import classes, contour_operators, contour_panel, contour_view, overlay, properties
 
-    return properties, contour_view, operators, contour_operators, panels, contour_panel, overlay
+    return properties, contour_view, classes, contour_operators, contour_panel, overlay
