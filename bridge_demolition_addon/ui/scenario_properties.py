@@ -59,6 +59,9 @@ BLENDER_UNITS = {
 }
 """Units that Blender shows beside a number itself, and turns into others where the user prefers them."""
 
+_PER_SECOND = "1/s"
+"""A unit that the names of its keys say in words."""
+
 _DECIMALS = 3
 _SMALL_WORDS = {"a", "and", "at", "by", "for", "in", "of", "on", "or", "per", "the", "to"}
 
@@ -98,7 +101,7 @@ def label_of(table_class: type[Table], item: Field) -> str:
     unit = item.metadata["key"].unit
     name = item.name.removesuffix("_" + _in_names(unit)) if unit else item.name
     text = _titled(name)
-    return f"{text} ({unit})" if unit and unit_of(item) == "NONE" else text
+    return f"{text} ({unit})" if unit and unit != _PER_SECOND and unit_of(item) == "NONE" else text
 
 
 def unit_of(item: Field) -> str:
@@ -252,8 +255,7 @@ def _default(item: Field, defaults: Table | None) -> Any:
         return getattr(defaults, item.name)
     if not is_required(item):
         return item.default if item.default is not MISSING else item.default_factory()
-    rule: Key = item.metadata["key"]
-    return rule.choices[0] if rule.choices else None
+    return None
 
 
 def _titled(name: str) -> str:
@@ -263,7 +265,7 @@ def _titled(name: str) -> str:
 
 def _in_names(unit: str) -> str:
     """A unit as it ends the names of keys."""
-    return unit.lower().replace("/", "_").replace("³", "3").replace("²", "2").replace("°", "deg")
+    return unit.lower().translate({ord("/"): "_", ord("³"): "3", ord("²"): "2", ord("°"): "deg", ord("·"): None})
 
 
 def _tooltip(text: str) -> str:

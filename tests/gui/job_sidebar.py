@@ -60,13 +60,16 @@ def timed(draw: Callable, seconds: list[float]) -> Callable:
 def make_many(person: Person) -> Steps:
     settings = person.scene.bda
     settings.scenario.fracture.shards = SHARDS
+    settings.scenario.connections.method = "face"
+    settings.scenario.connections.use_search_radius_m = False
     yield from person.click("bda.build_scenario")
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)
-    for number in range(CHARGES):
-        person.scene.cursor.location = (number * 0.1, 0.0, 2.0)
-        bpy.ops.bda.add_source_point()
+    charge = importlib.import_module(EXTENSION + ".core.blast.charges").Charge
+    create = importlib.import_module(EXTENSION + ".scene.charges").create_charges
+    places = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
+    create(person.scene, [charge(name=f"Charge {n}", place_m=place, mass_kg=1.0) for n, place in enumerate(places, 1)])
+    settings.charge_index = 5
     yield 0.5
-    person.expect("there are many charges", settings.charge_index, CHARGES - 1)
 
 
 def scroll(person: Person) -> Steps:
