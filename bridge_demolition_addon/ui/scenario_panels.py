@@ -9,7 +9,7 @@ from functools import cache
 import bpy
 
 from ..core.scenario import Scenario
-from ..core.scenario.key import Table, holds_many, key_fields, subtable_class
+from ..core.scenario.key import Table, holds_many, key_fields, key_name, subtable_class
 from .scenario_properties import INDEX, USE, is_optional, label_of, shown_tables, value_type, vector_length
 from .sidebar import SidebarPanel, letters_of
 from .table_lists import draw_list
@@ -30,6 +30,9 @@ _PARENTS = {
     "exclusion": "BDA_PT_results",
 }
 """Panels that other tables stand in; any that is not named here is a part of the sequence."""
+
+_ELSEWHERE = {"blast.explosion"}
+"""Keys that are drawn by hand."""
 
 _LETTERS_OF_VALUE = 9
 _PANEL = "BDA_PT_"
@@ -144,6 +147,7 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
             is_check_box=value_type(item) is bool,
         )
         for item in key_fields(table_class)
+        if key_name(table_class, item) not in _ELSEWHERE
     )
 
 
