@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, StringProperty
 from ..core.errors import OutputError
 from ..simulation import handlers
 from .refusal import absolute, refused
-from .sidebar import SidebarPanel
+from .sidebar import RELATIVE_PATHS, SidebarPanel
 
 _SUFFIX = ".csv"
 
@@ -16,7 +16,9 @@ class _LogPathOperator:
 
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
 
-    filepath: StringProperty(name="File", description="CSV file that the log is written to", subtype="FILE_PATH")
+    filepath: StringProperty(
+        name="File", description="CSV file that the log is written to", subtype="FILE_PATH", options=RELATIVE_PATHS
+    )
     filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})
     check_existing: BoolProperty(
         name="Check Existing", description="Warn of a file that is there", default=True, options={"HIDDEN"}

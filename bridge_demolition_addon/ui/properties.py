@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty, 
 
 from . import charge_properties, scenario_properties
 from .contour_properties import ContourProperties
+from .sidebar import RELATIVE_PATHS
 
 
 def _settings_class(scenario_group: type[bpy.types.PropertyGroup]) -> type[bpy.types.PropertyGroup]:
@@ -17,6 +18,7 @@ def _settings_class(scenario_group: type[bpy.types.PropertyGroup]) -> type[bpy.t
             name="Scenario",
             description="Scenario file (TOML) to load or to save; Build Scenario loads one that was not loaded yet",
             subtype="FILE_PATH",
+            options=RELATIVE_PATHS,
         ),
         "loaded_path": StringProperty(options={"HIDDEN"}, description="Scenario file that was loaded or saved last"),
         "scenario": PointerProperty(type=scenario_group),
@@ -47,6 +49,7 @@ def _settings_class(scenario_group: type[bpy.types.PropertyGroup]) -> type[bpy.t
             name="Results",
             description="Folder for the logs and results of the recording; it is made when the handler is registered",
             subtype="DIR_PATH",
+            options=RELATIVE_PATHS,
         ),
         "overwrite": BoolProperty(
             name="Overwrite",
@@ -57,11 +60,13 @@ def _settings_class(scenario_group: type[bpy.types.PropertyGroup]) -> type[bpy.t
             name="Debris Log",
             description="File for the debris log; where none is given it goes to the folder of the results",
             subtype="FILE_PATH",
+            options=RELATIVE_PATHS,
         ),
         "force_log_path": StringProperty(
             name="Force Log",
             description="File for the force log; where none is given it goes to the folder of the results",
             subtype="FILE_PATH",
+            options=RELATIVE_PATHS,
         ),
     }
     contents = {"__doc__": "What the panels ask for.", "__annotations__": properties}

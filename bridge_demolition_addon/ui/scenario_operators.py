@@ -14,6 +14,7 @@ from ..scene.demolition import build_demolition
 from .refusal import absolute, refused
 from .scenario_properties import PRESETS, default_scenario
 from .scenario_values import scenario_of, show_scenario
+from .sidebar import RELATIVE_PATHS
 
 _SUFFIX = ".toml"
 
@@ -48,7 +49,9 @@ class BDA_OT_save_scenario(bpy.types.Operator):
     bl_label = "Save Scenario"
     bl_options = {"REGISTER"}  # noqa: RUF012
 
-    filepath: StringProperty(name="File", description="Scenario file to write", subtype="FILE_PATH")
+    filepath: StringProperty(
+        name="File", description="Scenario file to write", subtype="FILE_PATH", options=RELATIVE_PATHS
+    )
     filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})
     check_existing: bpy.props.BoolProperty(
         name="Check Existing", description="Warn before a file is replaced", default=True, options={"HIDDEN"}
@@ -122,12 +125,12 @@ class BDA_OT_build_scenario(bpy.types.Operator):
             scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
             model = build_model(scenario)
             schedule(scenario.changes, model_structure(model))  # refuses what concerns nothing
+            build_demolition(context.scene, scenario, model)
         except DemolitionError as error:
             return refused(self, error)
         if is_new:
             show_scenario(settings, scenario)
             settings.loaded_path = settings.scenario_path
-        build_demolition(context.scene, scenario, model)
         settings.title, settings.total_mass = scenario.title, ""
         self.report({"INFO"}, f"{len(model.shards)} shards, {len(model.connections)} connections")
         return {"FINISHED"}

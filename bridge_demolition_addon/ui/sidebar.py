@@ -11,6 +11,10 @@ _EDGES_PX = 75
 """Of the sidebar, at 100 %: its tabs, the margins of a panel and an icon."""
 
 
+RELATIVE_PATHS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
+"""Options of properties for paths that may be relative to the saved file."""
+
+
 class SidebarPanel:
     """Base of all panels in the tab BDA of the 3D view's sidebar."""
 
