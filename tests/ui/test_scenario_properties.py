@@ -25,7 +25,8 @@ SINGLE = 6e-8
 
 
 def property_of(table, name):
-    return registered_group(group_name(table)).bl_rna.properties[name]
+    # Every group of Blender's has a name of its own, listed before ours, which takes its place.
+    return [each for each in registered_group(group_name(table)).bl_rna.properties if each.identifier == name][-1]
 
 
 def tables_within(table):
