@@ -28,6 +28,7 @@ _PARENTS = {
     "site": "BDA_PT_results",
     "zones": "BDA_PT_results",
     "exclusion": "BDA_PT_results",
+    "neighbours": "BDA_PT_results",
 }
 """Panels that other tables stand in; any that is not named here is a part of the sequence."""
 
