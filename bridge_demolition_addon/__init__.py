@@ -17,7 +17,7 @@ def unregister() -> None:
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
     from .simulation import safe_undo, watch
-    from .ui import contour_operators, contour_panel, contour_view, operators, overlay, panels, properties, run_operator
+    from .ui import classes, contour_operators, contour_panel, contour_view, overlay, properties, run_operator
 
-    interface = (properties, contour_view, operators, run_operator, contour_operators, panels, contour_panel, overlay)
-    return (*interface, safe_undo, watch)
+    sidebar = (properties, contour_view, classes, run_operator, contour_operators, contour_panel, overlay)
+    return (*sidebar, safe_undo, watch)

@@ -5,14 +5,30 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import bpy
+from mathutils import Matrix
 
-from ..core.blast.charges import Charge
+from ..core.blast.charges import EXPLOSIVES, Charge
 from ..core.errors import BlastError
-from .collections import collection_for
+from .collections import collection_for, find_collection
+
+MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
+"""Properties of an empty that stands for a charge."""
 
 _ROLE = "Charges"
-_MASS, _EXPLOSIVE, _DELAY, _BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
 _SYMBOL_SIZE_M = 0.3
+
+_SHOWN = {
+    MASS: {"min": 0.0, "description": "Mass of the explosive itself, in kg; with 0 nothing goes off"},
+    EXPLOSIVE: {"description": "What it is made of: " + ", ".join(EXPLOSIVES)},
+    DELAY: {
+        "min": 0.0,
+        "precision": 3,
+        "subtype": "TIME_ABSOLUTE",
+        "description": "Time from the start of the blasting to its detonation, in s",
+    },
+    BURST: {"description": "Whether it detonates in the air or on the surface of the ground"},
+}
+"""Limits, units and tooltips of the properties, as Blender shows them."""
 
 
 def create_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
@@ -20,9 +36,25 @@ def create_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bp
     return [_create(collection_for(scene, _ROLE), charge) for charge in charges]
 
 
+def replace_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
+    """One empty per charge, at its place, instead of all charges that there were."""
+    bpy.data.batch_remove(charge_objects(scene))
+    return create_charges(scene, charges)
+
+
 def charge_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """All objects that stand for charges, in the order of their names."""
-    return sorted((each for each in scene.objects if _MASS in each), key=lambda each: each.name)
+    """All objects that stand for charges, in the order in which they came into the scene."""
+    return [each for each in scene.objects if is_charge(each)]
+
+
+def is_charge(found: bpy.types.Object) -> bool:
+    """Whether an object stands for a charge."""
+    return MASS in found
+
+
+def charge_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection that charges are put into, once there was one."""
+    return find_collection(scene, _ROLE)
 
 
 def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
@@ -39,22 +71,24 @@ def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
 def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Object:
     empty = bpy.data.objects.new(charge.name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
-    empty.location = charge.place_m
-    empty[_MASS], empty[_EXPLOSIVE] = charge.mass_kg, charge.explosive
-    empty[_DELAY], empty[_BURST] = charge.delay_s, charge.burst.value
+    empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
+    empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
+    empty[DELAY], empty[BURST] = charge.delay_s, charge.burst.value
+    for name, shown in _SHOWN.items():
+        empty.id_properties_ui(name).update(**shown)
     collection.objects.link(empty)
     return empty
 
 
 def _charge(empty: bpy.types.Object) -> Charge:
-    missing = [name for name in (_EXPLOSIVE, _DELAY, _BURST) if name not in empty]
+    missing = [name for name in (EXPLOSIVE, DELAY, BURST) if name not in empty]
     if missing:
         raise BlastError(f"charge {empty.name!r} lacks the property {missing[0]}: delete it and add it anew")
     return Charge(
         name=empty.name,
         place_m=tuple(empty.matrix_world.translation),
-        mass_kg=empty[_MASS],
-        explosive=empty[_EXPLOSIVE],
-        delay_s=empty[_DELAY],
-        burst=empty[_BURST],
+        mass_kg=empty[MASS],
+        explosive=empty[EXPLOSIVE],
+        delay_s=empty[DELAY],
+        burst=empty[BURST],
     )

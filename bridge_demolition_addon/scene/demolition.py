@@ -6,15 +6,15 @@ import bpy
 
 from ..core.extent import ground_half_size, surface_height
 from ..core.model import Model
-from ..core.scenario import BlastSettings, ConnectionSettings, Scenario
+from ..core.scenario import ConnectionSettings, Scenario
 from ..core.strength import MATERIALS, Ductility
 from .bodies import bodies_of, create_ball, create_ground, create_shards
 from .breaking import Breaking, keep_breaking
 from .cable import create_cable
 from .changes import keep_changes, mark_member
-from .charges import create_charges
+from .charges import charge_objects, create_charges
 from .connections import create_connections
-from .explosion import Apply, ExplosionSettings, keep_explosion
+from .explosion import Apply, explosion_settings, keep_explosion
 from .force_fields import build_force_objects
 from .jackhammer import create_jackhammer
 from .joints import set_joints
@@ -57,8 +57,9 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
             shards[row].rigid_body.type = "PASSIVE"
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
-    create_charges(scene, scenario.placed_charges)
-    keep_explosion(scene, _explosion(scenario.blast))
+    if not charge_objects(scene):  # those that the user has placed stay the objects that they are
+        create_charges(scene, scenario.placed_charges)
+    keep_explosion(scene, explosion_settings(scenario.blast))
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
@@ -70,10 +71,6 @@ def _breaking(settings: ConnectionSettings) -> Breaking:
     share, elongation = settings.ductile_share, settings.ductile_elongation_m
     ductility = Ductility(share, elongation) if share > 0.0 else None
     return Breaking(MATERIALS[settings.material], settings.warm_up_s, ductility, settings.warm_up_damping)
-
-
-def _explosion(settings: BlastSettings) -> ExplosionSettings:
-    return ExplosionSettings(settings.explosion, Apply(settings.apply), settings.options)
 
 
 def last_frame(scenario: Scenario) -> int:

@@ -10,6 +10,7 @@ import bpy
 from ..core.blast.explosion import BlastOptions
 from ..core.blast.models import BlastModel
 from ..core.blast.pulses import Loading
+from ..core.scenario import BlastSettings
 
 _PREFIX = "bda_blast_"
 
@@ -41,6 +42,11 @@ class ExplosionSettings:
     explosion: bool = False
     apply: Apply = Apply.FIELDS
     options: BlastOptions = BlastOptions()  # noqa: RUF009 - it is frozen
+
+
+def explosion_settings(settings: BlastSettings) -> ExplosionSettings:
+    """What a scenario says of it."""
+    return ExplosionSettings(settings.explosion, Apply(settings.apply), settings.options)
 
 
 def keep_explosion(scene: bpy.types.Scene, settings: ExplosionSettings) -> None:

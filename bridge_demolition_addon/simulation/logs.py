@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -72,6 +73,23 @@ EXPLOSION_COLUMNS = (
 _STEP_MARK = "\0"
 
 
+@dataclass(frozen=True, slots=True)
+class LogFiles:
+    """Files of their own for logs that are not to go to the folder of the results.
+
+    Attributes
+    ----------
+    forces, debris
+        File for that log, or None for the folder.
+    """
+
+    forces: Path | None = None
+    debris: Path | None = None
+
+
+_IN_THE_FOLDER = LogFiles()
+
+
 class Logs:
     """All logs of a recording.
 
@@ -83,13 +101,17 @@ class Logs:
         The bodies and connections that the logs are about.
     charges
         Names of the charges, where there is a blast.
+    files
+        Logs that go elsewhere.
     """
 
-    def __init__(self, folder: Path, inventory: Inventory, charges: Sequence[str] = ()):
+    def __init__(
+        self, folder: Path, inventory: Inventory, charges: Sequence[str] = (), files: LogFiles = _IN_THE_FOLDER
+    ):
         names = inventory.body_names.tolist()
         self._inventory = inventory
-        self._forces = BodyLog(folder / "force_log.csv", FORCE_COLUMNS, names)
-        self._debris = BodyLog(folder / "debris_log.csv", DEBRIS_COLUMNS, names)
+        self._forces = BodyLog(files.forces or folder / "force_log.csv", FORCE_COLUMNS, names)
+        self._debris = BodyLog(files.debris or folder / "debris_log.csv", DEBRIS_COLUMNS, names)
         self._breaking = (folder / "breaking_log.csv").open("w", encoding="utf-8", newline="")
         self._breaking.write(_csv_text(*BREAKING_COLUMNS) + "\n")
         self._breaking.flush()

@@ -62,6 +62,28 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
     return folder
 
 
+def checked_log(path: Path, *, overwrite: bool) -> Path:
+    """A file for a log, after seeing that it can be written.
+
+    Raises
+    ------
+    OutputError
+        It is there already and may not be overwritten, is no file, or cannot be written.
+    """
+    if path.is_dir():
+        raise OutputError(f"{path}: expected a file for the log, found a folder")
+    if path.exists() and not overwrite:
+        raise OutputError(f"{path}: exists already; choose another file or allow overwriting")
+    try:
+        existed = path.exists()
+        path.open("ab").close()  # the only sure way to know; what is in it stays until it is written
+        if not existed:
+            path.unlink()
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error
+    return path
+
+
 def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:
     """Write arrays, summary and force chart of a recording beside its logs."""
     results.save(folder / "results.npz")

@@ -3,17 +3,11 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
-from typing import Any
 
 import bpy
-import numpy as np
 
 from ..core.errors import SimulationError
-from ..core.summary import summarise
-from ..scene.world import scene_time_step
 from . import handlers
-from .output import keep_results
 from .recording import Recording
 
 
@@ -22,19 +16,15 @@ class Playing:
 
     Parameters
     ----------
-    scene
-        Scene with a rigid-body world.
-    folder
-        Existing folder for logs and results.
-    title
-        Title of the results.
+    recording
+        What follows it, not started yet.
     last_frame
         Frame to end with; the last one of the scene, or of its simulation where that ends before, unless given.
 
     Attributes
     ----------
     recording
-        What is recorded.
+        As given.
     total
         Frames to play, without the start frame.
     done
@@ -45,13 +35,14 @@ class Playing:
     Raises
     ------
     SimulationError
-        The scene cannot be recorded, or has no frames to play.
+        The scene has no frames to play.
     """
 
-    def __init__(self, scene: bpy.types.Scene, folder: Path, title: str, last_frame: int | None = None):
-        cache = scene.rigidbody_world.point_cache if scene.rigidbody_world else None
-        self.recording = Recording(scene, folder)
-        last = min(scene.frame_end, cache.frame_end) if last_frame is None else last_frame
+    def __init__(self, recording: Recording, last_frame: int | None = None):
+        self.recording = recording
+        self._scene = recording.scene
+        cache = self._scene.rigidbody_world.point_cache
+        last = min(self._scene.frame_end, cache.frame_end) if last_frame is None else last_frame
         if last <= cache.frame_start + 1:
             raise SimulationError(
                 f"nothing to play: the last frame, {last}, is not after frame {cache.frame_start + 1}"
@@ -59,12 +50,9 @@ class Playing:
         self.total = last - cache.frame_start
         self.done = 0
         self.longest_frame_s = 0.0
-        self._scene, self._title = scene, title
-        self._gravity = np.array(scene.gravity)
-        self._substep_s = scene_time_step(scene).substep_s
         self._seconds = 0.0
-        handlers.start(self.recording)
-        start_over(scene)
+        handlers.start(recording)
+        start_over(self._scene)
 
     @property
     def finished(self) -> bool:
@@ -93,32 +81,7 @@ class Playing:
         self.done += 1
         self._see_whether_recorded()
 
-    def end(self) -> dict[str, Any]:
-        """End the recording and write what there is of it.
-
-        Returns
-        -------
-        dict
-            The content of ``summary.json``.
-
-        Raises
-        ------
-        SimulationError
-            Nothing was recorded.
-        """
-        self.abandon()
-        results = self.recording.results()
-        summary = {
-            "title": self._title,
-            "completed": self.finished and not self.recording.error,
-            "blender": bpy.app.version_string,
-            "substep_s": self._substep_s,
-            **summarise(results, self._gravity),
-        }
-        keep_results(self.recording.folder, results, summary)
-        return summary
-
-    def abandon(self) -> None:
+    def end(self) -> None:
         """End the recording, and leave it at its logs."""
         if handlers.current() is self.recording:
             handlers.stop()

@@ -24,7 +24,7 @@ from ..scene.slow_motion import time_is_animated, time_step_at
 from ..scene.thresholds import rewrite_thresholds
 from .blast import Blast, goes_off
 from .events import Events
-from .logs import Logs
+from .logs import LogFiles, Logs
 from .members import Members
 from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
@@ -43,6 +43,8 @@ class Recording:
         Existing folder for the logs.
     every_substep
         Whether loads are taken down after every sub-step, or only after the last one of each frame.
+    log_files
+        Logs that do not go to the folder; all do by default.
 
     Attributes
     ----------
@@ -57,7 +59,9 @@ class Recording:
         from its change of momentum.
     """
 
-    def __init__(self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True):
+    def __init__(
+        self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True, log_files: LogFiles | None = None
+    ):
         if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
             raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
         unit_scale = scene.unit_settings.scale_length
@@ -73,6 +77,7 @@ class Recording:
         self.error: Exception | None = None
         self.distrust: LayoutError | None = None
         self._every_substep = every_substep
+        self._log_files = log_files or LogFiles()
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         self._lifted = [body for body in self._bodies if lifts_of(body)]
@@ -264,7 +269,7 @@ class Recording:
             self._blast.rest()
         self._blast = Blast(self.scene, self._bodies, self._inventory, world) if goes_off(self.scene) else None
         charges = [charge.name for charge in self._blast.charges] if self._blast else ()
-        self._logs = Logs(self.folder, self._inventory, charges)
+        self._logs = Logs(self.folder, self._inventory, charges, self._log_files)
 
     def _set_time(self) -> None:
         """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""

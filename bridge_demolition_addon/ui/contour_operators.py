@@ -11,8 +11,7 @@ from ..scene.symbols import has_symbols, hide_symbols, symbols_are_hidden
 from ..simulation import contours, handlers
 from ..simulation.film import FilmKind, FilmRendering, FilmSettings
 from . import contour_view
-from .operators import _absolute as absolute
-from .operators import _refused as refused
+from .refusal import absolute, refused
 
 _TICK_S = 0.01
 

@@ -5,19 +5,14 @@ import bpy
 from ..core.contours import STRESSES, Quantity
 from ..scene.symbols import symbols_are_hidden
 from . import contour_view, overlay
-from .panels import _draw_sentence as draw_sentence
+from .sidebar import SidebarPanel, draw_sentence
 
 
-class _SidebarPanel:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "BDA"
-
-
-class BDA_PT_post_processing(_SidebarPanel, bpy.types.Panel):
+class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
     """Contours of what was recorded."""
 
-    bl_label = "Post Processing"
+    bl_label = "Contours"
+    bl_parent_id = "BDA_PT_post_processing"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -44,7 +39,7 @@ class BDA_PT_post_processing(_SidebarPanel, bpy.types.Panel):
         layout.operator("bda.load_results")
 
 
-class BDA_PT_overlay(_SidebarPanel, bpy.types.Panel):
+class BDA_PT_overlay(SidebarPanel, bpy.types.Panel):
     """What is drawn over the 3D view."""
 
     bl_label = "Vectors and Charges"
@@ -68,7 +63,7 @@ class BDA_PT_overlay(_SidebarPanel, bpy.types.Panel):
         layout.operator("bda.toggle_symbols", text=text)
 
 
-class BDA_PT_film(_SidebarPanel, bpy.types.Panel):
+class BDA_PT_film(SidebarPanel, bpy.types.Panel):
     """Contours as a film or as pictures."""
 
     bl_label = "Film"
@@ -89,7 +84,7 @@ class BDA_PT_film(_SidebarPanel, bpy.types.Panel):
         layout.operator("bda.render_contours")
 
 
-CLASSES = (BDA_PT_post_processing, BDA_PT_overlay, BDA_PT_film)
+CLASSES = (BDA_PT_contours, BDA_PT_overlay, BDA_PT_film)
 
 
 def register() -> None:

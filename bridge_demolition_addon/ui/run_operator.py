@@ -1,15 +1,13 @@
 """The buttons that simulate a scene in one go, keep it as a bake, and throw the bake away."""
 
-from pathlib import Path
-
 import bpy
 
-from ..core.errors import DemolitionError, OutputError
+from ..core.errors import DemolitionError
 from ..scene.world import keep_played_frames
 from ..simulation import handlers
-from ..simulation.output import prepared_folder
 from ..simulation.playing import Playing
 from . import redraw
+from .frame_change import keep_recording, new_recording
 
 _TICK_S = 0.001
 """Between two frames: Blender takes in mouse and keyboard, and draws."""
@@ -91,14 +89,12 @@ class BDA_OT_run(bpy.types.Operator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Called by Blender where it ends the run itself, as it does before another file is loaded."""
-        self._playing.abandon()
+        self._playing.end()
         _stop_showing(context)
 
     def _begin(self, context: bpy.types.Context) -> bool:
-        settings = context.scene.bda
         try:
-            folder = prepared_folder(_absolute(settings.output_directory), overwrite=settings.overwrite)
-            self._playing = Playing(context.scene, folder, settings.title or context.scene.name)
+            self._playing = Playing(new_recording(context.scene))
         except DemolitionError as error:
             self.report({"ERROR"}, str(error))
             return False
@@ -116,8 +112,9 @@ class BDA_OT_run(bpy.types.Operator):
     def _end(self) -> set[str]:
         playing = self._playing
         recording = playing.recording
+        playing.end()
         try:
-            playing.end()
+            keep_recording(recording, completed=playing.finished and not recording.error)
         except (DemolitionError, OSError) as error:
             self.report({"ERROR"}, str(recording.error or error))
             return {"CANCELLED"}
@@ -219,9 +216,3 @@ def _stop_showing(context: bpy.types.Context) -> None:
     context.window_manager.progress_end()
     if context.workspace:
         context.workspace.status_text_set(None)
-
-
-def _absolute(path: str) -> Path:
-    if path.startswith("//") and not bpy.data.filepath:
-        raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
-    return Path(bpy.path.abspath(path))

@@ -7,8 +7,14 @@ from person import Person, Steps
 from traces import SCENARIO, handlers
 
 
+def load(person: Person, scenario: Path = SCENARIO) -> Steps:
+    """Choose a scenario and load it."""
+    yield from person.fill_in("scenario_path", str(scenario))
+    yield from person.click("bda.load_scenario")
+
+
 def build(person: Person, scenario: Path = SCENARIO) -> Steps:
-    """Choose a scenario and build it."""
+    """Choose a scenario and build it, without loading it first."""
     yield from person.fill_in("scenario_path", str(scenario))
     yield from person.click("bda.build_scenario")
     yield 1.0

@@ -20,7 +20,7 @@ def steps(person: Person) -> Steps:
 def press_greyed_buttons(person: Person) -> Steps:
     before = everything()
     reasons = {
-        "bda.build_scenario": "Choose a scenario file first",
+        "bda.load_scenario": "Choose a scenario file first",
         "bda.register_handler": "build a scenario first",
         "bda.unregister_handler": "No handler is registered",
     }

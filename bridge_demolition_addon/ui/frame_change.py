@@ -1,0 +1,190 @@
+"""The panel Frame Change Event Handler: recording while the timeline plays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.errors import DemolitionError, OutputError, ScenarioError
+from ..core.scenario import RecordingSettings, Scenario
+from ..core.scenario.file import scenario_from_text, scenario_text
+from ..core.summary import summarise
+from ..simulation import handlers
+from ..simulation.logs import LogFiles
+from ..simulation.output import SCENARIO_FILE, checked_log, keep_results, prepared_folder
+from ..simulation.playing import start_over
+from ..simulation.recording import Recording
+from . import last_recording, redraw
+from .explosion import keep_blast
+from .refusal import absolute, refused
+from .scenario_values import scenario_of, table_of
+from .sidebar import SidebarPanel, draw_sentence
+
+_subject: dict[str, Any] = {}
+"""Title and gravity of what is recorded: undo or another file may take its scene away before the results are kept."""
+
+
+class BDA_OT_register_handler(bpy.types.Operator):
+    """Go to the start frame, and record forces and debris from there while the timeline plays"""
+
+    bl_idname = "bda.register_handler"
+    bl_label = "Register Handler"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not context.scene.rigidbody_world:
+            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
+            return False
+        if context.scene.rigidbody_world.point_cache.is_baked:
+            cls.poll_message_set("The simulation is baked and only played back: delete the bake of its cache first")
+            return False
+        if handlers.current():
+            cls.poll_message_set("The handler is registered already")
+            return False
+        if not context.scene.bda.output_directory:
+            cls.poll_message_set("Choose a folder for the results first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            recording = new_recording(context.scene)
+            handlers.start(recording)
+        except DemolitionError as error:
+            return refused(self, error)
+        start_over(context.scene)
+        redraw.follow_recording()
+        self.report({"INFO"}, f"Recording to {recording.folder}: play the timeline")
+        return {"FINISHED"}
+
+
+class BDA_OT_unregister_handler(bpy.types.Operator):
+    """End the recording and write its results"""
+
+    bl_idname = "bda.unregister_handler"
+    bl_label = "Unregister Handler"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not handlers.current():
+            cls.poll_message_set("No handler is registered")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        recording = handlers.stop()
+        try:
+            keep_recording(recording)
+        except DemolitionError as error:
+            return refused(self, recording.error or error)
+        if recording.error:
+            self.report({"WARNING"}, f"The recording ended early: {recording.error}")
+        if recording.distrust:
+            self.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
+        self.report({"INFO"}, f"Results are in {recording.folder}")
+        return {"FINISHED"}
+
+
+class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
+    """Recording while the timeline plays."""
+
+    bl_label = "Frame Change Event Handler"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, recording = context.scene.bda, handlers.current()
+        column = self.layout.column()
+        column.enabled = recording is None
+        column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
+        column.prop(settings, "overwrite")
+        column = self.layout.column(align=True)
+        column.operator("bda.register_handler")
+        column.operator("bda.unregister_handler")
+        column = self.layout.column(align=True)
+        column.operator("bda.run", icon="PLAY")
+        row = column.row(align=True)
+        row.operator("bda.bake")
+        row.operator("bda.delete_bake")
+        if recording:
+            self._draw_state(context, recording)
+
+    def _draw_state(self, context: bpy.types.Context, recording: Recording) -> None:
+        if recording.error:
+            draw_sentence(self.layout, context, f"Recording ended early: {recording.error}")
+            return
+        self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
+        if recording.distrust:
+            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
+
+
+CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler, BDA_PT_handler)
+
+
+def new_recording(scene: bpy.types.Scene) -> Recording:
+    """A recording of a scene as the sidebar asks for it, into a folder that is made or cleared for it.
+
+    Raises
+    ------
+    DemolitionError
+        A value, the folder or a file for a log cannot be used, or the scene cannot be recorded.
+    """
+    settings = scene.bda
+    table = table_of(settings.scenario.recording, RecordingSettings)
+    keep_blast(scene)
+    forces, debris = (
+        _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
+    )
+    if forces is not None and forces == debris:
+        raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
+    folder = prepared_folder(absolute(settings.output_directory), overwrite=settings.overwrite)
+    recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
+    if settings.built_scenario:
+        (folder / SCENARIO_FILE).write_text(scenario_text(_scenario_as_recorded(settings)), encoding="utf-8")
+    _subject.update(title=settings.title or scene.name, gravity=np.array(scene.gravity))
+    return recording
+
+
+def keep_recording(recording: Recording, *, completed: bool = True) -> None:
+    """Write what a recording has, and keep its summary for the panel of results.
+
+    Parameters
+    ----------
+    recording
+        A recording that has ended.
+    completed
+        Whether it went on for as long as it was meant to.
+
+    Raises
+    ------
+    SimulationError
+        Nothing was recorded.
+    """
+    results = recording.results()
+    summary = {
+        "title": _subject["title"],
+        "completed": completed,
+        "blender": bpy.app.version_string,
+        **summarise(results, _subject["gravity"]),
+    }
+    summary["events"] = recording.happenings
+    keep_results(recording.folder, results, summary)
+    last_recording.keep(recording.folder, results, summary)
+
+
+def _scenario_as_recorded(settings: bpy.types.PropertyGroup) -> Scenario:
+    """What the scene was built from, with the charges that it has now."""
+    built = scenario_from_text(settings.built_scenario)
+    try:
+        now = scenario_of(settings)
+    except (
+        ScenarioError
+    ):  # panels that were changed since, and would not build: their charges are left out of the report
+        return built
+    return replace(built, charges=now.charges, blast=now.blast)
+
+
+def _log_file(path: str, overwrite: bool) -> Path | None:
+    return checked_log(absolute(path), overwrite=overwrite) if path else None

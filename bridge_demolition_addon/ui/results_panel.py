@@ -1,0 +1,155 @@
+"""The panel Results: what the last recording came to."""
+
+from typing import Any
+
+import bpy
+from bpy.props import IntProperty, StringProperty
+
+from ..core.blast.models import BlastModel
+from ..core.errors import DemolitionError, OutputError
+from ..simulation import handlers
+from . import last_recording
+from .refusal import refused
+from .sidebar import SidebarPanel, draw_sentence
+
+_CHARTS = "charts"
+_N_PER_KN = 1000.0
+
+
+class BDA_OT_go_to_body(bpy.types.Operator):
+    """Go to that frame, select the body and look at it"""
+
+    bl_idname = "bda.go_to_body"
+    bl_label = "Go to Body and Frame"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    body: StringProperty(name="Body", description="Name of the body")
+    frame: IntProperty(name="Frame", description="Frame to go to", min=0)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if handlers.current():
+            cls.poll_message_set("The handler is registered: unregister it before you look at another frame")
+            return False
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Go to object mode first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        body = context.view_layer.objects.get(self.body)
+        if body is None:
+            self.report({"ERROR"}, f"{self.body!r} is not in this scene any more")
+            return {"CANCELLED"}
+        context.scene.frame_set(self.frame)
+        for each in context.selected_objects:
+            each.select_set(False)
+        body.select_set(True)
+        context.view_layer.objects.active = body
+        if context.area and context.area.type == "VIEW_3D":
+            region = next(each for each in context.area.regions if each.type == "WINDOW")
+            with context.temp_override(region=region):
+                bpy.ops.view3d.view_selected()
+        return {"FINISHED"}
+
+
+class BDA_OT_open_results(bpy.types.Operator):
+    """Open the folder of the last recording in the system's file manager"""
+
+    bl_idname = "bda.open_results"
+    bl_label = "Open Folder"
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        return _has_results(cls)
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        folder = last_recording.last().folder
+        if not folder.is_dir():
+            return refused(self, OutputError(f"{folder}: is not there any more"))
+        bpy.ops.wm.path_open(filepath=str(folder))
+        return {"FINISHED"}
+
+
+class BDA_OT_draw_charts(bpy.types.Operator):
+    """Draw the forces over time, and the charts to choose charges by, into the folder of the last recording"""
+
+    bl_idname = "bda.draw_charts"
+    bl_label = "Draw Charts"
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        return _has_results(cls)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        # Loading matplotlib takes a second, which switching the extension on need not wait for.
+        from ..report.blast_charts import ChartSettings, write_charts
+        from ..report.force_plot import plot_forces
+
+        last = last_recording.last()
+        folder = last.folder / _CHARTS
+        model = BlastModel(context.scene.bda.scenario.blast.model)
+        impact, title = last.summary["impact"], last.summary["title"]
+        try:
+            paths = write_charts(folder, ChartSettings(model=model))
+            plot_forces(last.results, folder / "force_over_time.png", title, impact and impact["time_s"])
+        except DemolitionError as error:
+            return refused(self, error)
+        except OSError as error:
+            return refused(self, OutputError(f"{folder}: cannot be written ({error.strerror})"))
+        self.report({"INFO"}, f"{len(paths) + 1} charts are in {folder}")
+        return {"FINISHED"}
+
+
+class BDA_PT_results(SidebarPanel, bpy.types.Panel):
+    """What the last recording came to."""
+
+    bl_label = "Results"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, last = self.layout, last_recording.last()
+        if last is None:
+            draw_sentence(layout, context, "Nothing was recorded yet: register the handler and play.", icon="INFO")
+            return
+        summary = last.summary
+        draw_sentence(layout, context, summary["title"], icon="NONE")
+        column = layout.column(align=True)
+        for line in lines_of(summary):
+            column.label(text=line)
+        self._draw_place("Largest force", summary["largest_resultant"], last_frame=None)
+        self._draw_place("Largest throw", summary["largest_throw"], last_frame=int(last.results.frames[-1]))
+        row = layout.row(align=True)
+        row.operator("bda.open_results")
+        row.operator("bda.draw_charts")
+
+    def _draw_place(self, label: str, found: dict[str, Any] | None, last_frame: int | None) -> None:
+        """A largest value, with a button that leads to where and when it was."""
+        if found is None:
+            return
+        value = f"{found['force_N'] / _N_PER_KN:,.0f} kN" if "force_N" in found else f"{found['throw_m']:.2f} m"
+        frame = found.get("frame", last_frame)
+        column = self.layout.column(align=True)
+        column.label(text=f"{label}: {value}".replace(",", " "))
+        go = column.operator("bda.go_to_body", text=f"{found['body']}, frame {frame}", icon="VIEWZOOM")
+        go.body, go.frame = found["body"], frame
+
+
+CLASSES = (BDA_OT_go_to_body, BDA_OT_open_results, BDA_OT_draw_charts, BDA_PT_results)
+
+
+def lines_of(summary: dict[str, Any]) -> list[str]:
+    """The totals of a summary, each in a few words."""
+    connections = summary["connections"]
+    return [
+        f"Total mass: {summary['mass_kg']['shard']:,.0f} kg".replace(",", " "),
+        f"Broken: {connections['broken']} of {connections['count']} connections",
+        f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
+    ]
+
+
+def _has_results(operator: type[bpy.types.Operator]) -> bool:
+    if last_recording.last() is None:
+        operator.poll_message_set("Nothing was recorded yet: register the handler and play")
+        return False
+    return True

@@ -1,0 +1,36 @@
+"""What all panels of the sidebar share: the tab they stand in, and how much fits into its width."""
+
+from __future__ import annotations
+
+import textwrap
+
+import bpy
+
+_LETTER_PX = 6.5
+_EDGES_PX = 75
+"""Of the sidebar, at 100 %: its tabs, the margins of a panel and an icon."""
+
+
+RELATIVE_PATHS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
+"""Options of properties for paths that may be relative to the saved file."""
+
+
+class SidebarPanel:
+    """Base of all panels in the tab BDA of the 3D view's sidebar."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "BDA"
+
+
+def letters_of(context: bpy.types.Context) -> int:
+    """Letters that fit into a line of the sidebar."""
+    width = context.region.width / context.preferences.system.ui_scale
+    return max(int((width - _EDGES_PX) / _LETTER_PX), 10)
+
+
+def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "ERROR") -> None:
+    """A sentence on as many lines as it needs, as Blender cuts off what is wider than the sidebar."""
+    column = layout.column(align=True)
+    for number, line in enumerate(textwrap.wrap(text, letters_of(context))):
+        column.label(text=line, icon="BLANK1" if number else icon)

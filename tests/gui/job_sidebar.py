@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Open every panel, scroll through all of them, and see how long they take with many shards and charges."""
+
+import importlib
+import time
+from collections.abc import Callable
+
+import bpy
+from habits import load
+from person import Person, Steps
+from traces import EXTENSION
+
+SHARDS = 1000
+CHARGES = 100
+MOST_MS = 2.0
+SCROLLS = 12
+NOTCHES = 9
+"""Of the mouse wheel; together they move the sidebar by less than it is high."""
+
+
+def steps(person: Person) -> Steps:
+    seconds: dict[str, list[float]] = {}
+    open_panels(seconds)
+    yield from person.open_sidebar()
+    yield from person.picture("top")
+    yield from load(person)
+    yield 0.5
+    person.expect("loading fills the panels", person.scene.bda.scenario.fracture.shards, 30)
+    person.expect("loading builds nothing", person.scene.rigidbody_world is None)
+    yield from person.picture("loaded")
+    yield from make_many(person)
+    for number in range(SCROLLS):
+        yield from person.picture(f"scrolled_{number}")
+        yield from scroll(person)
+    yield from measure(person, seconds)
+    person.take_reports()
+
+
+def open_panels(seconds: dict[str, list[float]]) -> None:
+    """Have all panels open from the beginning, and take their times."""
+    classes = importlib.import_module(EXTENSION + ".ui.classes").classes()
+    found = [each for each in classes if issubclass(each, bpy.types.Panel)]
+    for each in reversed(found):
+        bpy.utils.unregister_class(each)
+    for each in found:
+        each.bl_options = set()
+        each.draw = timed(each.draw, seconds.setdefault(each.__name__, []))
+        bpy.utils.register_class(each)
+
+
+def timed(draw: Callable, seconds: list[float]) -> Callable:
+    def timed_draw(self, context) -> None:
+        began = time.perf_counter()
+        draw(self, context)
+        seconds.append(time.perf_counter() - began)
+
+    return timed_draw
+
+
+def make_many(person: Person) -> Steps:
+    settings = person.scene.bda
+    settings.scenario.fracture.shards = SHARDS
+    settings.scenario.connections.method = "face"
+    settings.scenario.connections.use_search_radius_m = False
+    yield from person.click("bda.build_scenario")
+    yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)
+    charge = importlib.import_module(EXTENSION + ".core.blast.charges").Charge
+    create = importlib.import_module(EXTENSION + ".scene.charges").create_charges
+    places = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
+    create(person.scene, [charge(name=f"Charge {n}", place_m=place, mass_kg=1.0) for n, place in enumerate(places, 1)])
+    settings.charge_index = 5
+    yield 0.5
+
+
+def scroll(person: Person) -> Steps:
+    yield from person.move(person.sidebar.x + person.sidebar.width // 2, person.sidebar.y + 300)
+    for _ in range(NOTCHES):
+        yield from person.press("WHEELDOWNMOUSE")
+
+
+def measure(person: Person, seconds: dict[str, list[float]]) -> Steps:
+    for times in seconds.values():
+        times.clear()
+    for _ in range(20):
+        person.sidebar.tag_redraw()
+        yield 0.05
+    means = {name: 1e3 * sum(times) / max(len(times), 1) for name, times in seconds.items()}
+    total = sum(means.values())
+    slowest = max(means, key=means.get)
+    person.note(f"all panels together are drawn in {total:.2f} ms, {slowest} in {means[slowest]:.2f} ms")
+    person.expect(f"less than {MOST_MS} ms", total < MOST_MS)
