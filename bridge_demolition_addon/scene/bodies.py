@@ -151,6 +151,9 @@ def create_ball(
         rigid.kinematic = held
         ball.keyframe_insert("rigid_body.kinematic", frame=frame)
     rigid.kinematic = True
+    # Blender animates a body before it simulates it only where its place is animated; otherwise it may let go of the
+    # ball a frame late, as its threads happen to run.
+    ball.keyframe_insert("location", frame=start_frame)
     return ball
 
 

@@ -118,7 +118,8 @@ def test_an_explosion_without_charges_changes_nothing(extension, tmp_path):
         settings.output_directory = str(tmp_path / str(explosion))
         record(extension)
         logs.append((tmp_path / str(explosion) / "force_log.csv").read_bytes())
-    assert logs[0] == logs[1]
+    lines = [log.splitlines() for log in logs]
+    assert [pair for pair in zip(*lines, strict=True) if pair[0] != pair[1]][:3] == []
     assert not (tmp_path / "True" / "explosion_log.csv").exists()
 
 
