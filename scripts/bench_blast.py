@@ -17,19 +17,12 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from bench_deck import DECK
+
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion
 from bridge_demolition_addon.core.model import build_model
-from bridge_demolition_addon.core.scenario import (
-    Bridge,
-    ConnectionSettings,
-    Deck,
-    FractureSettings,
-    Piers,
-    Scenario,
-    ShardSettings,
-    TimeSettings,
-)
+from bridge_demolition_addon.core.scenario import FractureSettings
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.charges import create_charges
 from bridge_demolition_addon.scene.demolition import build_demolition
@@ -54,20 +47,6 @@ CHARGES = (
     Charge(name="east", place_m=(22.0, 0.0, 1.0), mass_kg=1e-6),
 )
 """So small that they load every shard and move none: the frames to compare do the same work otherwise."""
-
-DECK = Scenario(
-    title="bench",
-    time=TimeSettings(duration_s=10.0),
-    bridge=Bridge(
-        span_lengths_m=(29.0,),
-        density_kg_m3=2400.0,
-        deck=Deck(width_m=12.0, thickness_m=1.0, overhang_m=0.5),
-        piers=Piers(column_length_m=1.0, column_width_m=12.0, height_m=3.0),
-    ),
-    fracture=FractureSettings(shards=1000),
-    connections=ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, breaking_force_n=1e9),
-    shards=ShardSettings(use_deactivation=False, start_deactivated=False),
-)
 
 
 class SteadyLoads(Explosion):

@@ -21,17 +21,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from bench_deck import DECK
+
 from bridge_demolition_addon.core.model import build_model
-from bridge_demolition_addon.core.scenario import (
-    Bridge,
-    ConnectionSettings,
-    Deck,
-    FractureSettings,
-    Piers,
-    Scenario,
-    ShardSettings,
-    TimeSettings,
-)
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.world import START_FRAME
 from bridge_demolition_addon.simulation import handlers
@@ -40,20 +32,6 @@ from bridge_demolition_addon.simulation.recording import Recording
 FRAMES = 10
 ROUNDS = 3
 LEVELS = 200
-
-DECK = Scenario(
-    title="bench",
-    time=TimeSettings(duration_s=10.0),
-    bridge=Bridge(
-        span_lengths_m=(29.0,),
-        density_kg_m3=2400.0,
-        deck=Deck(width_m=12.0, thickness_m=1.0, overhang_m=0.5),
-        piers=Piers(column_length_m=1.0, column_width_m=12.0, height_m=3.0),
-    ),
-    fracture=FractureSettings(shards=1000),
-    connections=ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, breaking_force_n=1e9),
-    shards=ShardSettings(use_deactivation=False, start_deactivated=False),
-)
 
 
 def main() -> None:

@@ -36,17 +36,8 @@ class BDA_OT_register_handler(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.rigidbody_world:
-            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
-            return False
-        if context.scene.rigidbody_world.point_cache.is_baked:
-            cls.poll_message_set("The simulation is baked and only played back: delete the bake of its cache first")
-            return False
-        if handlers.current():
-            cls.poll_message_set("The handler is registered already")
-            return False
-        if not context.scene.bda.output_directory:
-            cls.poll_message_set("Choose a folder for the results first")
+        if reason := why_not_recorded(context.scene):
+            cls.poll_message_set(reason)
             return False
         return True
 
@@ -121,6 +112,19 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
 
 
 CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler, BDA_PT_handler)
+
+
+def why_not_recorded(scene: bpy.types.Scene) -> str | None:
+    """What keeps a scene from being recorded now, in a sentence; None where nothing does."""
+    if not scene.rigidbody_world:
+        return "This scene has no rigid-body world: build a scenario first"
+    if scene.rigidbody_world.point_cache.is_baked:
+        return "The simulation is baked and only played back: delete the bake first"
+    if handlers.current():
+        return "A recording runs already: unregister its handler first"
+    if not scene.bda.output_directory:
+        return "Choose a folder for the results first"
+    return None
 
 
 def new_recording(scene: bpy.types.Scene) -> Recording:

@@ -7,7 +7,7 @@ from ..scene.world import keep_played_frames
 from ..simulation import handlers
 from ..simulation.playing import Playing
 from . import redraw
-from .frame_change import keep_recording, new_recording
+from .frame_change import keep_recording, new_recording, why_not_recorded
 
 _TICK_S = 0.001
 """Between two frames: Blender takes in mouse and keyboard, and draws."""
@@ -36,17 +36,8 @@ class BDA_OT_run(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.rigidbody_world:
-            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
-            return False
-        if context.scene.rigidbody_world.point_cache.is_baked:
-            cls.poll_message_set("The simulation is baked and only played back: delete the bake first")
-            return False
-        if handlers.current():
-            cls.poll_message_set("A recording runs already: unregister its handler first")
-            return False
-        if not context.scene.bda.output_directory:
-            cls.poll_message_set("Choose a folder for the results first")
+        if reason := why_not_recorded(context.scene):
+            cls.poll_message_set(reason)
             return False
         return True
 

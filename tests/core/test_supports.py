@@ -6,12 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.connections import GROUND
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.core.fracture import fracture
-from bridge_demolition_addon.core.member_connections import connections_between
 from bridge_demolition_addon.core.model import build_model
-from bridge_demolition_addon.core.scenario import Abutments, FractureSettings, Support
+from bridge_demolition_addon.core.scenario import FractureSettings, Support
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.core.solids import box, mesh_of
 from bridge_demolition_addon.core.supports import DIRECTIONS, on_outermost_face
@@ -100,25 +98,3 @@ def test_something_has_to_move():
 def test_supports_are_written_and_read():
     scenario = replace(SCENARIO, supports=[Support(member="pier 1 cap"), Support(member="deck", face="start")])
     assert scenario_from_text(scenario_text(scenario)) == scenario
-
-
-def test_connections_between_kinds_and_names():
-    bridge = replace(I235.bridge, span_lengths_m=[10, 10], abutments=Abutments(length_m=1, width_m=8.5))
-    model = build_model(replace(SCENARIO, bridge=bridge))
-
-    def between(first, second):
-        rows = connections_between(model.connections.pairs, model.member_of_shard, model.members, first, second)
-        return model.connections.areas[rows].sum()
-
-    # Bearings of the deck: both abutments, one cap 0.8 m long; overhangs of 0.5 m cover the abutments' whole length.
-    assert between("deck", "abutment") == pytest.approx(2 * 8.5, rel=1e-7)
-    assert between("abutment 1", "deck") == pytest.approx(8.5, rel=1e-7)
-    assert between("deck", "pier 1 cap") == pytest.approx(0.8 * 8.5, rel=1e-7)
-    assert between("ground", "pier") == pytest.approx(2 * 0.49, rel=1e-7)
-    assert between("deck", "ground") == between("deck", "deck") == between("pier", "pier") == 0.0
-    everything = model.connections.pairs[:, 1] == GROUND
-    assert between("ground", "pier") + between("ground", "abutment") == pytest.approx(
-        model.connections.areas[everything].sum()
-    )
-    with pytest.raises(ScenarioError, match='"arch" is no member: expected one of abutment, abutment 1'):
-        between("deck", "arch")
