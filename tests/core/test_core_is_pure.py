@@ -16,7 +16,7 @@ for name in sys.argv[1:]:
         importlib.import_module(name)
     except ImportError as error:
         refused.append(f"{name}: {error}")
-sys.exit("\\n".join(refused))
+sys.exit("\\n".join(refused) or 0)
 """
 
 ROOT = Path(__file__).parents[2]
