@@ -9,6 +9,7 @@ from traces import handlers
 
 
 def steps(person: Person) -> Steps:
+    open_post_processing()
     yield from person.open_sidebar()
     yield from build(person)
     person.expect_reports("nothing but the building is reported", "30 shards")
@@ -68,6 +69,17 @@ def steps(person: Person) -> Steps:
     person.expect("the bodies show their own colours", bool((colours(person, shown=True) == own).all()))
     person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
     yield from film(person)
+
+
+def open_post_processing() -> None:
+    """Have the panel of the contours open from the beginning, as a person leaves it."""
+    panel = bpy.types.BDA_PT_post_processing
+    inner = [each for each in bpy.types.Panel.__subclasses__() if getattr(each, "bl_parent_id", "") == panel.__name__]
+    for each in (*inner, panel):
+        bpy.utils.unregister_class(each)
+    panel.bl_options = set()
+    for each in (panel, *inner):
+        bpy.utils.register_class(each)
 
 
 def sub_panels(person: Person) -> Steps:
