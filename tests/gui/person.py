@@ -17,6 +17,9 @@ Steps = Iterator[float | None]
 TAB = "BDA"
 TAB_PX = 20
 """Width of the tabs' edge, and less than a tab is high."""
+SCROLLS, NOTCHES, TO_THE_TOP = 3, 8, 30
+"""How often the sidebar is scrolled in search of something, and by how much of the wheel: less than its height."""
+
 PROBE_PX = 8
 """Between two places where the mouse looks for a button; less than a button is high."""
 PROBE_COLUMNS = (0.7, 0.3)
@@ -153,20 +156,31 @@ class Person:
     def hover(self, name: str) -> Steps:
         """Move the mouse about the sidebar until it is over a button or field, and leave it there.
 
+        The sidebar is scrolled for what lies beyond its edges.
+
         Raises
         ------
         LookupError
             There is none to be seen.
         """
-        sidebar = self.sidebar
-        for column in PROBE_COLUMNS:
-            for y in range(sidebar.y + sidebar.height - PROBE_PX, sidebar.y, -PROBE_PX):
-                yield from self.move(sidebar.x + int(column * sidebar.width), y)
-                if name == self._under_mouse():
-                    yield from self.move(self._mouse[0], y - PROBE_PX // 2)  # off the button's edge
-                    yield from self.move(self._mouse[0] + 1, self._mouse[1])
-                    return
+        for notches in (-TO_THE_TOP, *[NOTCHES] * SCROLLS):
+            sidebar = self.sidebar
+            for column in PROBE_COLUMNS:
+                for y in range(sidebar.y + sidebar.height - PROBE_PX, sidebar.y, -PROBE_PX):
+                    yield from self.move(sidebar.x + int(column * sidebar.width), y)
+                    if name == self._under_mouse():
+                        yield from self.move(self._mouse[0], y - PROBE_PX // 2)  # off the button's edge
+                        yield from self.move(self._mouse[0] + 1, self._mouse[1])
+                        return
+            yield from self.scroll(notches)
         raise LookupError(f"the sidebar shows no {name}")
+
+    def scroll(self, notches: int) -> Steps:
+        """Turn the wheel over the sidebar, downwards, or upwards for less than none."""
+        sidebar = self.sidebar
+        yield from self.move(sidebar.x + sidebar.width // 3, sidebar.y + sidebar.height // 2)
+        for _ in range(abs(notches)):
+            yield from self.press("WHEELDOWNMOUSE" if notches > 0 else "WHEELUPMOUSE")
 
     def wait_for(self, what: str, happens: Callable[[], bool], seconds: float = 30.0) -> Steps:
         """Wait until something happens, and note if it does not."""
