@@ -185,9 +185,8 @@ def added(first: StepLoads, second: StepLoads) -> StepLoads:
     if not len(first) or not len(second):
         return first if len(first) else second
     both = StepLoads(*(np.concatenate((getattr(first, name), getattr(second, name))) for name in _COLUMNS))
-    pairs, rows, groups = np.unique(
-        np.column_stack((both.bodies, both.charges)), axis=0, return_index=True, return_inverse=True
-    )
+    pairs = both.bodies * (1 + both.charges.max()) + both.charges
+    pairs, rows, groups = np.unique(pairs, return_index=True, return_inverse=True)
     impulses = np.bincount(groups.ravel(), both.impulses_ns, len(pairs))
     pressures = np.bincount(groups.ravel(), both.pressure_impulses_pa_s, len(pairs))
     areas = np.divide(impulses, pressures, where=pressures > 0.0, out=both.areas_m2[rows])
