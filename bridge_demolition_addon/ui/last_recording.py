@@ -1,4 +1,4 @@
-"""The last recording of this session, for the panel of its results and the charts of them."""
+"""The last recording made since Blender started, for the panel of its results and the charts of them."""
 
 from __future__ import annotations
 
