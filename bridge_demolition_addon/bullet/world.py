@@ -155,18 +155,19 @@ class BulletWorld:
         """Angular velocities (n, 3) of all bodies, rad/s."""
         return gather_doubles(self._body_addresses + np.uint64(self._layout.body.angular_velocity), 3)
 
-    def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray) -> None:
+    def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray | None = None) -> None:
         """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
 
         To be called before a sub-step, from a function of `call_around_substeps`: Bullet forgets them after it. A body
         that sleeps or cannot move is not moved by them.
         """
+        named, rows = np.unique(bodies, return_inverse=True)
         for offset, values in ((0, forces_n), (32, torques_nm)):
-            sums = np.zeros((len(self.bodies), 3))
-            np.add.at(sums, bodies, values)
-            named = np.unique(bodies)
+            if values is None:
+                continue
+            sums = np.column_stack([np.bincount(rows.ravel(), column, len(named)) for column in values.T])
             fields = self._body_addresses[named] + np.uint64(self._layout.body.total_force + offset)
-            write_vectors(fields, gather_doubles(fields, 3) + sums[named])
+            write_vectors(fields, gather_doubles(fields, 3) + sums)
 
     def wake(self, bodies: np.ndarray) -> None:
         """Wake those of bodies (k,) that sleep or are about to, as Bullet does when something touches them.
@@ -183,7 +184,7 @@ class BulletWorld:
         if not len(sleeping):
             return
         weights = gather_doubles(self._body_addresses[sleeping] + np.uint64(self._layout.body.gravity), 3)
-        self.add_forces(sleeping, weights, np.zeros_like(weights))
+        self.add_forces(sleeping, weights)
 
     def asleep(self) -> np.ndarray:
         """Whether each body (n,) is asleep; what can never move is not."""

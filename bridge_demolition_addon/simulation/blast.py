@@ -120,7 +120,7 @@ class DirectBlast:
         pushed = np.unique(loads.bodies)
         forces = loads.vectors(len(self._rows))[pushed] / substep_s
         self._world.wake(self._rows[pushed])
-        self._world.add_forces(self._rows[pushed], forces, np.zeros_like(forces))
+        self._world.add_forces(self._rows[pushed], forces)
         self._loads = added(self._loads, loads)
 
     def after_frame(self) -> StepLoads:

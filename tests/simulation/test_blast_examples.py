@@ -6,21 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results import load_results
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.simulation.run import run_scenario
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-
-
-class Silence:
-    """Nobody who wants to know how far a run is."""
-
-    def stage(self, text):
-        pass
-
-    def frame(self, done, total, broken):
-        pass
 
 
 def run(scenario, folder):

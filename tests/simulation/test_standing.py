@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results import load_results
 from bridge_demolition_addon.core.scenario.file import scenario_from_text
 from bridge_demolition_addon.simulation.run import run_scenario
@@ -110,16 +111,6 @@ MOST_BROKEN = 0.03
 
 MOST_SAG_M = 0.005
 """With 100 iterations: Bullet's own sag, up to a millimetre here, and not that of concrete."""
-
-
-class Silence:
-    """Nobody who wants to know how far a run is."""
-
-    def stage(self, text):
-        pass
-
-    def frame(self, done, total, broken):
-        pass
 
 
 @pytest.mark.parametrize("kind", KINDS)
