@@ -113,6 +113,11 @@ class ForceFields:
             (k,) forces in N, (k, 3) unit vectors along which, and (k, 3) where the bodies are, m.
         reaches
             Of the k fields.
+
+        Raises
+        ------
+        SimulationError
+            A field is not part of what Blender evaluates, and would push nothing.
         """
         self.rest()
         # Blender pushes a rigid body with the strength over the frame rate, whatever its base or the time scale.
@@ -120,7 +125,13 @@ class ForceFields:
         columns = zip(rows.tolist(), strengths.tolist(), directions, centres, _rows_of(reaches), strict=True)
         for row, strength, direction, centre, (radius, ahead, behind) in columns:
             matrix = _along(direction, centre - behind * direction)
-            for evaluated in self._evaluated(self._fields[row]):
+            copies = self._evaluated(self._fields[row])
+            if not copies:
+                raise SimulationError(
+                    f"force object {self._fields[row].name!r} is switched off or excluded from the view layer: "
+                    "switch it on, or apply the blast directly"
+                )
+            for evaluated in copies:
                 evaluated.matrix_world = matrix
                 evaluated.field.radial_max, evaluated.field.distance_max = radius, behind + ahead
                 evaluated.field.strength = strength
@@ -143,7 +154,8 @@ class ForceFields:
 
     def _evaluated(self, field: bpy.types.Object) -> list[bpy.types.Object]:
         graphs = [layer.depsgraph for layer in self._scene.view_layers if layer.depsgraph]
-        return [field.evaluated_get(graph) for graph in graphs]
+        copies = [field.evaluated_get(graph) for graph in graphs]
+        return [each for each in copies if each.is_evaluated]  # what a graph leaves out it gives back as it is
 
 
 def _all(scene: bpy.types.Scene) -> list[bpy.types.Object]:

@@ -333,6 +333,21 @@ def test_changing_a_force_object_while_it_pushes_ends_the_recording_and_says_so(
     assert "force object was changed" in str(recording.error)
 
 
+@pytest.mark.parametrize("switched_off", ["excluded", "disabled"])
+def test_force_objects_that_would_push_nothing_are_named(blender, tmp_path, switched_off):
+    blocks = weightless()
+    blocks.block((5.0, 0.0, 0.0), MASS_KG)
+    set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields")
+    (field,) = force_objects(blocks.scene).values()
+    if switched_off == "excluded":
+        blender.context.view_layer.layer_collection.children["Force objects"].exclude = True
+    else:
+        field.hide_viewport = True
+    with pytest.raises(SimulationError, match="is switched off or excluded from the view layer"):
+        blocks.play(tmp_path, 3)
+    assert field.field.strength == 0.0
+
+
 @pytest.mark.parametrize("mass", [-1.0, math.nan, math.inf])
 def test_a_charge_that_cannot_be_is_refused(blender, tmp_path, mass):
     blocks = weightless()
