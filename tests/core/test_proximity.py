@@ -1,6 +1,5 @@
 """Neighbours found in the cells of a grid are those that comparing all with all finds."""
 
-import time
 from itertools import combinations
 
 import numpy as np
@@ -86,27 +85,3 @@ def test_blocks_take_every_row_once_and_in_order(counts):
     parts = list(blocks(np.array(counts, int)))
     assert [row for part in parts for row in range(part.start, part.stop)] == list(range(len(counts)))
     assert all(sum(counts[part]) <= 2_000_000 or part.stop - part.start == 1 for part in parts)
-
-
-@pytest.mark.parametrize(
-    "search",
-    (
-        lambda points: points_within(points, 1.5),
-        lambda points: nearest_points(points, 8),
-        lambda points: boxes_that_meet(points, points + 0.5, 0.5),
-    ),
-    ids=("within", "nearest", "boxes"),
-)
-def test_ten_times_the_points_take_far_less_than_a_hundred_times_as_long(search):
-    """At the same density, so that the neighbours of each stay as many. Comparing all with all would take 100 times."""
-
-    def seconds(count):
-        points = np.random.default_rng(0).uniform(0.0, count ** (1 / 3), (count, 3))
-        times = []
-        for _ in range(3):
-            began = time.perf_counter()
-            search(points)
-            times.append(time.perf_counter() - began)
-        return min(times)
-
-    assert seconds(40_000) / seconds(4_000) < 30.0
