@@ -4,7 +4,7 @@ import json
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from dataclasses import fields, replace
+from dataclasses import fields
 from difflib import get_close_matches
 from os import PathLike, fspath
 from pathlib import Path
@@ -23,15 +23,19 @@ from .key import (
     subtable_fields,
 )
 from .scenario import Scenario
+from .variant import take_based_on, varied
 
 LIKENESS = 0.68
 """How much alike an unknown name and a suggestion are at least: radius_m is search_radius_m, but title is not time."""
+
+PATHS = (("geometry", "file"), ("fracture", "points_file"))
+"""Table and key of every path of another file."""
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
 
 def read_scenario(path: str | PathLike[str]) -> Scenario:
-    """Read a scenario file.
+    """Read a scenario file, and the files that it is based on.
 
     Parameters
     ----------
@@ -45,24 +49,20 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
         The text is one line: the path as given, the key and what was expected.
     """
     try:
-        return _with_paths_from(Path(path).parent, scenario_from_text(_file_text(Path(path))))
+        return _scenario(_document_of_file(Path(path)))
     except ScenarioError as error:
         raise ScenarioError(f"{fspath(path)}: {error}") from error
 
 
 def scenario_from_text(text: str) -> Scenario:
-    """Read a scenario from TOML.
+    """Read a scenario from TOML. It cannot be based on a file, as it has no place to look for that from.
 
     Raises
     ------
     ScenarioError
         The text is not TOML, or a key is unknown, missing or has a wrong value.
     """
-    try:
-        document = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # tomllib lets too long numbers and too deep lists through as these
-        raise ScenarioError(f"not a TOML file: {error}") from error
-    return _scenario(document)
+    return _scenario(_document(text))
 
 
 def scenario_text(scenario: Scenario) -> str:
@@ -93,12 +93,38 @@ def _file_text(path: Path) -> str:
         raise ScenarioError(f"cannot be read: {error.strerror}") from error
 
 
-def _with_paths_from(folder: Path, scenario: Scenario) -> Scenario:
-    """The scenario with the paths of other files, which are given from its folder, as absolute ones."""
-    geometry = tuple(replace(each, file=_absolute(folder, each.file)) for each in scenario.geometry)
-    points = scenario.fracture.points_file
-    fracture = replace(scenario.fracture, points_file=points and _absolute(folder, points))
-    return replace(scenario, geometry=geometry, fracture=fracture)
+def _document(text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # tomllib lets too long numbers and too deep lists through as these
+        raise ScenarioError(f"not a TOML file: {error}") from error
+
+
+def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
+    """What a file says with all that it is based on; of those it is a variant for, it must not be one itself."""
+    document = _document(_file_text(path))
+    _make_paths_absolute(path.parent, document)
+    name, without = take_based_on(document)
+    if name is None:
+        return document
+    base = Path(_absolute(path.parent, name))
+    variants = (*variants, path.resolve())
+    if base in variants:
+        raise ScenarioError(f"is based on {shown(name)}, which is based on it in turn")
+    try:
+        inherited = _document_of_file(base, variants)
+    except ScenarioError as error:
+        raise ScenarioError(f"based on {shown(name)}: {error}") from error
+    return varied(inherited, document, without)
+
+
+def _make_paths_absolute(folder: Path, document: dict[str, Any]) -> None:
+    """Paths of other files are given from the folder of the file that they stand in."""
+    for table, key in PATHS:
+        tables = document.get(table)
+        for each in tables if isinstance(tables, list) else [tables]:
+            if isinstance(each, dict) and isinstance(each.get(key), str) and each[key].strip():
+                each[key] = _absolute(folder, each[key])
 
 
 def _absolute(folder: Path, path: str) -> str:

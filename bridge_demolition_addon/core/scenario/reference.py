@@ -23,6 +23,20 @@ listed here is refused, and so is a value outside its limits.
 
 x runs along the road with the axis of the first pier at 0, y across it with 0 in its middle, z up with the ground at 0.
 The deck's top is at the height of a pier, a pier cap, the girders or the box girder and the deck's slab together.
+
+A variant says only in what it differs from another scenario file, such as another place for the ball to fall on:
+
+```toml
+[scenario]
+based_on = "my_bridge.toml"      # a path from the folder of this file
+without = ["zones"]              # tables or keys (such as "connections.material") of that file to leave out
+title = "My bridge, ball on the second span"
+
+[ball]
+target_m = [19.5, 0.0]
+```
+
+Tables are merged key by key; values and lists of tables (`[[...]]`) take the place of those in the other file.
 """
 
 
