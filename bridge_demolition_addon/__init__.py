@@ -16,8 +16,8 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
-    from .simulation import safe_undo, watch
+    from .simulation import safe_render, safe_undo, watch
     from .ui import classes, contour_operators, contour_panel, contour_view, overlay, properties, run_operator
 
     sidebar = (properties, contour_view, classes, run_operator, contour_operators, contour_panel, overlay)
-    return (*sidebar, safe_undo, watch)
+    return (*sidebar, safe_undo, safe_render, watch)

@@ -48,6 +48,11 @@ def member_of(body: bpy.types.Object) -> tuple[str, str]:
     return str(body.get(_MEMBER, "")), str(body.get(_MEMBER_KIND, ""))
 
 
+def mark_member(body: bpy.types.Object, name: str, kind: str) -> None:
+    """Note on a body the member that it is a piece of."""
+    body[_MEMBER], body[_MEMBER_KIND] = name, kind
+
+
 def is_marked(body: bpy.types.Object) -> bool:
     """Whether a body was made here."""
     return _KIND in body

@@ -11,12 +11,10 @@ import numpy as np
 
 from ..core.events import Event, Structure, schedule
 from ..core.scenario import Change, Removal, SawCut, Weakening
-from .bodies import Kind, kind_of
+from .bodies import Kind, kind_of, member_of
 from .inventory import Inventory
 
 _CHANGES = "bda_changes"
-_MEMBER = "bda_member"
-_MEMBER_KIND = "bda_member_kind"
 _TABLES = {each.table: each for each in (Removal, SawCut, Weakening)}
 
 
@@ -42,11 +40,6 @@ def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
     )
 
 
-def mark_member(body: bpy.types.Object, name: str, kind: str) -> None:
-    """Note on a body the member that it is a part of."""
-    body[_MEMBER], body[_MEMBER_KIND] = name, kind
-
-
 def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory) -> tuple[Event, ...]:
     """The scene's changes as events on its bodies and connections, in order of time.
 
@@ -58,10 +51,11 @@ def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], invent
     changes = changes_of(scene)
     if not changes:
         return ()
+    members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
     structure = Structure(
         centres_m=np.array([body.matrix_world.translation for body in bodies]).reshape(-1, 3),
-        member_names=np.array([body.get(_MEMBER, "") for body in bodies]),
-        member_kinds=np.array([body.get(_MEMBER_KIND, "") for body in bodies]),
+        member_names=members[:, 0],
+        member_kinds=members[:, 1],
         is_shard=np.array([kind_of(body) is Kind.SHARD and body.rigid_body.type == "ACTIVE" for body in bodies], bool),
         pairs=inventory.pairs,
         points_m=inventory.points_m,

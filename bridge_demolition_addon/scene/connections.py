@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..core.connections import GROUND, Connections
+from .bodies import bodies_of
 from .naming import make_named, numbered_names
 
 _SYMBOL_SIZE_M = 0.1
@@ -23,6 +24,18 @@ def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     if not constraints:
         return []
     return [each for each in constraints.all_objects if each.rigid_body_constraint and not each.get(_IS_CABLE)]
+
+
+def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
+    """The two bodies that a connection holds together, as far as it has them."""
+    constraint = connection.rigid_body_constraint
+    return {constraint.object1, constraint.object2}
+
+
+def loose_connections(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Connections that lack a body of the scene's world, as those of a deleted shard do; Blender simulates none."""
+    bodies = set(bodies_of(scene))
+    return [each for each in connections_of(scene) if not ends_of(each) <= bodies]
 
 
 def mark_cable(constraint: bpy.types.Object) -> None:

@@ -8,10 +8,10 @@ from ..core.extent import ground_half_size, surface_height
 from ..core.model import Model
 from ..core.scenario import ConnectionSettings, Scenario
 from ..core.strength import MATERIALS, Ductility
-from .bodies import bodies_of, create_ball, create_ground, create_shards
+from .bodies import bodies_of, create_ball, create_ground, create_shards, mark_member
 from .breaking import Breaking, keep_breaking
 from .cable import create_cable
-from .changes import keep_changes, mark_member
+from .changes import keep_changes
 from .charges import charge_objects, create_charges
 from .connections import create_connections
 from .explosion import Apply, explosion_settings, keep_explosion

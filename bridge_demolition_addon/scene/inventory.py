@@ -88,7 +88,9 @@ def _pairs(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.O
     for connection in connections:
         constraint = connection.rigid_body_constraint
         if constraint.object1 not in index or constraint.object2 not in index:
-            raise SimulationError(f"connection {connection.name!r} lacks a body: give it two, or delete it")
+            raise SimulationError(
+                f"connection {connection.name!r} lacks a body: give it two, or remove loose connections"
+            )
         pairs.append((index[constraint.object1], index[constraint.object2]))
     return np.array(pairs, int).reshape(-1, 2)
 

@@ -1,35 +1,79 @@
-"""Taking shards and their connections out of a scene, with everything that only they used."""
+"""Taking a demolition out of its scene again, with everything that only it used, and connections that hold nothing."""
 
 from __future__ import annotations
 
 import bpy
 
-from .bodies import Kind, bodies_of, kind_of
-from .connections import connections_of
+from .bodies import bodies_of, is_marked
+from .breaking import Breaking, keep_breaking
+from .changes import keep_changes
+from .connections import ends_of, loose_connections
+from .force_fields import force_collection, force_objects
+from .slow_motion import stop_animation
 from .world import START_FRAME
 
 
-def remove_shards(scene: bpy.types.Scene) -> int:
-    """Remove all shards, their meshes, and all connections that a shard was in; how many shards there were.
+def remove_demolition(scene: bpy.types.Scene) -> int:
+    """Remove everything that building a demolition has put into a scene, but for the charges; how many bodies.
 
-    The scene goes to its start frame. Bodies that are no shards, such as the ground and the ball, stay. Meshes that
-    something else uses stay, too.
+    The scene goes to its start frame. Bodies that were not made here stay, and the rigid-body world with them; so do
+    meshes that something else uses.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         return 0
     scene.frame_set(START_FRAME)
-    shards = [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
-    wanted = set(shards)
-    connections = [each for each in connections_of(scene) if wanted & _bodies_of_connection(each)]
-    meshes = {body.data for body in shards}
-    # Blender keeps Bullet's world, and the pointers in it, until it is told of a change and evaluated at the start. A
-    # body that is removed while an old connection still points to it ends the process when time goes on.
-    bpy.data.batch_remove(connections)
-    _start_anew(scene)
-    bpy.data.batch_remove(shards)
-    _start_anew(scene)
-    bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
-    return len(shards)
+    bodies = [body for body in bodies_of(scene) if is_marked(body)]
+    ours = set(bodies)
+    _remove_in_turn(
+        scene,
+        [each for each in _constraints(scene) if ours & ends_of(each)],
+        [field for body, field in force_objects(scene).items() if body in ours],
+        bodies,
+    )
+    stop_animation(scene)
+    keep_breaking(scene, Breaking())
+    keep_changes(scene, ())
+    fields = force_collection(scene)
+    if fields and not fields.all_objects:
+        bpy.data.collections.remove(fields)
+    if not scene.rigidbody_world.collection.all_objects:
+        _remove_world(scene)
+    return len(bodies)
+
+
+def remove_loose_connections(scene: bpy.types.Scene) -> int:
+    """Remove connections that lack a body, as those of a deleted shard do; how many there were.
+
+    The scene goes to its start frame.
+    """
+    if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
+        return 0
+    loose = loose_connections(scene)
+    if loose:
+        scene.frame_set(START_FRAME)
+        _remove_in_turn(scene, loose)
+    return len(loose)
+
+
+def _remove_in_turn(scene: bpy.types.Scene, *groups: list[bpy.types.Object]) -> None:
+    """Remove objects and the meshes that only they used, one group after the other.
+
+    Blender keeps Bullet's world, and the pointers in it, until it is told of a change and evaluated at the start. A
+    body that is removed while an old connection still points to it ends the process when time goes on.
+    """
+    for group in groups:
+        meshes = {each.data for each in group if each.type == "MESH"}
+        bpy.data.batch_remove(group)
+        _start_anew(scene)
+        bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
+
+
+def _remove_world(scene: bpy.types.Scene) -> None:
+    world = scene.rigidbody_world
+    empty = [each for each in (world.collection, world.constraints) if each and not each.all_objects]
+    with bpy.context.temp_override(scene=scene):
+        bpy.ops.rigidbody.world_remove()
+    bpy.data.batch_remove(empty)
 
 
 def _start_anew(scene: bpy.types.Scene) -> None:
@@ -40,6 +84,6 @@ def _start_anew(scene: bpy.types.Scene) -> None:
         layer.update()
 
 
-def _bodies_of_connection(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
-    constraint = connection.rigid_body_constraint
-    return {constraint.object1, constraint.object2}
+def _constraints(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    constraints = scene.rigidbody_world.constraints
+    return [each for each in constraints.all_objects if each.rigid_body_constraint] if constraints else []

@@ -30,6 +30,14 @@ def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: 
     world.time_scale = normal
 
 
+def stop_animation(scene: bpy.types.Scene) -> None:
+    """Give all frames the same length again."""
+    curve = _curve(scene)
+    if curve:
+        for frame in [point.co.x for point in curve.keyframe_points]:
+            scene.keyframe_delete(_PATH, frame=frame)
+
+
 def time_is_animated(scene: bpy.types.Scene) -> bool:
     """Whether frames may differ in length."""
     return _curve(scene) is not None

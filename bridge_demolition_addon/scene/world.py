@@ -22,6 +22,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
     scene.render.fps = settings.frames_per_second
     scene.render.fps_base = settings.frames_per_second_base
     scene.frame_start, scene.frame_end = START_FRAME, last_frame
+    scene.render.use_lock_interface = True  # a render and the window would step one and the same Bullet world
     scene.frame_set(START_FRAME)
     with bpy.context.temp_override(scene=scene):
         bpy.ops.rigidbody.world_add()

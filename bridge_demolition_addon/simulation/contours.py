@@ -107,7 +107,14 @@ def use_results(scene: bpy.types.Scene, results: Results) -> None:
     _loaded[scene.session_uid] = (ContourSeries.of_results(results), handlers.latest())
 
 
-def forget() -> None:
+def forget(scene: bpy.types.Scene) -> None:
+    """Let go of what was recorded or loaded of a scene."""
+    handlers.forget(scene)
+    _loaded.pop(scene.session_uid, None)
+    _recorded.pop(scene.session_uid, None)
+
+
+def forget_all() -> None:
     """Let go of everything that was recorded or loaded."""
     _loaded.clear()
     _recorded.clear()
@@ -185,7 +192,7 @@ def _after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Non
 @persistent
 def _before_load(*_: object) -> None:
     stop()
-    forget()
+    forget_all()
 
 
 def _follow(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:

@@ -13,12 +13,14 @@ from .recording import Recording
 
 _current: Recording | None = None
 _latest: Recording | None = None
+_rendering = False
 
 
 def start(recording: Recording) -> None:
     """Let a recording follow its scene's timeline, in place of one that may still run."""
-    global _current, _latest
+    global _current, _latest, _rendering
     stop()
+    _rendering = False
     _current = _latest = recording
     for handlers, ours in _handlers():
         handlers.insert(0, ours)  # before those that look at what is recorded
@@ -46,6 +48,13 @@ def latest() -> Recording | None:
     return _latest
 
 
+def forget(scene: bpy.types.Scene) -> None:
+    """Let go of the recording that ran last, if it is of a scene that holds something else from now on."""
+    global _latest
+    if _latest and _latest is not _current and _latest.scene_uid == scene.session_uid:
+        _latest = None
+
+
 def _handlers() -> tuple[tuple[list, Callable], ...]:
     lists = bpy.app.handlers
     return (
@@ -55,11 +64,15 @@ def _handlers() -> tuple[tuple[list, Callable], ...]:
         (lists.load_pre, _before_upheaval),
         (lists.undo_pre, _before_upheaval),
         (lists.redo_pre, _before_upheaval),
+        (lists.render_init, _before_render),
+        (lists.render_complete, _after_render),
+        (lists.render_cancel, _after_render),
     )
 
 
 @persistent
 def _before_frame(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    _follow(scene, _refuse_to_record_a_render)
     _follow(scene, lambda recording: recording.before_frame())
 
 
@@ -78,6 +91,24 @@ def _before_upheaval(*_: object) -> None:
     """Undo, redo and loading a file free what a recording looks at: it ends while that is still there."""
     if _current and not _current.error:
         _current.fail(SimulationError("undo, redo or loading a file took away what was recorded"))
+
+
+@persistent
+def _before_render(*_: object) -> None:
+    global _rendering
+    _rendering = True
+
+
+@persistent
+def _after_render(*_: object) -> None:
+    global _rendering
+    _rendering = False
+
+
+def _refuse_to_record_a_render(recording: Recording) -> None:
+    """A render simulates in copies and a thread of its own; what was played before it plays back."""
+    if _rendering and not recording.has_frame(recording.scene.frame_current):
+        raise SimulationError("a render went beyond the frames that were recorded: play the timeline, then render it")
 
 
 def _follow(scene: bpy.types.Scene, action: Callable[[Recording], None]) -> None:

@@ -7,6 +7,7 @@ import time
 import bpy
 
 from ..core.errors import SimulationError
+from ..core.rest import Rest
 from . import handlers
 from .recording import Recording
 
@@ -20,6 +21,8 @@ class Playing:
         What follows it, not started yet.
     last_frame
         Frame to end with; the last one of the scene, or of its simulation where that ends before, unless given.
+    stop_at
+        The rest at which to end before that.
 
     Attributes
     ----------
@@ -29,8 +32,8 @@ class Playing:
         Frames to play, without the start frame.
     done
         Frames played.
-    longest_frame_s
-        Wall time of the frame that took longest.
+    seconds, longest_frame_s
+        Wall time of all of them, and of the one that took longest.
 
     Raises
     ------
@@ -38,8 +41,9 @@ class Playing:
         The scene has no frames to play.
     """
 
-    def __init__(self, recording: Recording, last_frame: int | None = None):
+    def __init__(self, recording: Recording, last_frame: int | None = None, stop_at: Rest | None = None):
         self.recording = recording
+        self._rest = stop_at
         self._scene = recording.scene
         cache = self._scene.rigidbody_world.point_cache
         last = min(self._scene.frame_end, cache.frame_end) if last_frame is None else last_frame
@@ -50,19 +54,24 @@ class Playing:
         self.total = last - cache.frame_start
         self.done = 0
         self.longest_frame_s = 0.0
-        self._seconds = 0.0
+        self.seconds = 0.0
         handlers.start(recording)
         start_over(self._scene)
 
     @property
     def finished(self) -> bool:
-        """Whether the last frame has been played."""
-        return self.done == self.total
+        """Whether the last frame has been played, or everything rests."""
+        return self.done == self.total or self.at_rest
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether everything rests as it was waited for."""
+        return self._rest is not None and self._rest.is_reached
 
     @property
     def remaining_s(self) -> float:
         """Wall time that the frames still to come take, if they take as long as those so far."""
-        return self._seconds / self.done * (self.total - self.done) if self.done else 0.0
+        return self.seconds / self.done * (self.total - self.done) if self.done else 0.0
 
     def step(self) -> None:
         """Play the next frame.
@@ -76,10 +85,12 @@ class Playing:
         began = time.perf_counter()
         self._scene.frame_set(self._scene.rigidbody_world.point_cache.frame_start + self.done + 1)
         took = time.perf_counter() - began
-        self._seconds += took
+        self.seconds += took
         self.longest_frame_s = max(self.longest_frame_s, took)
         self.done += 1
         self._see_whether_recorded()
+        if self._rest and self.recording.recorded_frames:
+            self._rest.observe(*self.recording.motion())
 
     def end(self) -> None:
         """End the recording, and leave it at its logs."""

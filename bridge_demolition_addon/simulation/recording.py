@@ -17,7 +17,7 @@ from ..core.results import Results
 from ..scene.bodies import bodies_of
 from ..scene.breaking import breaking_of
 from ..scene.changes import changes_of, events_of
-from ..scene.connections import connections_of
+from ..scene.connections import connections_of, loose_connections
 from ..scene.inventory import Inventory, take_inventory
 from ..scene.lifts import lift_from, lifts_of
 from ..scene.slow_motion import time_is_animated, time_step_at
@@ -30,6 +30,29 @@ from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
 from .standstill import stand_still
 from .substeps import SubstepRecorder, no_ball_history
+
+
+def check_recordable(scene: bpy.types.Scene) -> None:
+    """See whether a scene can be recorded as it is.
+
+    Raises
+    ------
+    SimulationError
+        It has no rigid-body world, other units than metres, or connections without a body.
+    """
+    if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
+        raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+    unit_scale = scene.unit_settings.scale_length
+    if unit_scale != 1.0:
+        raise SimulationError(
+            f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
+            "set the unit scale to 1 and build the scene in metres"
+        )
+    if loose := loose_connections(scene):
+        more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""
+        raise SimulationError(
+            f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
+        )
 
 
 class Recording:
@@ -62,14 +85,7 @@ class Recording:
     def __init__(
         self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True, log_files: LogFiles | None = None
     ):
-        if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
-            raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
-        unit_scale = scene.unit_settings.scale_length
-        if unit_scale != 1.0:
-            raise SimulationError(
-                f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
-                "set the unit scale to 1 and build the scene in metres"
-            )
+        check_recordable(scene)
         rewrite_thresholds(scene)  # the step may have changed since the scene was built
         self.scene = scene
         self.scene_uid = scene.session_uid
@@ -166,6 +182,10 @@ class Recording:
     def recorded_frames(self) -> int:
         """Frames recorded so far."""
         return len(self._frames)
+
+    def has_frame(self, frame: int) -> bool:
+        """Whether a frame was recorded, or lies before those that are."""
+        return frame <= (self._frames[-1]["frames"] if self._frames else self._start_frame)
 
     def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
         """Time in s of the last frame, and places (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""

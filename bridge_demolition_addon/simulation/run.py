@@ -17,18 +17,16 @@ from ..core.contours import ContourSettings
 from ..core.events import model_structure, schedule
 from ..core.extent import extent, surface_height
 from ..core.model import Model, build_model
-from ..core.rest import Rest, last_event_s
-from ..core.results import Results
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
-from ..core.summary import settling, summarise
 from ..scene.demolition import build_demolition
 from ..scene.rendering import prepare_pictures, render_picture
-from ..scene.world import START_FRAME, keep_played_frames, scene_time_step
-from . import handlers
+from ..scene.world import START_FRAME, keep_played_frames
 from .film import FilmRendering, FilmSettings
 from .output import PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
+from .playing import Playing
 from .recording import Recording
+from .run_summary import Subject, rest_watch, run_summary
 
 PICTURES = ("before", "impact", "after")
 
@@ -93,20 +91,16 @@ def run_scenario(
     _prepare_view(scene, scenario, model)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
-    time_settings = scenario.time
-    limits = (time_settings.rest_speed_m_s, time_settings.rest_spin_rad_s, time_settings.rest_hold_s)
-    rest = Rest(*limits, last_event_s(scenario))
-    recording, blender_s, interrupted = _simulate(
-        scene, folder, scenario.recording.every_substep, progress, rest, stop_at_rest=time_settings.stop_at_rest
-    )
+    subject = Subject.of(scene, scenario.title, scenario)
+    playing, interrupted = _simulate(scene, folder, scenario, progress)
+    recording = playing.recording
     if recording.distrust:
         progress.stage(f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}")
     results = recording.results()
-    summary = _summary(scenario, model, scene, results, interrupted)
-    summary["charges"] = _charges(scenario, recording)
-    summary["settled"] = settling(results, scenario.connections.warm_up_s)
-    summary["events"] = recording.happenings
-    summary["came_to_rest_s"] = rest.came_to_rest_s
+    summary = run_summary(recording, results, subject, completed=not interrupted)
+    summary["density_kg_m3"] = model.density_kg_m3
+    summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
+    blender_s = playing.seconds - recording.seconds
     summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
     progress.stage("writing the results")
     keep_results(folder, results, summary)
@@ -150,35 +144,25 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> N
     prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
 
 
-def _simulate(
-    scene: bpy.types.Scene, folder: Path, every_substep: bool, progress: Progress, rest: Rest, *, stop_at_rest: bool
-) -> tuple[Recording, float, bool]:
-    """Play the timeline once: the recording, the wall time of Blender's own steps, and whether it was cut short.
+def _simulate(scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress) -> tuple[Playing, bool]:
+    """Play the timeline once; whether the user has cut it short, too.
 
     A scene that is stopped at rest ends with the frame in which it is.
     """
-    recording = Recording(scene, folder, every_substep=every_substep)
-    frames = range(scene.frame_start, scene.frame_end + 1)
-    handlers.start(recording)
-    began = time.perf_counter()
+    rest = rest_watch(scenario) if scenario.time.stop_at_rest else None
+    recording = Recording(scene, folder, every_substep=scenario.recording.every_substep)
+    playing = Playing(recording, stop_at=rest)
     try:
         with _interruptible() as interrupted:
-            for frame in frames:
-                scene.frame_set(frame)
-                if recording.error:
-                    raise recording.error
+            while not playing.finished and not (interrupted.is_set() and recording.recorded_frames):
+                playing.step()
                 if recording.recorded_frames > 1:
-                    progress.frame(recording.recorded_frames - 1, len(frames) - 2, recording.broken)
-                if recording.recorded_frames:
-                    rest.observe(*recording.motion())
-                if stop_at_rest and rest.is_reached:
-                    scene.frame_end = frame
-                    break
-                if interrupted.is_set() and recording.recorded_frames:
-                    break
+                    progress.frame(recording.recorded_frames - 1, playing.total - 1, recording.broken)
     finally:
-        handlers.stop()
-    return recording, time.perf_counter() - began - recording.seconds, interrupted.is_set()
+        playing.end()
+    if playing.at_rest:
+        scene.frame_end = scene.frame_current
+    return playing, interrupted.is_set()
 
 
 @contextmanager
@@ -193,49 +177,6 @@ def _interruptible() -> Iterator[threading.Event]:
         yield interrupted
     finally:
         signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
-
-
-def _summary(
-    scenario: Scenario, model: Model, scene: bpy.types.Scene, results: Results, interrupted: bool
-) -> dict[str, Any]:
-    return {
-        "title": scenario.title,
-        "completed": not interrupted,
-        "blender": bpy.app.version_string,
-        "seed": scenario.seed,
-        "substep_s": scene_time_step(scene).substep_s,
-        "density_kg_m3": model.density_kg_m3,
-        "members_kg": {member.name: member.mass_kg for member in model.members},
-        **summarise(results, np.array(scene.gravity), scenario.ball and scenario.ball.contact_time_s),
-    }
-
-
-def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
-    """What exploded when, and whether all of it reached the bodies; None where nothing did."""
-    charges = [charge for charge in scenario.placed_charges if charge.mass_kg > 0.0]
-    if not scenario.blast.explosion or not charges:
-        return None
-    times = [scenario.blast.start_s + charge.delay_s for charge in charges]
-    columns = zip(charges, times, strict=True)
-    return {
-        "charges": [
-            {
-                "name": charge.name,
-                "place_m": charge.place_m,
-                "mass_kg": charge.mass_kg,
-                "explosive": charge.explosive,
-                "tnt_kg": charge.tnt_kg,
-                "detonation_s": time,
-            }
-            for charge, time in columns
-        ],
-        "mass_kg": sum(charge.mass_kg for charge in charges),
-        "largest_mass_at_once_kg": max(
-            sum(charge.mass_kg for charge, other in zip(charges, times, strict=True) if other == time) for time in times
-        ),
-        "applied_by": scenario.blast.apply,
-        "loads_cut_short": recording.lost_blast_loads,
-    }
 
 
 def _decisive_moment(summary: dict[str, Any]) -> dict[str, Any] | None:

@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 from ..bullet.world import BulletWorld
 from ..core.errors import DemolitionError
 from ..scene.bodies import bodies_of, is_marked
-from ..scene.connections import connections_of
+from ..scene.connections import connections_of, loose_connections
 from . import handlers
 from .members import Members
 from .standstill import stand_still, stands_still
@@ -39,10 +39,8 @@ class Watch:
     def __init__(self, scene: bpy.types.Scene):
         self._scene = scene
         self._members = Members(scene)
-        bodies = bodies_of(scene)
-        # A deleted shard leaves connections behind that Blender does not simulate.
-        there = set(bodies)
-        simulated = [each for each in connections_of(scene) if _ends(each) <= there]
+        bodies, loose = bodies_of(scene), set(loose_connections(scene))
+        simulated = [each for each in connections_of(scene) if each not in loose]
         self._world = BulletWorld(scene, bodies, simulated)
         self.given_up = not any(map(is_marked, bodies))
 
@@ -72,11 +70,6 @@ class Watch:
         """Leave the world to whoever wants it."""
         self._world.release()
         self.given_up = True
-
-
-def _ends(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
-    constraint = connection.rigid_body_constraint
-    return {constraint.object1, constraint.object2}
 
 
 _watches: dict[int, Watch] = {}

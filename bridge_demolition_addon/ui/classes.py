@@ -13,6 +13,7 @@ from . import (
     last_recording,
     post_processing,
     redraw,
+    removal_operators,
     report_panel,
     results_panel,
     scenario_operators,
@@ -26,6 +27,7 @@ def classes() -> tuple[type, ...]:
     """Panels come in the order of the work, and each after the one that it stands in."""
     return (
         *scenario_operators.CLASSES,
+        *removal_operators.CLASSES,
         *table_lists.CLASSES,
         *scenario_panels.panels(),
         *explosion.CLASSES,

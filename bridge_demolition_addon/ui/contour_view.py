@@ -83,7 +83,7 @@ def unregister() -> None:
         contours.hide(scene)
         _show_materials_in_views(scene)
     contours.stop()
-    contours.forget()
+    contours.forget_all()
     _refusals.clear()
 
 

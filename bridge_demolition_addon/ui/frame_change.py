@@ -4,28 +4,31 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from weakref import WeakKeyDictionary
 
 import bpy
 import numpy as np
 
 from ..core.errors import DemolitionError, OutputError, ScenarioError
+from ..core.rest import Rest
 from ..core.scenario import RecordingSettings, Scenario
 from ..core.scenario.file import scenario_from_text, scenario_text
-from ..core.summary import summarise
 from ..simulation import handlers
 from ..simulation.logs import LogFiles
 from ..simulation.output import SCENARIO_FILE, checked_log, keep_results, prepared_folder
 from ..simulation.playing import start_over
-from ..simulation.recording import Recording
+from ..simulation.recording import Recording, check_recordable
+from ..simulation.run_summary import Subject, rest_watch, run_summary
 from . import last_recording, redraw
 from .explosion import keep_blast
 from .refusal import absolute, refused
 from .scenario_values import scenario_of, table_of
 from .sidebar import SidebarPanel, draw_sentence
 
-_subject: dict[str, Any] = {}
-"""Title and gravity of what is recorded: undo or another file may take its scene away before the results are kept."""
+_TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
+
+_subjects: WeakKeyDictionary[Recording, Subject] = WeakKeyDictionary()
+"""What each recording is of."""
 
 
 class BDA_OT_register_handler(bpy.types.Operator):
@@ -136,7 +139,9 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
         A value, the folder or a file for a log cannot be used, or the scene cannot be recorded.
     """
     settings = scene.bda
+    check_recordable(scene)
     table = table_of(settings.scenario.recording, RecordingSettings)
+    scenario = _scenario_as_recorded(settings)
     keep_blast(scene)
     forces, debris = (
         _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
@@ -145,9 +150,9 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
         raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
     folder = prepared_folder(absolute(settings.output_directory), overwrite=settings.overwrite)
     recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
-    if settings.built_scenario:
-        (folder / SCENARIO_FILE).write_text(scenario_text(_scenario_as_recorded(settings)), encoding="utf-8")
-    _subject.update(title=settings.title or scene.name, gravity=np.array(scene.gravity))
+    if scenario:
+        (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
+    _subjects[recording] = Subject.of(scene, settings.title or scene.name, scenario)
     return recording
 
 
@@ -167,27 +172,34 @@ def keep_recording(recording: Recording, *, completed: bool = True) -> None:
         Nothing was recorded.
     """
     results = recording.results()
-    summary = {
-        "title": _subject["title"],
-        "completed": completed,
-        "blender": bpy.app.version_string,
-        **summarise(results, _subject["gravity"]),
-    }
-    summary["events"] = recording.happenings
+    summary = run_summary(recording, results, _subjects[recording], completed=completed)
     keep_results(recording.folder, results, summary)
     last_recording.keep(recording.folder, results, summary)
 
 
-def _scenario_as_recorded(settings: bpy.types.PropertyGroup) -> Scenario:
-    """What the scene was built from, with the charges that it has now."""
+def rest_to_stop_at(recording: Recording) -> Rest | None:
+    """The rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
+    scenario = _subjects[recording].scenario
+    return rest_watch(scenario) if scenario and scenario.time.stop_at_rest else None
+
+
+def _scenario_as_recorded(settings: bpy.types.PropertyGroup) -> Scenario | None:
+    """What the scene was built from, with the charges and the time to stop at that it has now; None if from nothing."""
+    if not settings.built_scenario:
+        return None
     built = scenario_from_text(settings.built_scenario)
     try:
         now = scenario_of(settings)
-    except (
-        ScenarioError
-    ):  # panels that were changed since, and would not build: their charges are left out of the report
+    except ScenarioError:  # panels that were changed since, and would not build: the report tells of what was built
         return built
-    return replace(built, charges=now.charges, blast=now.blast)
+    time = replace(built.time, **{name: getattr(now.time, name) for name in _TIME_TO_STOP_AT})
+    recorded = replace(built, charges=now.charges, blast=now.blast, time=time)
+    if not np.array_equal(recorded.timeline.frame_lengths_s, built.timeline.frame_lengths_s):
+        raise ScenarioError(
+            "slow motion was animated for the charges that the scene was built with: remove the demolition and build "
+            "it again; the charges stay where they are"
+        )
+    return recorded
 
 
 def _log_file(path: str, overwrite: bool) -> Path | None:

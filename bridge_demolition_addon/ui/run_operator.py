@@ -6,8 +6,9 @@ from ..core.errors import DemolitionError
 from ..scene.world import keep_played_frames
 from ..simulation import handlers
 from ..simulation.playing import Playing
+from ..simulation.safe_render import frames_are_known
 from . import redraw
-from .frame_change import keep_recording, new_recording, why_not_recorded
+from .frame_change import keep_recording, new_recording, rest_to_stop_at, why_not_recorded
 
 _TICK_S = 0.001
 """Between two frames: Blender takes in mouse and keyboard, and draws."""
@@ -85,7 +86,8 @@ class BDA_OT_run(bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> bool:
         try:
-            self._playing = Playing(new_recording(context.scene))
+            recording = new_recording(context.scene)
+            self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except DemolitionError as error:
             self.report({"ERROR"}, str(error))
             return False
@@ -137,7 +139,7 @@ class BDA_OT_bake(bpy.types.Operator):
         if handlers.current():
             cls.poll_message_set("A recording runs: unregister its handler first")
             return False
-        if not world.point_cache.info or world.point_cache.is_outdated:
+        if not frames_are_known(context.scene):
             cls.poll_message_set("Nothing has been simulated since the last change: run or play it first")
             return False
         return True

@@ -114,7 +114,9 @@ class BDA_OT_build_scenario(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if context.scene.rigidbody_world:
-            cls.poll_message_set("This scene has a rigid-body world already: use a new scene")
+            cls.poll_message_set(
+                "This scene has a rigid-body world already: remove its demolition first, or use a new scene"
+            )
             return False
         return True
 

@@ -67,7 +67,10 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         row.operator("bda.new_scenario", text="New")
         row.menu("BDA_MT_presets")
         draw_keys(layout, context, settings.scenario, Scenario)
-        layout.operator("bda.build_scenario")
+        column = layout.column(align=True)
+        column.operator("bda.build_scenario")
+        column.operator("bda.remove_demolition")
+        column.operator("bda.remove_loose_connections")
 
 
 class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):

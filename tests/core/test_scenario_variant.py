@@ -54,7 +54,9 @@ def test_a_variant_of_a_variant(folder):
 
 def test_paths_are_given_from_the_file_that_they_stand_in(folder):
     (folder / "inner").mkdir()
-    variant(folder, rest='[[geometry]]\nname = "a"\nfile = "wall.stl"\nmass_kg = 1\n[fracture]\npoints_file = "points.csv"')
+    variant(
+        folder, rest='[[geometry]]\nname = "a"\nfile = "wall.stl"\nmass_kg = 1\n[fracture]\npoints_file = "points.csv"'
+    )
     varied = read_scenario(variant(folder / "inner", base="../variant.toml"))
     assert varied.geometry[0].file == str(folder.resolve() / "wall.stl")
     assert varied.fracture.points_file == str(folder.resolve() / "points.csv")

@@ -51,7 +51,8 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Saved: '"
     r"|Time: \d+:\d\d\.\d\d \(Saving: "
     r"|(Video )?[Aa]ppend frame \d+"
-    r"|(Info|Warning|Error): (Deleted \d+ object|30 shards, |Recording to |Stopped after |Baked: )"
+    r"|(Info: )?Deleted \d+ object"
+    r"|(Info|Warning|Error): (30 shards, |Recording to |Stopped after |Baked: )"
     r"|(Info|Warning|Error): (The recording ended early|Results are in)"
 )
 """Lines that Blender writes as it goes, and reports of operators that a job calls."""

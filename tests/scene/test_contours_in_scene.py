@@ -27,7 +27,7 @@ def hanging(blender, tmp_path):
     blocks.play(tmp_path, FRAMES)
     yield blocks
     contours.stop()
-    contours.forget()
+    contours.forget_all()
 
 
 def own_colours(blocks):

@@ -203,7 +203,9 @@ def test_a_connection_without_a_body_is_refused(blender, blocks, side, instead):
         blocks.world.collection.objects.link(other)
         blocks.world.collection.objects.unlink(other)
     setattr(connection.rigid_body_constraint, side, other)
-    with pytest.raises(SimulationError, match="connection 'Loose end' lacks a body: give it two, or delete it"):
+    with pytest.raises(
+        SimulationError, match="connection 'Loose end' lacks a body: give it two, or remove loose connections"
+    ):
         inventory_of(blocks.scene)
 
 
@@ -219,7 +221,7 @@ def test_vertices_are_as_large_as_the_body_and_in_its_own_axes(blocks):
 
 
 def test_members_are_known_where_they_are_marked(blocks):
-    from bridge_demolition_addon.scene.changes import mark_member
+    from bridge_demolition_addon.scene.bodies import mark_member
 
     blocks.block((0, 0, 0))
     pier, deck = (blocks.block((x, 0, 2), 1.0) for x in (0, 2))

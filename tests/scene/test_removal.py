@@ -1,4 +1,4 @@
-"""Cutting anew leaves nothing of the old shards behind; supports hold; paint is read."""
+"""Removing a demolition leaves nothing of it behind; supports hold; paint is read."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -12,63 +12,115 @@ from bridge_demolition_addon.core.model import build_model
 from bridge_demolition_addon.core.scenario import FractureSettings, Support
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.solids import box
-from bridge_demolition_addon.scene.bodies import Kind, bodies_of, create_shards, kind_of
+from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
+from bridge_demolition_addon.scene.charges import charge_objects
 from bridge_demolition_addon.scene.connections import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.painting import painted_points
-from bridge_demolition_addon.scene.removal import remove_shards
-from bridge_demolition_addon.scene.world import off_scene
+from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
+from bridge_demolition_addon.scene.slow_motion import time_is_animated
+from bridge_demolition_addon.simulation import handlers
+from bridge_demolition_addon.simulation.recording import Recording
 
-I235 = replace(
-    read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml"), fracture=FractureSettings(shards=30)
-)
+EXAMPLES = Path(__file__).parents[2] / "examples"
+I235 = replace(read_scenario(EXAMPLES / "i235_one_span.toml"), fracture=FractureSettings(shards=30))
 
 
 def shards_of(scene):
     return [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
 
 
+def play(scene, frames):
+    for frame in range(1, frames + 1):
+        scene.frame_set(frame)
+
+
+def ends_of(connection):
+    return connection.rigid_body_constraint.object1, connection.rigid_body_constraint.object2
+
+
+def contents(blender):
+    kinds = ("objects", "meshes", "collections")
+    return {kind: sorted(each.name for each in getattr(blender.data, kind)) for kind in kinds}
+
+
+@pytest.mark.parametrize("example", ["i235_one_span", "i235_steps", "single_span_explosives"])
 @pytest.mark.parametrize("played", [0, 12])
-def test_no_shard_mesh_or_connection_is_left(blender, played):
+def test_nothing_is_left_but_the_charges(blender, example, played):
+    scenario = read_scenario(EXAMPLES / f"{example}.toml")
+    scenario = replace(scenario, fracture=replace(scenario.fracture, shards=30))
+    scenario = replace(scenario, blast=replace(scenario.blast, apply="fields"))
     scene = blender.context.scene
-    build_demolition(scene, I235, build_model(I235))
-    for frame in range(1, played + 1):
-        scene.frame_set(frame)
-    assert remove_shards(scene) == 30
-    assert scene.frame_current == 1
-    assert shards_of(scene) == [] and connections_of(scene) == []
-    assert {kind_of(body) for body in bodies_of(scene)} == {Kind.GROUND, Kind.BALL}
-    assert len(blender.data.meshes) == 2 and not any(mesh.users == 0 for mesh in blender.data.meshes)
-    assert not [each for each in blender.data.objects if each.rigid_body_constraint]
-    assert remove_shards(scene) == 0
+    build_demolition(scene, scenario, build_model(scenario))
+    bodies = len(bodies_of(scene))
+    play(scene, played)
+    assert remove_demolition(scene) == bodies
+    charges = sorted(charge.name for charge in scenario.charges)
+    assert contents(blender) == {"objects": charges, "meshes": [], "collections": ["Charges"] if charges else []}
+    assert len(charge_objects(scene)) == len(charges)
+    assert scene.frame_current == 1 and scene.rigidbody_world is None
+    assert not {"bda_strength_pa", "bda_ductility", "bda_changes"} & set(scene.keys())
+    assert remove_demolition(scene) == 0
+    play(scene, 3)
 
 
-def test_cut_anew_and_played_again(blender):
+def test_slow_motion_ends_with_the_demolition(blender):
+    scenario = read_scenario(EXAMPLES / "single_span_explosives.toml")
+    blast = replace(scenario.blast, slow_frame_ms=2.0)
+    scenario = replace(scenario, fracture=replace(scenario.fracture, shards=30), blast=blast)
     scene = blender.context.scene
-    model = build_model(I235)
-    build_demolition(scene, I235, model)
-    for frame in range(1, 8):
-        scene.frame_set(frame)
+    build_demolition(scene, scenario, build_model(scenario))
+    assert time_is_animated(scene)
+    remove_demolition(scene)
+    assert not time_is_animated(scene)
+
+
+def test_built_anew_and_played_again(blender):
+    scene, model = blender.context.scene, build_model(I235)
     for _ in range(3):
-        remove_shards(scene)
-        with off_scene(scene) as (bodies, _):
-            create_shards(bodies, I235.shards, model.shards, model.centres_m, model.masses_kg)
-        for frame in range(1, 40):
-            scene.frame_set(frame)
+        build_demolition(scene, I235, model)
+        play(scene, 40)
         assert len(shards_of(scene)) == 30 and len(blender.data.meshes) == 32
+        remove_demolition(scene)
 
 
 def test_a_scene_without_bodies_has_nothing_to_remove(blender):
-    assert remove_shards(blender.context.scene) == 0
+    assert remove_demolition(blender.context.scene) == remove_loose_connections(blender.context.scene) == 0
 
 
-def test_meshes_that_are_used_elsewhere_stay(blender):
+def test_what_was_not_built_here_stays(blender):
     scene = blender.context.scene
     build_demolition(scene, I235, build_model(I235))
-    mesh = shards_of(scene)[0].data
+    shards = shards_of(scene)
+    mesh = shards[0].data
     blender.data.objects.new("copy", mesh)
-    remove_shards(scene)
-    assert mesh.name in blender.data.meshes and len(blender.data.meshes) == 3
+    own = blender.data.objects.new("own", shards[1].data.copy())
+    scene.rigidbody_world.collection.objects.link(own)
+    scene.view_layers[0].update()
+    assert remove_demolition(scene) == 32
+    assert mesh.name in blender.data.meshes
+    assert bodies_of(scene) == [own]
+
+
+@pytest.mark.parametrize("played", [0, 12])
+def test_loose_connections_are_removed_and_no_other(blender, tmp_path, played):
+    scene = blender.context.scene
+    build_demolition(scene, I235, build_model(I235))
+    shard = shards_of(scene)[3]
+    held = [each for each in connections_of(scene) if shard in ends_of(each)]
+    count, loose = len(connections_of(scene)), len(held)
+    play(scene, played)
+    scene.frame_set(1)
+    blender.data.objects.remove(shard)
+    scene.rigidbody_world.substeps_per_frame = scene.rigidbody_world.substeps_per_frame
+    scene.view_layers[0].update()
+    assert remove_loose_connections(scene) == loose > 0
+    assert len(connections_of(scene)) == count - loose
+    recording = Recording(scene, tmp_path)
+    handlers.start(recording)
+    play(scene, 5)
+    handlers.stop()
+    assert recording.error is None and recording.recorded_frames == 4
 
 
 def test_supports_hold_their_shards(blender):

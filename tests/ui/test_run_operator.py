@@ -13,6 +13,7 @@ import bridge_demolition_addon
 from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
 
 FRAMES = 12
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture
@@ -129,3 +130,39 @@ def test_run_that_is_ended_by_a_deletion_keeps_its_frames(extension, scene, tmp_
     assert summary["completed"] is False
     with np.load(Path(tmp_path / "results" / "results.npz")) as arrays:
         assert arrays["frames"][-1] == 8
+
+
+def test_a_run_of_a_scenario_is_told_of_as_on_the_command_line(extension, tmp_path):
+    settings = extension.context.scene.bda
+    settings.scenario_path = str(EXAMPLES / "single_span_explosives.toml")
+    extension.ops.bda.load_scenario()
+    settings.scenario.fracture.shards = 20
+    settings.scenario.time.duration_s = 0.5
+    extension.ops.bda.build_scenario()
+    settings.output_directory = str(tmp_path / "results")
+    extension.ops.bda.run()
+    summary = json.loads((tmp_path / "results" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["seed"] == 8
+    assert summary["charges"]["mass_kg"] == 160.0
+    assert summary["charges"]["largest_mass_at_once_kg"] == 120.0
+    assert summary["settled"]["time_s"] == pytest.approx(0.2, abs=1 / 24)
+
+
+@pytest.mark.parametrize("stop", [False, True])
+def test_a_run_ends_at_rest_where_it_is_to(extension, tmp_path, stop):
+    settings = extension.context.scene.bda
+    settings.scenario_path = str(EXAMPLES / "i235_one_span.toml")
+    extension.ops.bda.load_scenario()
+    settings.scenario.use_ball = False
+    settings.scenario.fracture.shards = 20
+    settings.scenario.time.duration_s = 2.0
+    extension.ops.bda.build_scenario()
+    settings.output_directory = str(tmp_path / "results")
+    settings.scenario.time.stop_at_rest = stop  # also when it is built already
+    extension.ops.bda.run()
+    summary = json.loads((tmp_path / "results" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["completed"]
+    with np.load(tmp_path / "results" / "results.npz") as arrays:
+        # Nothing wakes the bridge: it rests from the start, and has to for one second.
+        assert arrays["times_s"][-1] == pytest.approx(1.0 if stop else 2.0, abs=2 / 24)
+    assert extension.context.scene.frame_end == 50

@@ -1,0 +1,112 @@
+"""A run in a few numbers, for its `summary.json`: what was recorded, and what its scenario knows about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.rest import Rest, last_event_s
+from ..core.results import Results
+from ..core.scenario import Scenario
+from ..core.summary import settling, summarise
+from ..scene.world import scene_time_step
+from .recording import Recording
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Subject:
+    """What is recorded, noted before that begins: undo or another file may take its scene away.
+
+    Attributes
+    ----------
+    title
+        Of the results.
+    gravity
+        (3,) of the scene, m/s².
+    substep_s
+        Length of a sub-step where time is not animated.
+    scenario
+        What the scene was built from; None where it was not.
+    """
+
+    title: str
+    gravity: np.ndarray
+    substep_s: float
+    scenario: Scenario | None
+
+    @classmethod
+    def of(cls, scene: bpy.types.Scene, title: str, scenario: Scenario | None) -> Subject:
+        """Of a scene as it is now."""
+        return cls(title, np.array(scene.gravity), scene_time_step(scene).substep_s, scenario)
+
+
+def run_summary(recording: Recording, results: Results, subject: Subject, *, completed: bool) -> dict[str, Any]:
+    """Return the totals of a recording that has ended.
+
+    Parameters
+    ----------
+    recording, results
+        The recording and what it has.
+    subject
+        What it is of.
+    completed
+        Whether it went on for as long as it was meant to.
+    """
+    scenario = subject.scenario
+    contact_time_s = scenario.ball.contact_time_s if scenario and scenario.ball else None
+    summary = {
+        "title": subject.title,
+        "completed": completed,
+        "blender": bpy.app.version_string,
+        "substep_s": subject.substep_s,
+        **summarise(results, subject.gravity, contact_time_s),
+        "events": recording.happenings,
+    }
+    return summary if scenario is None else summary | _of_scenario(scenario, recording, results)
+
+
+def rest_watch(scenario: Scenario) -> Rest:
+    """Watch for the rest that a scenario waits for."""
+    time = scenario.time
+    return Rest(time.rest_speed_m_s, time.rest_spin_rad_s, time.rest_hold_s, last_event_s(scenario))
+
+
+def _of_scenario(scenario: Scenario, recording: Recording, results: Results) -> dict[str, Any]:
+    rest = rest_watch(scenario)
+    for motion in zip(results.times_s, results.places_m, results.rotations, results.asleep, strict=True):
+        rest.observe(*motion)
+    return {
+        "seed": scenario.seed,
+        "charges": _charges(scenario, recording),
+        "settled": settling(results, scenario.connections.warm_up_s),
+        "came_to_rest_s": rest.came_to_rest_s,
+    }
+
+
+def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
+    """What exploded when, and whether all of it reached the bodies; None where nothing did."""
+    charges = [charge for charge in scenario.placed_charges if charge.mass_kg > 0.0]
+    if not scenario.blast.explosion or not charges:
+        return None
+    times = [scenario.blast.start_s + charge.delay_s for charge in charges]
+    at_once = [sum(charge.mass_kg for charge, other in zip(charges, times, strict=True) if other == t) for t in times]
+    return {
+        "charges": [
+            {
+                "name": charge.name,
+                "place_m": charge.place_m,
+                "mass_kg": charge.mass_kg,
+                "explosive": charge.explosive,
+                "tnt_kg": charge.tnt_kg,
+                "detonation_s": time,
+            }
+            for charge, time in zip(charges, times, strict=True)
+        ],
+        "mass_kg": sum(charge.mass_kg for charge in charges),
+        "largest_mass_at_once_kg": max(at_once),
+        "applied_by": scenario.blast.apply,
+        "loads_cut_short": recording.lost_blast_loads,
+    }
