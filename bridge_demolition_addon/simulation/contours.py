@@ -19,6 +19,7 @@ from ..core.results import Results
 from ..scene.bodies import bodies_of
 from ..scene.contours import colours_are_shown, paint, place, show_colours, show_materials, unpaint
 from . import handlers
+from .callbacks import Callbacks
 from .recording import Recording
 
 
@@ -41,9 +42,7 @@ def show(scene: bpy.types.Scene, settings: ContourSettings) -> None:
     _shows[scene.session_uid] = _Show(settings)
     if not colours_are_shown(scene):
         show_colours(scene)
-    for theirs, ours in _handlers():
-        if ours not in theirs:
-            theirs.append(ours)
+    _callbacks.attach()
     refresh(scene)
 
 
@@ -59,9 +58,7 @@ def hide(scene: bpy.types.Scene) -> None:
 def stop() -> None:
     """Take the handlers away."""
     _shows.clear()
-    for theirs, ours in _handlers():
-        while ours in theirs:
-            theirs.remove(ours)
+    _callbacks.detach()
 
 
 def is_shown(scene: bpy.types.Scene) -> bool:
@@ -205,13 +202,6 @@ def _follow(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         shown.error = error
 
 
-def _handlers() -> tuple[tuple[list, object], ...]:
-    lists = bpy.app.handlers
-    return (
-        (lists.frame_change_post, _after_frame),
-        (lists.depsgraph_update_post, _after_update),
-        (lists.load_pre, _before_load),
-    )
-
+_callbacks = Callbacks(frame_change_post=_after_frame, depsgraph_update_post=_after_update, load_pre=_before_load)
 
 atexit.register(stop)

@@ -9,6 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..core.errors import SimulationError
+from .callbacks import Callbacks
 from .recording import Recording
 
 _current: Recording | None = None
@@ -22,16 +23,13 @@ def start(recording: Recording) -> None:
     stop()
     _rendering = False
     _current = _latest = recording
-    for handlers, ours in _handlers():
-        handlers.insert(0, ours)  # before those that look at what is recorded
+    _callbacks.attach(first=True)  # before those that look at what is recorded
 
 
 def stop() -> Recording | None:
     """End the running recording, take our handlers away, and give the recording back."""
     global _current
-    for handlers, ours in _handlers():
-        while ours in handlers:
-            handlers.remove(ours)
+    _callbacks.detach()
     recording, _current = _current, None
     if recording and not recording.error:
         recording.close()
@@ -53,21 +51,6 @@ def forget(scene: bpy.types.Scene) -> None:
     global _latest
     if _latest and _latest is not _current and _latest.scene_uid == scene.session_uid:
         _latest = None
-
-
-def _handlers() -> tuple[tuple[list, Callable], ...]:
-    lists = bpy.app.handlers
-    return (
-        (lists.frame_change_pre, _before_frame),
-        (lists.frame_change_post, _after_frame),
-        (lists.depsgraph_update_pre, _before_update),
-        (lists.load_pre, _before_upheaval),
-        (lists.undo_pre, _before_upheaval),
-        (lists.redo_pre, _before_upheaval),
-        (lists.render_init, _before_render),
-        (lists.render_complete, _after_render),
-        (lists.render_cancel, _after_render),
-    )
 
 
 @persistent
@@ -119,5 +102,17 @@ def _follow(scene: bpy.types.Scene, action: Callable[[Recording], None]) -> None
     except Exception as error:  # an exception in a handler would be lost in the console: the recording keeps it
         _current.fail(error)
 
+
+_callbacks = Callbacks(
+    frame_change_pre=_before_frame,
+    frame_change_post=_after_frame,
+    depsgraph_update_pre=_before_update,
+    load_pre=_before_upheaval,
+    undo_pre=_before_upheaval,
+    redo_pre=_before_upheaval,
+    render_init=_before_render,
+    render_complete=_after_render,
+    render_cancel=_after_render,
+)
 
 atexit.register(stop)

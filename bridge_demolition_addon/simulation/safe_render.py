@@ -8,29 +8,25 @@ the world of a demolition rests while it is rendered, unless its frames were pla
 from __future__ import annotations
 
 import atexit
-from collections.abc import Callable
 from contextlib import suppress
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..scene.bodies import bodies_of, is_marked
+from .callbacks import Callbacks
 
 _resting: list[bpy.types.Scene] = []
 
 
 def register() -> None:
     """Make renders safe from now on."""
-    unregister()
-    for handlers, ours in _handlers():
-        handlers.append(ours)
+    _callbacks.attach()
 
 
 def unregister() -> None:
     """Leave renders to Blender."""
-    for handlers, ours in _handlers():
-        while ours in handlers:
-            handlers.remove(ours)
+    _callbacks.detach()
     _after_render()
 
 
@@ -38,15 +34,6 @@ def frames_are_known(scene: bpy.types.Scene) -> bool:
     """Whether Blender plays frames back that it has simulated, and nothing was changed since."""
     cache = scene.rigidbody_world.point_cache
     return cache.is_baked or bool(cache.info and not cache.is_outdated)
-
-
-def _handlers() -> tuple[tuple[list, Callable], ...]:
-    lists = bpy.app.handlers
-    return (
-        (lists.render_init, _before_render),
-        (lists.render_complete, _after_render),
-        (lists.render_cancel, _after_render),
-    )
 
 
 @persistent
@@ -65,5 +52,7 @@ def _after_render(*_: object) -> None:
         with suppress(ReferenceError):  # the scene was deleted meanwhile
             _resting.pop().rigidbody_world.enabled = True
 
+
+_callbacks = Callbacks(render_init=_before_render, render_complete=_after_render, render_cancel=_after_render)
 
 atexit.register(unregister)

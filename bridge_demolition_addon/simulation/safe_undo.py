@@ -11,10 +11,11 @@ No body has a place in Bullet after that, and a simulation cannot go on from the
 from __future__ import annotations
 
 import atexit
-from collections.abc import Callable
 
 import bpy
 from bpy.app.handlers import persistent
+
+from .callbacks import Callbacks
 
 _LEGACY, _DEVELOPER, _CHANGED = "use_undo_legacy", "show_developer_ui", "is_dirty"
 
@@ -24,29 +25,15 @@ _before: dict[str, bool] = {}
 
 def register() -> None:
     """Make undo and redo safe from now on."""
-    unregister()
-    for handlers, ours in _handlers():
-        handlers.append(ours)
+    _callbacks.attach()
 
 
 def unregister() -> None:
     """Leave undo to Blender."""
-    for handlers, ours in _handlers():
-        while ours in handlers:
-            handlers.remove(ours)
+    _callbacks.detach()
     if bpy.app.timers.is_registered(_restore_preferences):
         bpy.app.timers.unregister(_restore_preferences)
     _restore_preferences()
-
-
-def _handlers() -> tuple[tuple[list, Callable], ...]:
-    lists = bpy.app.handlers
-    return (
-        (lists.undo_pre, _before_undo),
-        (lists.redo_pre, _before_undo),
-        (lists.undo_post, _after_undo),
-        (lists.redo_post, _after_undo),
-    )
 
 
 @persistent
@@ -83,5 +70,7 @@ def _restore_preferences() -> None:
     preferences.is_dirty = _before[_CHANGED]
     _before.clear()
 
+
+_callbacks = Callbacks(undo_pre=_before_undo, redo_pre=_before_undo, undo_post=_after_undo, redo_post=_after_undo)
 
 atexit.register(_restore_preferences)

@@ -14,6 +14,7 @@ from bpy.app.handlers import persistent
 from ..bullet.held_time import stop_time
 from ..bullet.world import BulletWorld
 from ..core.errors import LayoutError
+from .callbacks import Callbacks
 
 _standing_still: set[int] = set()
 """Scenes, by the numbers that stay theirs while Blender runs."""
@@ -30,8 +31,7 @@ def stand_still(scene: bpy.types.Scene, world: BulletWorld) -> None:
     except LayoutError:
         return
     _standing_still.add(scene.session_uid)
-    if _before_frame not in bpy.app.handlers.frame_change_pre:
-        bpy.app.handlers.frame_change_pre.append(_before_frame)
+    _callbacks.attach()
 
 
 def stands_still(scene: bpy.types.Scene) -> bool:
@@ -42,8 +42,7 @@ def stands_still(scene: bpy.types.Scene) -> bool:
 def forget() -> None:
     """Leave all scenes to Blender, and take our handler away."""
     _standing_still.clear()
-    while _before_frame in bpy.app.handlers.frame_change_pre:
-        bpy.app.handlers.frame_change_pre.remove(_before_frame)
+    _callbacks.detach()
 
 
 @persistent
@@ -61,5 +60,7 @@ def _before_frame(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None
     if not _standing_still:
         forget()
 
+
+_callbacks = Callbacks(frame_change_pre=_before_frame)
 
 atexit.register(forget)

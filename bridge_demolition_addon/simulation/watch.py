@@ -8,7 +8,6 @@ frame after the start on. Nothing is read from it but that it is still there.
 from __future__ import annotations
 
 import atexit
-from collections.abc import Callable
 
 import bpy
 from bpy.app.handlers import persistent
@@ -18,6 +17,7 @@ from ..core.errors import DemolitionError
 from ..scene.bodies import bodies_of, is_marked
 from ..scene.connections import connections_of, loose_connections
 from . import handlers
+from .callbacks import Callbacks
 from .members import Members
 from .standstill import stand_still, stands_still
 
@@ -78,29 +78,14 @@ _watches: dict[int, Watch] = {}
 
 def register() -> None:
     """Watch from now on."""
-    unregister()
-    for lists, ours in _handlers():
-        lists.append(ours)
+    _before_upheaval()
+    _callbacks.attach()
 
 
 def unregister() -> None:
     """Watch no more."""
-    for lists, ours in _handlers():
-        while ours in lists:
-            lists.remove(ours)
+    _callbacks.detach()
     _before_upheaval()
-
-
-def _handlers() -> tuple[tuple[list, Callable], ...]:
-    lists = bpy.app.handlers
-    return (
-        (lists.frame_change_pre, _before_frame),
-        (lists.frame_change_post, _after_frame),
-        (lists.depsgraph_update_pre, _before_update),
-        (lists.load_pre, _before_upheaval),
-        (lists.undo_pre, _before_upheaval),
-        (lists.redo_pre, _before_upheaval),
-    )
 
 
 @persistent
@@ -151,5 +136,14 @@ def _is_recorded(scene: bpy.types.Scene) -> bool:
     recording = handlers.current()
     return recording is not None and not recording.error and recording.scene == scene
 
+
+_callbacks = Callbacks(
+    frame_change_pre=_before_frame,
+    frame_change_post=_after_frame,
+    depsgraph_update_pre=_before_update,
+    load_pre=_before_upheaval,
+    undo_pre=_before_upheaval,
+    redo_pre=_before_upheaval,
+)
 
 atexit.register(unregister)
