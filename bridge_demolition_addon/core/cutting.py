@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from trimesh import Trimesh
 
-from .density import PointDensity, density_around
+from .density import PointDensity, densest, density_around, painted_density
 from .errors import GeometryError, ScenarioError
 from .fracture import (
     Fracture,
@@ -25,6 +24,7 @@ from .fracture import (
 from .fracture_options import FractureOptions, Recursion
 from .gaps import with_gaps
 from .member import Member
+from .points_file import paint_from_file, points_from_file
 from .scenario import FractureSettings, Scenario
 from .scenario.fracture import MemberFracture
 from .scenario.key import SHORTEST_LENGTH_M
@@ -71,21 +71,17 @@ def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDen
     members
         What is cut.
     density
-        Where the points lie closer, in place of the scenario's `fracture.finer`.
+        Where the points lie closer, in place of what the scenario says.
 
     Raises
     ------
     ScenarioError
-        A member that the scenario names is not there, or the points' file cannot be read.
+        A member that the scenario names is not there, or a file of points or paint cannot be read.
     GeometryError
         The members cannot be cut into that many shards, or a point lies outside of all.
     """
     settings = scenario.fracture
-    if density is None and settings.finer:
-        places, radii, factors = (
-            [getattr(each, name) for each in settings.finer] for name in ("place_m", "radius_m", "factor")
-        )
-        density = density_around(places, radii, factors)
+    density = density or _density(settings)
     own_points = _points_by_member(settings, members)
     rules = _rules(settings, members)
     counts = _counts(scenario, members, rules, own_points, density)
@@ -144,6 +140,17 @@ def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
     largest_remainders = np.argsort(-(shares - np.floor(shares)), kind="stable")
     counts[largest_remainders[: shard_count - counts.sum()]] += 1
     return counts
+
+
+def _density(settings: FractureSettings) -> PointDensity | None:
+    """Where the points lie closer: around places, and where it is painted."""
+    found = []
+    if settings.finer:
+        columns = ([getattr(each, name) for each in settings.finer] for name in ("place_m", "radius_m", "factor"))
+        found.append(density_around(*columns))
+    if settings.painted_file is not None:
+        found.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
+    return densest(found) if found else None
 
 
 def _cut(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
@@ -243,7 +250,7 @@ def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> 
     """Points of the user's own in each member, (p, 3) in m."""
     places = [each.place_m for each in settings.points]
     if settings.points_file is not None:
-        places += points_from_file(Path(settings.points_file))
+        places += points_from_file(Path(settings.points_file)).tolist()
     points = np.array(places, dtype=float).reshape(-1, 3)
     if not len(points):
         return [points] * len(members)
@@ -256,33 +263,6 @@ def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> 
         )
     first = inside.argmax(axis=0)
     return [points[first == index] for index in range(len(members))]
-
-
-def points_from_file(path: Path) -> list[tuple[float, float, float]]:
-    """Points in a CSV file, three numbers in a row, m; a first row that holds none is skipped.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, or a row does not hold three finite numbers.
-    """
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = [(number, row) for number, row in enumerate(csv.reader(file), start=1) if any(map(str.strip, row))]
-    except (OSError, UnicodeDecodeError) as error:
-        raise ScenarioError(f'fracture.points_file is "{path}": cannot be read: {error}') from error
-    points = []
-    for number, row in rows:
-        try:
-            x, y, z = map(float, row)
-        except ValueError:
-            if number == 1:
-                continue
-            raise ScenarioError(f"{path}, row {number}: expected three numbers (m), found {', '.join(row)}") from None
-        if not np.isfinite([x, y, z]).all():
-            raise ScenarioError(f"{path}, row {number}: expected three finite numbers (m), found {', '.join(row)}")
-        points.append((x, y, z))
-    return points
 
 
 def _all_faces(within: list[SharedFaces], shards: tuple[Shard, ...], member_of_shard: np.ndarray) -> SharedFaces:

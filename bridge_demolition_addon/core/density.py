@@ -40,6 +40,14 @@ def density_around(places_m: np.ndarray, radii_m: Sequence[float], factors: Sequ
     return PointDensity(at, 1.0 + float(surplus.max(initial=0.0)))
 
 
+def densest(densities: Sequence[PointDensity]) -> PointDensity:
+    """The largest of one or more densities, everywhere."""
+    return PointDensity(
+        lambda points: np.max([each.at(points) for each in densities], axis=0),
+        max(each.largest for each in densities),
+    )
+
+
 def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) -> PointDensity:
     """Density between 1, where nothing is painted, and `factor`, where the paint is full.
 

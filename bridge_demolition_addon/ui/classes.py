@@ -11,6 +11,7 @@ from . import (
     explosion,
     frame_change,
     last_recording,
+    own_objects,
     post_processing,
     redraw,
     removal_operators,
@@ -28,6 +29,7 @@ def classes() -> tuple[type, ...]:
     return (
         *scenario_operators.CLASSES,
         *removal_operators.CLASSES,
+        *own_objects.CLASSES,
         *table_lists.CLASSES,
         *scenario_panels.panels(),
         *explosion.CLASSES,

@@ -32,6 +32,9 @@ _PARENTS = {
 }
 """Panels that other tables stand in; any that is not named here is a part of the sequence."""
 
+_BUTTONS = {"geometry": "bda.add_selected_members", "fracture": "bda.use_paint"}
+"""Operators that fill in a table of a scenario."""
+
 _ELSEWHERE = {"blast.explosion"}
 """Keys that are drawn by hand."""
 
@@ -96,6 +99,8 @@ class _TablePanel(SidebarPanel):
     def draw(self, context: bpy.types.Context) -> None:
         owner = self._owner(context)
         layout = self.layout
+        if not self.names and self.item.name in _BUTTONS:
+            layout.operator(_BUTTONS[self.item.name])
         if holds_many(self.item):
             draw_tables(layout, context, owner, self.item)
             return

@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.cutting import cut_members, points_from_file
+from bridge_demolition_addon.core.cutting import cut_members
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.core.members import prepared_members
 from bridge_demolition_addon.core.model import build_model
+from bridge_demolition_addon.core.points_file import points_from_file
 from bridge_demolition_addon.core.scenario import Finer, FracturePoint, FractureSettings, MemberFracture
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.core.solids import volumes_and_centres

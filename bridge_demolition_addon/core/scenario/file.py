@@ -28,7 +28,7 @@ from .variant import take_based_on, varied
 LIKENESS = 0.68
 """How much alike an unknown name and a suggestion are at least: radius_m is search_radius_m, but title is not time."""
 
-PATHS = (("geometry", "file"), ("fracture", "points_file"))
+PATHS = (("geometry", "file"), ("fracture", "points_file"), ("fracture", "painted_file"))
 """Table and key of every path of another file."""
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")

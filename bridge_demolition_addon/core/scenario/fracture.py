@@ -111,6 +111,14 @@ class FractureSettings(Table):
         "a first row of names is skipped.",
         default=None,
     )
+    painted_file: str | None = key(
+        "Path, from the scenario file's folder, of a CSV file that says where the bridge is cut finer: x, y, z in m "
+        "and a weight from 0 to 1 in a row, such as the vertices of a painted mesh; in between it is interpolated.",
+        default=None,
+    )
+    painted_factor: float = key(
+        "How many times as many shards a volume gets where the weight is 1.", default=5.0, at_least=1, at_most=1000
+    )
     members: tuple[MemberFracture, ...] = ()
     points: tuple[FracturePoint, ...] = ()
     finer: tuple[Finer, ...] = ()
