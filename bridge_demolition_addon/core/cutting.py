@@ -17,7 +17,6 @@ from .fracture import (
     SharedFaces,
     fracture,
     joined_fractures,
-    random_points,
     touching_faces,
     voronoi_cells,
 )
@@ -25,6 +24,7 @@ from .fracture_options import FractureOptions, Recursion
 from .gaps import with_gaps
 from .member import Member
 from .points_file import paint_from_file, points_from_file
+from .random_points import random_points
 from .scenario import FractureSettings, Scenario
 from .scenario.fracture import MemberFracture
 from .scenario.key import SHORTEST_LENGTH_M

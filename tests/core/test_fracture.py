@@ -12,10 +12,10 @@ from bridge_demolition_addon.core.fracture import (
     Fracture,
     Shard,
     fracture,
-    random_points,
     touching_faces,
     voronoi_cells,
 )
+from bridge_demolition_addon.core.random_points import random_points
 from bridge_demolition_addon.core.sewing import sewn
 from bridge_demolition_addon.core.shared_faces import overlaps
 from bridge_demolition_addon.core.solids import (

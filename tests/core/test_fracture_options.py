@@ -7,10 +7,11 @@ from manifold3d import Manifold
 
 from bridge_demolition_addon.core.density import PointDensity, density_around, painted_density
 from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.fracture import fracture, random_points, voronoi_cells
+from bridge_demolition_addon.core.fracture import fracture, voronoi_cells
 from bridge_demolition_addon.core.fracture_options import FractureOptions, Recursion
 from bridge_demolition_addon.core.gaps import with_gaps
 from bridge_demolition_addon.core.overlap import overlaps
+from bridge_demolition_addon.core.random_points import random_points
 from bridge_demolition_addon.core.solids import (
     bodies,
     box,
