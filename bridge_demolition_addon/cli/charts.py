@@ -6,6 +6,7 @@ from pathlib import Path
 from ..core.blast.models import BlastModel
 from ..core.blast.wave import Burst
 from .blast_options import add_blast_options
+from .numbers import quantity
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -14,6 +15,12 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--output", metavar="DIR", type=Path, default="charts", help="folder, made if new (charts)")
     parser.add_argument("--unit", choices=["kpa", "ratio"], default="kpa", help="overpressure in kPa, or over ambient")
     parser.add_argument("--scaled", action="store_true", help="distances and times divided by the charge's cube root")
+    parser.add_argument(
+        "--pulse-kg", type=quantity, default=1e4, metavar="W", help="TNT whose pulses are drawn over time (10000)"
+    )
+    parser.add_argument(
+        "--pier-kg", type=quantity, default=1e3, metavar="W", help="TNT at each pier of the bridge of two spans (1000)"
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     add_blast_options(parser)
     parser.set_defaults(execute=charts)
@@ -29,6 +36,8 @@ def charts(arguments: argparse.Namespace) -> None:
         burst=Burst(arguments.burst),
         as_ratio=arguments.unit == "ratio",
         scaled=arguments.scaled,
+        pulse_charge_kg=arguments.pulse_kg,
+        pier_charge_kg=arguments.pier_kg,
     )
     for path in write_charts(arguments.output, settings):
         if not arguments.quiet:

@@ -26,10 +26,8 @@ from ..core.blast.wave import Burst
 from ..core.errors import OutputError
 
 SPAN_M = 20.0
-TWO_SPAN_BRIDGE = tuple(
-    Charge(name=name, place_m=(x, 0.0, 0.0), mass_kg=1000.0)
-    for name, x in (("left end", -SPAN_M), ("mid pier", 0.0), ("right end", SPAN_M))
-)
+PIERS = (("left end", -SPAN_M), ("mid pier", 0.0), ("right end", SPAN_M))
+PIER_CHARGE_KG = 1000.0
 """The example of Figures 13 and 14: two spans of 20 m, with 1000 kg of TNT at both ends and at the mid pier."""
 
 PULSE_CHARGE_KG = 10_000.0
@@ -66,12 +64,23 @@ class ChartSettings:
         Overpressures as a ratio to ambient pressure, like in the report, instead of in kPa.
     scaled
         Distances and times divided by W^(1/3) instead of real ones.
+    pulse_charge_kg, pier_charge_kg
+        TNT whose pulses are drawn, and TNT at each pier of the two-span bridge; by default those of the report.
     """
 
     model: BlastModel = BlastModel.KINGERY_BULMASH
     burst: Burst = Burst.AIR
     as_ratio: bool = False
     scaled: bool = False
+    pulse_charge_kg: float = PULSE_CHARGE_KG
+    pier_charge_kg: float = PIER_CHARGE_KG
+
+    @property
+    def pier_charges(self) -> tuple[Charge, ...]:
+        """The charges of the two-span bridge."""
+        return tuple(
+            Charge(name=name, place_m=(x, 0.0, 0.0), mass_kg=self.pier_charge_kg, burst=self.burst) for name, x in PIERS
+        )
 
     @property
     def pressure_unit_pa(self) -> float:
@@ -93,18 +102,18 @@ class ChartSettings:
 def pressure_over_time(settings: ChartSettings) -> Figure:
     """Figure 10: the pulse of a large charge as it passes at several distances."""
     figure, axes = _figure()
-    cube_root = np.cbrt(PULSE_CHARGE_KG)
+    cube_root = np.cbrt(settings.pulse_charge_kg)
     distances = np.array(PULSE_SCALED_DISTANCES)
     stand_offs = distances[:, None] * cube_root
-    pulses = blast_pulses(stand_offs, [PULSE_CHARGE_KG], [0.0], [settings.burst], model=settings.model)
+    pulses = blast_pulses(stand_offs, [settings.pulse_charge_kg], [0.0], [settings.burst], model=settings.model)
     times = pulses.arrivals_s + pulses.durations_s * np.linspace(0.0, 1.0, 200)
     pressures = pressure_at(pulses, times) / settings.pressure_unit_pa
     time_unit = cube_root * 1e-3 if settings.scaled else 1e-3
     for z, time, pressure, style in zip(distances, times, pressures, _line_styles(), strict=False):
-        label = f"Z = {z:g} m/kg$^{{1/3}}$" if settings.scaled else f"{z * cube_root:.0f} m (Z = {z:g})"
+        label = f"Z = {z:g} m/kg$^{{1/3}}$" if settings.scaled else f"{_plain(z * cube_root)} m (Z = {z:g})"
         # Up the front first, which takes no time.
         axes.plot(np.append(time[0], time) / time_unit, np.append(0.0, pressure), label=label, **style)
-    axes.set_title(f"Pulses of {PULSE_CHARGE_KG:,.0f} kg of TNT as they pass\n{settings.source}")
+    axes.set_title(f"Pulses of {_mass(settings.pulse_charge_kg)} of TNT as they pass\n{settings.source}")
     axes.set_xlabel("time / W$^{1/3}$ (ms/kg$^{1/3}$)" if settings.scaled else "time since the detonation (ms)")
     axes.set_ylabel(settings.pressure_label)
     axes.set_xlim(left=0.0)
@@ -177,7 +186,7 @@ def two_span_charges(settings: ChartSettings) -> Figure:
     figure, axes = _figure()
     places = _along_the_spans()
     peaks = _pulses_along_bridge(places, settings).peaks_pa
-    for charge, peak, style in zip(TWO_SPAN_BRIDGE, peaks.T, _line_styles(), strict=False):
+    for charge, peak, style in zip(settings.pier_charges, peaks.T, _line_styles(), strict=False):
         axes.semilogy(places, peak / settings.pressure_unit_pa, label=charge.name, **style)
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of each charge")
     return figure
@@ -200,7 +209,7 @@ def two_span_total(settings: ChartSettings) -> Figure:
 def two_span_over_time(settings: ChartSettings) -> Figure:
     """The overpressure along the bridge as time goes on: where the waves run and meet."""
     figure, axes = _figure()
-    cube_root = _bridge_cube_root() if settings.scaled else 1.0
+    cube_root = _bridge_cube_root(settings) if settings.scaled else 1.0
     places = _along_the_spans()
     pulses = _pulses_along_bridge(places, settings)
     meeting_s = pulses.arrivals_s.min(axis=1).max()
@@ -218,7 +227,7 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
     )
     bar = figure.colorbar(image, ax=axes, extend="both", label=settings.pressure_label)
     bar.formatter = PLAIN
-    axes.set_title(f"Overpressure of all charges over time\n{_bridge_in_words()}\n{settings.source}")
+    axes.set_title(f"Overpressure of all charges over time\n{_bridge_in_words(settings)}\n{settings.source}")
     axes.set_xlabel(_along_bridge(settings))
     axes.set_ylabel("time / W$^{1/3}$ (ms/kg$^{1/3}$)" if settings.scaled else "time since the detonation (ms)")
     return figure
@@ -258,11 +267,7 @@ def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str
 
 def two_span_rings(settings: ChartSettings) -> Figure:
     """Plan view of the two-span bridge with the rings of its charges."""
-    charges = [
-        Charge(name=charge.name, place_m=charge.place_m, mass_kg=charge.mass_kg, burst=settings.burst)
-        for charge in TWO_SPAN_BRIDGE
-    ]
-    return rings_on_plan(charges, settings, f"Reach of each charge on plan\n{_bridge_in_words()}")
+    return rings_on_plan(settings.pier_charges, settings, f"Reach of each charge on plan\n{_bridge_in_words(settings)}")
 
 
 CHARTS: dict[str, Callable[[ChartSettings], Figure]] = {
@@ -362,12 +367,17 @@ def _distinct_thresholds() -> list:
     return list({threshold.overpressure_pa: threshold for threshold in reversed(THRESHOLDS)}.values())[::-1]
 
 
-def _bridge_cube_root() -> float:
-    return float(np.cbrt(TWO_SPAN_BRIDGE[0].tnt_kg))
+def _bridge_cube_root(settings: ChartSettings) -> float:
+    return float(np.cbrt(settings.pier_charge_kg))
 
 
-def _bridge_in_words() -> str:
-    return f"two spans of {SPAN_M:g} m, {TWO_SPAN_BRIDGE[0].mass_kg:g} kg of TNT at both ends and the mid pier"
+def _bridge_in_words(settings: ChartSettings) -> str:
+    return f"two spans of {SPAN_M:g} m, {_mass(settings.pier_charge_kg)} of TNT at both ends and the mid pier"
+
+
+def _mass(mass_kg: float) -> str:
+    """A mass as it was given."""
+    return f"{mass_kg:,.10g} kg"
 
 
 def _along_bridge(settings: ChartSettings) -> str:
@@ -380,20 +390,19 @@ def _along_the_spans() -> np.ndarray:
 
 
 def _pulses_along_bridge(places_m: np.ndarray, settings: ChartSettings) -> Pulses:
-    arrays = ChargeArrays.of(TWO_SPAN_BRIDGE)
+    arrays = ChargeArrays.of(settings.pier_charges)
     points = np.column_stack((places_m, np.zeros((len(places_m), 2))))
     stand_offs, _ = lines_of_blast(arrays.places_m, points)
-    bursts = [settings.burst] * len(TWO_SPAN_BRIDGE)
-    return blast_pulses(stand_offs, arrays.tnt_kg, arrays.delays_s, bursts, model=settings.model)
+    return blast_pulses(stand_offs, arrays.tnt_kg, arrays.delays_s, arrays.bursts, model=settings.model)
 
 
 def _finish_bridge_chart(figure: Figure, axes: Axes, settings: ChartSettings, title: str) -> None:
-    cube_root = _bridge_cube_root() if settings.scaled else 1.0
+    cube_root = _bridge_cube_root(settings) if settings.scaled else 1.0
     for line in axes.lines:
         line.set_xdata(np.asarray(line.get_xdata()) / cube_root)
     axes.relim()
     axes.autoscale_view()
-    axes.set_title(f"{title}\n{_bridge_in_words()}\n{settings.source}")
+    axes.set_title(f"{title}\n{_bridge_in_words(settings)}\n{settings.source}")
     axes.set(xlabel=_along_bridge(settings), ylabel=f"peak {settings.pressure_label}", xmargin=0.0)
     _label_plainly(axes)
     figure.legend(loc="outside lower center", ncols=3, frameon=False)

@@ -14,7 +14,7 @@ _QUANTITIES = (
     (Quantity.SUM.name, TITLES[Quantity.SUM], "Sum of the magnitudes of all contact and connection forces"),
     (Quantity.VON_MISES.name, TITLES[Quantity.VON_MISES], "Equivalent stress, averaged over the body"),
     (Quantity.PRINCIPAL.name, TITLES[Quantity.PRINCIPAL], "Largest tension, averaged over the body"),
-    (Quantity.SIGNED_2019.name, TITLES[Quantity.SIGNED_2019], "What the add-on of 2019 showed: for comparison only"),
+    (Quantity.SIGNED_2019.name, TITLES[Quantity.SIGNED_2019], "What the add-on of 2019 logged: for comparison only"),
 )
 _RANGES = (
     (RangeKind.RUN.name, "Whole Run", "From the lowest to the highest value of all frames recorded so far"),

@@ -32,9 +32,24 @@ def test_options_change_the_pictures(tmp_path):
         assert len({(folder / f"{name}.png").read_bytes() for folder in tmp_path.iterdir()}) == 3
 
 
+def test_charges_of_ones_own_change_their_pictures_alone(tmp_path):
+    options = {"report": [], "pulse": ["--pulse-kg", "500"], "pier": ["--pier-kg", "500"]}
+    for folder, own in options.items():
+        assert main(["charts", "--quiet", "--output", str(tmp_path / folder), *own]) == 0
+    pictures = {folder: {path.stem: path.read_bytes() for path in (tmp_path / folder).iterdir()} for folder in options}
+    changed = {
+        folder: {name for name, picture in pictures[folder].items() if picture != pictures["report"][name]}
+        for folder in options
+    }
+    of_two_spans = {name for name in CHARTS if name.startswith("two_span")}
+    assert changed == {"report": set(), "pulse": {"pressure_over_time"}, "pier": of_two_spans}
+
+
 @pytest.mark.parametrize(
     "arguments, words",
     [
+        (["--pulse-kg", "0"], "--pulse-kg: '0' is wrong: expected a number from"),
+        (["--pier-kg", "much"], "--pier-kg: 'much' is wrong: expected a number from"),
         (["--unit", "psi"], "--unit: invalid choice: 'psi' (choose from"),
         (["--model", "conwep"], "--model: invalid choice: 'conwep'"),
         (["--burst", "water"], "--burst: invalid choice: 'water'"),

@@ -26,6 +26,8 @@ from bridge_demolition_addon.report.blast_charts import (
 KPA, RATIO = ChartSettings(), ChartSettings(as_ratio=True)
 SCALED = ChartSettings(scaled=True)
 GROUND = ChartSettings(model=BlastModel.KINNEY_GRAHAM, burst=Burst.SURFACE, as_ratio=True, scaled=True)
+SMALL = ChartSettings(pulse_charge_kg=8.0, pier_charge_kg=8.0)
+LARGE = ChartSettings(pulse_charge_kg=250_000.0, pier_charge_kg=12_500.0)
 
 
 def lines(figure, axes=0):
@@ -37,7 +39,9 @@ def words(figure):
     return " ".join([axes.get_title(), axes.get_xlabel(), axes.get_ylabel()])
 
 
-@pytest.mark.parametrize("settings", [KPA, RATIO, SCALED, GROUND], ids=["kPa", "ratio", "scaled", "ground"])
+@pytest.mark.parametrize(
+    "settings", [KPA, RATIO, SCALED, GROUND, SMALL, LARGE], ids=["kPa", "ratio", "scaled", "ground", "small", "large"]
+)
 @pytest.mark.parametrize("name", CHARTS)
 def test_every_chart_is_drawn_without_complaint(name, settings, tmp_path):
     with warnings.catch_warnings():
@@ -52,7 +56,7 @@ def test_every_chart_is_drawn_without_complaint(name, settings, tmp_path):
 
 @pytest.mark.parametrize("name", CHARTS)
 def test_no_words_leave_the_picture(name):
-    for settings in (KPA, GROUND):
+    for settings in (KPA, GROUND, SMALL, LARGE):
         figure = CHARTS[name](settings)
         figure.canvas.draw()
         width, height = figure.canvas.get_width_height()
@@ -92,6 +96,15 @@ def test_figure_10_scaled_does_not_know_the_charge():
     assert pulse[-1, 0] == pytest.approx(8.995 + 3.333, abs=1e-3)
 
 
+def test_figure_10_of_another_charge():
+    figure = pressure_over_time(SMALL)
+    pulse = lines(figure)["10 m (Z = 5)"]
+    # Times grow with the cube root of the charge, 2; the check values are those of 1 kg at Z = 5.
+    assert pulse[0, 0] == pytest.approx(2 * 8.995, abs=1e-3)
+    assert pulse[:, 1].max() == pytest.approx(31.30, abs=5e-3)
+    assert "Pulses of 8 kg of TNT" in words(figure)
+
+
 def test_figure_11_contours_lie_where_the_overpressure_is():
     axes = overpressure_contours(RATIO).axes[0]
     contours = axes.collections[-1]
@@ -125,6 +138,14 @@ def test_figure_13_each_charge_by_itself():
         away = abs(abs(x - place) - 10.0) < 1e-9
         assert ratio[away] == pytest.approx(np.full(away.sum(), 934.86 / 101.325), rel=1e-5)
         assert away.any()
+
+
+def test_figure_13_of_another_charge():
+    figure = two_span_charges(SMALL)
+    x, peak = lines(figure)["mid pier"].T
+    # 10 m from 8 kg is Z = 5.
+    assert peak[abs(x - 10.0) < 1e-9] == pytest.approx([31.30], abs=5e-3)
+    assert "8 kg of TNT at both ends" in words(figure)
 
 
 def test_figure_14_the_sum_and_what_is_there_at_one_time():
