@@ -1,0 +1,262 @@
+"""What ``docs/from_2019.md`` says of the report of 2019 is complete, and what it says of the present is there."""
+
+import re
+import tomllib
+from operator import attrgetter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+TEXT = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
+
+TABLE_1 = """Wrecking Ball Mass, Bridge Total Mass, Bridge Model Geometry, Amounts of Explosives,
+Explosion Source Points, Source Limit (Number of fractures), Noise, Neighbor Limit, Search Radius,
+Friction Coefficient, Bounciness, Collision Margin, Activation Linear Velocity, Activation Angular Velocity, Constraints Type,
+Constraint Breaking Threshold, Rigid Body Type, Collision Shape, Field_Hide, Field_Type, Field_Z_Direction, Field_Shape,
+Field_Strength, Field_Flow, Field_Seed, Field_Apply_To_Location, Field_Apply_To_Rotation, Field_Falloff_Power,
+Field_Falloff_Type, Field_Use_Min_Distance, Field_Use_Max_Distance, Field_Distance_Max, Field_Use_Radial_Min,
+Field_Use_Radial_Max, Field_Radial_Max, Field_Radial_Falloff, Rotation_90"""
+
+TABLE_2 = """Bridge Mass (single span), Wrecking Ball Mass, Fracturing Algorithm, Shard Count, Constraint Method,
+Constraint Type, Constraint Limit per mesh island, Search Radius, Constraint Breaking Threshold"""
+
+FIGURES = {*range(7, 15), 21, 33, 37, 39, 45, 47, *range(51, 74)}
+
+APPENDIX = """bl_info USING_CONTOUR qRenderAnimation displaySteps fadeDecrement materialName SOURCE_POINT FIELD_HIDE
+FIELD_RADIAL_FALLOFF ROTATION_90 CustomDrawOperator CustomDrawOperator2 MessageBox SceneItems AmountItems
+DebrisLogFileOperator ForceLogFileOperator MassButtonOperator AddButtonOperator BuildButtonOperator ButtonOperator
+DeleteOperator FancyPanel ExplosionVariables ExplosionPanel RegisterHandlerOperator UnregisterHandlerOperator
+HandlerPanel ExplosionOperator total_mass log_debris_locations build_all_force_objects create_empty_obj
+update_empty_objects explosion bmesh_from_object dot_product projected_area do_explosion main initExplosion
+initBuffers initMaterials changeObjMaterials register unregister overpressure_ref overpressure_scaledDistance_contours2
+overpressure_Plymoth_Bridge"""
+
+FILES = (".toml", ".json", ".csv", ".npz", ".png", ".blend", ".mp4", ".log")
+
+
+def section(heading):
+    """A section of the document, with those in it."""
+    level = len(heading) - len(heading.lstrip("#"))
+    return re.search(rf"^{re.escape(heading)}\n(.*?)(?=^#{{1,{level}}} |\Z)", TEXT, flags=re.S | re.M).group(1)
+
+
+def rows(text):
+    """Cells of all rows of the tables in a text, without their headings."""
+    lines = [line for line in text.splitlines() if line.startswith("| ")]
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    return [each for each in cells if each[0] not in ("2019", "Figure") and not set(each[0]) <= {"-"}]
+
+
+def ticked(text):
+    """What stands between backticks."""
+    return re.findall(r"`([^`]+)`", text)
+
+
+def value_of(text):
+    """A value as TOML has it."""
+    return tomllib.loads(f"value = {text}")["value"]
+
+
+def scenario_tables():
+    """Every table of a scenario by its name, and whether there may be many of it."""
+    from bridge_demolition_addon.core.scenario import Scenario
+    from bridge_demolition_addon.core.scenario.key import holds_many, subtable_class, subtable_fields
+
+    def gather(table_class, many):
+        yield table_class.table, (table_class, many)
+        for item in subtable_fields(table_class):
+            yield from gather(subtable_class(item), holds_many(item))
+
+    return dict(gather(Scenario, False))
+
+
+def scenario_keys():
+    """The table of every key, and its field there."""
+    from bridge_demolition_addon.core.scenario.key import key_fields
+
+    tables = scenario_tables().items()
+    return {
+        f"{name}.{item.name}": (name, item) for name, (table_class, _) in tables for item in key_fields(table_class)
+    }
+
+
+def named_keys(text):
+    """Keys in a text, such as `ball.mass_kg` or `bridge.merge = true`."""
+    found = [each for each in ticked(text) if re.match(r"[a-z_]+\.", each) and not each.endswith(FILES)]
+    return [each for each in found if not each.startswith("bda.")]
+
+
+def test_every_parameter_of_table_1_has_a_row_and_no_other():
+    assert [row[0] for row in rows(section("## Parameters: Table 1"))] == TABLE_1.replace("\n", " ").split(", ")
+
+
+def test_every_value_of_table_2_is_that_of_the_example():
+    from bridge_demolition_addon.core.scenario.file import read_scenario
+
+    found = rows(section("## I-235: Table 2"))
+    assert [row[0] for row in found] == TABLE_2.replace("\n", " ").split(", ")
+    told = {ticked(key)[0]: value_of(ticked(value)[0]) for _, _, key, value in found if value}
+    assert len(told) == len(found) - 1  # the way of cutting has no key
+    example = read_scenario(ROOT / "examples" / "i235_one_span.toml")
+    assert told == {key: attrgetter(key)(example) for key in told}
+
+
+def test_every_simulation_and_chart_among_the_figures_is_there():
+    found = set()
+    for figure, *_ in rows(section("## Figures")):
+        for part in figure.split(", "):
+            first, *last = (int(number) for number in part.split(" to "))
+            found |= set(range(first, (last or [first])[0] + 1))
+    assert found == FIGURES
+
+
+def test_every_name_of_the_appendix_is_there():
+    told = {each for row in rows(section("## Code: Appendix A")) for each in ticked(row[0])}
+    assert set(APPENDIX.split()) - told == set()
+
+
+def test_every_key_is_one_and_its_link_leads_to_its_table():
+    from bridge_demolition_addon.core.scenario.key import checked
+
+    keys, named = scenario_keys(), [each.partition(" = ") for each in named_keys(TEXT)]
+    assert len(named) > 50
+    assert [key for key, _, _ in named if key not in keys] == []
+    given = [(key, value_of(value)) for key, _, value in named if value]
+    assert given
+    for key, value in given:
+        assert checked(keys[key][1], key, value) == value
+    links = re.findall(r"\[`([a-z_.0-9]+)`\]\(scenario\.md#(\w+)\)", TEXT)
+    assert len(links) > 15
+    assert [link for link in links if link[1] != keys[link[0]][0].replace(".", "")] == []
+
+
+def test_every_table_is_one_and_has_its_brackets():
+    tables = scenario_tables()
+    named = re.findall(r"`(\[+)([a-z_.]+)\]+`", TEXT)
+    assert len(named) > 5
+    assert [name for brackets, name in named if tables[name][1] != (brackets == "[[")] == []
+
+
+def test_every_column_of_our_logs_is_there_and_no_other():
+    from bridge_demolition_addon.simulation import logs
+
+    columns = {
+        "force_log.csv": logs.FORCE_COLUMNS,
+        "debris_log.csv": logs.DEBRIS_COLUMNS,
+        "explosion_log.csv": logs.EXPLOSION_COLUMNS,
+        "breaking_log.csv": logs.BREAKING_COLUMNS,
+    }
+    told = {name: [] for name in columns}
+    for _, now, _ in rows(section("## Logs")):
+        file, *named = ticked(now)
+        told[file] += named
+    assert {name: sorted(each) for name, each in told.items()} == {name: sorted(columns[name]) for name in columns}
+
+
+@pytest.fixture
+def addon(blender):
+    """Blender with the add-on switched on."""
+    import bridge_demolition_addon
+
+    bridge_demolition_addon.register()
+    yield blender
+    bridge_demolition_addon.unregister()
+
+
+def test_every_operator_is_one(addon):
+    named = set(re.findall(r"\bbda\.([a-z_]+)", TEXT))
+    assert len(named) > 10
+    assert named - set(dir(addon.ops.bda)) == set()
+
+
+def test_every_name_in_italics_is_in_the_sidebar(addon):
+    body = re.sub(r"\*\*[^*]+\*\*", "", TEXT.partition("## What comes out differently")[2])
+    named = set(re.findall(r"\*([^*\n]+)\*", body))
+    assert len(named) > 15
+    assert named - sidebar_names(addon) == set()
+
+
+def sidebar_names(addon):
+    """Labels of all our panels and buttons, and names of all settings and their choices."""
+    classes = [
+        *addon.types.Panel.__subclasses__(),
+        *addon.types.Operator.__subclasses__(),
+    ]
+    names = {each.bl_label for each in classes if each.__module__.startswith("bridge_demolition_addon")}
+    groups = [addon.context.scene.bda.bl_rna]
+    while groups:
+        for each in groups.pop().properties:
+            names.add(each.name)
+            if each.type == "ENUM":
+                names |= {item.name for item in each.enum_items}
+            if each.type in ("POINTER", "COLLECTION") and each.fixed_type.identifier.startswith("BDA_"):
+                groups.append(each.fixed_type)
+    return names
+
+
+def test_every_option_of_a_command_is_one(capsys):
+    from bridge_demolition_addon.cli.main import main
+
+    commands = [each.split() for each in ticked(TEXT) if each.startswith("bda ")]
+    assert len(commands) > 10
+    options = {}
+    for _, command, *_ in commands:
+        assert main([command, "--help"]) == 0
+        options[command] = set(re.findall(r"--[a-z-]+", capsys.readouterr().out))
+    assert [each for each in commands for word in each if word.startswith("--") and word not in options[each[1]]] == []
+    alone = {each for each in ticked(TEXT) if each.startswith("--")}
+    assert alone <= set.union(*options.values())
+
+
+def test_a_force_object_is_as_the_table_says(addon):
+    from bridge_demolition_addon.core.blast.isolation import LONGEST_M, SHARE_OF_WAY, WIDEST_M
+    from bridge_demolition_addon.scene.force_fields import build_force_objects, force_objects
+    from tests.blocks import Blocks
+
+    blocks = Blocks()
+    body = blocks.block((0.0, 0.0, 3.0), 100.0)
+    build_force_objects(blocks.scene, [body])
+    (empty,) = force_objects(blocks.scene).values()
+    told = {row[0].lower().removeprefix("field_"): row[1] for row in rows(section("### Force Field"))}
+    given = {name: ticked(cell)[0] for name, cell in told.items() if cell.startswith("`")}
+    assert len(given) > 12
+    assert given == {name: str(getattr(empty.field, name)) for name in given}
+    assert "shown" in told["hide"] and not empty.hide_get() and not empty.hide_viewport
+    assert f"{WIDEST_M:g} m at most" in told["radial_max"]
+    assert f"{WIDEST_M + LONGEST_M:g} m at most" in told["distance_max"]
+    assert 0.4 < SHARE_OF_WAY < 0.5
+
+
+def test_concrete_is_as_dense_as_blender_has_it(blender):
+    blender.ops.mesh.primitive_cube_add(size=1.0)
+    blender.ops.rigidbody.object_add()
+    blender.ops.rigidbody.mass_calculate(material="Concrete")
+    mass_kg = blender.context.object.rigid_body.mass  # of 1 m³, in single precision
+    assert f"Concrete is `bridge.density_kg_m3 = {mass_kg:.0f}`" in TEXT
+    assert mass_kg == pytest.approx(2320, rel=1e-6)
+
+
+def test_fields_of_2019_push_nothing_at_their_own_place(blender):
+    # Three empties in the body's centre, one turned along each axis, with the settings of the table's last column.
+    bpy, moved = blender, {}
+    for offset in (0.0, 0.01):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.context.scene.gravity = (0.0, 0.0, 0.0)
+        bpy.ops.mesh.primitive_cube_add()
+        body = bpy.context.object
+        bpy.ops.rigidbody.object_add()
+        for turned in (0, 1, None):
+            bpy.ops.object.effector_add(type="FORCE", location=(offset, 0.0, 0.0))
+            empty = bpy.context.object
+            if turned is not None:
+                empty.rotation_euler[turned] = 1.5707961
+            field = empty.field
+            field.shape, field.z_direction, field.falloff_type, field.falloff_power = "POINT", "BOTH", "TUBE", 10.0
+            field.use_radial_max, field.radial_max, field.strength = True, 2.0, 100.0
+        for frame in range(1, 6):
+            bpy.context.scene.frame_set(frame)
+        place = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
+        moved[offset] = place.length
+    assert moved[0.0] == 0.0
+    assert moved[0.01] > 0.1
