@@ -12,11 +12,11 @@ TEXT = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
 
 TABLE_1 = """Wrecking Ball Mass, Bridge Total Mass, Bridge Model Geometry, Amounts of Explosives,
 Explosion Source Points, Source Limit (Number of fractures), Noise, Neighbor Limit, Search Radius,
-Friction Coefficient, Bounciness, Collision Margin, Activation Linear Velocity, Activation Angular Velocity, Constraints Type,
-Constraint Breaking Threshold, Rigid Body Type, Collision Shape, Field_Hide, Field_Type, Field_Z_Direction, Field_Shape,
-Field_Strength, Field_Flow, Field_Seed, Field_Apply_To_Location, Field_Apply_To_Rotation, Field_Falloff_Power,
-Field_Falloff_Type, Field_Use_Min_Distance, Field_Use_Max_Distance, Field_Distance_Max, Field_Use_Radial_Min,
-Field_Use_Radial_Max, Field_Radial_Max, Field_Radial_Falloff, Rotation_90"""
+Friction Coefficient, Bounciness, Collision Margin, Activation Linear Velocity, Activation Angular Velocity,
+Constraints Type, Constraint Breaking Threshold, Rigid Body Type, Collision Shape, Field_Hide, Field_Type,
+Field_Z_Direction, Field_Shape, Field_Strength, Field_Flow, Field_Seed, Field_Apply_To_Location,
+Field_Apply_To_Rotation, Field_Falloff_Power, Field_Falloff_Type, Field_Use_Min_Distance, Field_Use_Max_Distance,
+Field_Distance_Max, Field_Use_Radial_Min, Field_Use_Radial_Max, Field_Radial_Max, Field_Radial_Falloff, Rotation_90"""
 
 TABLE_2 = """Bridge Mass (single span), Wrecking Ball Mass, Fracturing Algorithm, Shard Count, Constraint Method,
 Constraint Type, Constraint Limit per mesh island, Search Radius, Constraint Breaking Threshold"""
