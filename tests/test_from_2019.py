@@ -1,5 +1,6 @@
 """What ``docs/from_2019.md`` says of the report of 2019 is complete, and what it says of the present is there."""
 
+import csv
 import re
 import tomllib
 from operator import attrgetter
@@ -260,3 +261,46 @@ def test_fields_of_2019_push_nothing_at_their_own_place(blender):
         moved[offset] = place.length
     assert moved[0.0] == 0.0
     assert moved[0.01] > 0.1
+
+
+def test_a_scene_prepared_by_hand_is_blasted_and_recorded(addon, tmp_path):
+    # With Blender's own buttons alone: a block that hangs from a ledge, and a charge 5 m beside it.
+    bpy, blocks = addon, []
+    for height, kind in ((3.0, "ACTIVE"), (5.0, "PASSIVE")):
+        bpy.ops.mesh.primitive_cube_add(size=1.0, location=(0.0, 0.0, height))
+        bpy.ops.rigidbody.object_add(type=kind)
+        blocks.append(bpy.context.object)
+    blocks[0].rigid_body.mass = 250.0
+    bpy.ops.object.empty_add(location=(0.0, 0.0, 4.0))
+    bpy.ops.rigidbody.constraint_add(type="FIXED")
+    constraint = bpy.context.object.rigid_body_constraint
+    constraint.object1, constraint.object2 = blocks
+    scene, settings = bpy.context.scene, bpy.context.scene.bda
+    scene.frame_end = 30
+    scene.cursor.location = (-5.0, 0.0, 3.0)
+    assert bpy.ops.bda.add_source_point() == {"FINISHED"}
+    assert bpy.ops.bda.build_force_objects() == {"FINISHED"}
+    assert bpy.ops.bda.show_total_mass() == {"FINISHED"}
+    assert settings.total_mass == "250 kg"
+    symbols = [each for each in scene.objects if each.type == "EMPTY" and not each.name.startswith("Charge")]
+    assert len(symbols) == 2
+    for hidden in (True, False, True):  # a hidden connection holds all the same
+        assert bpy.ops.bda.toggle_symbols() == {"FINISHED"}
+        assert [each.visible_get() for each in symbols] == [not hidden] * 2
+    settings.output_directory = str(tmp_path / "results")
+    assert bpy.ops.bda.run() == {"FINISHED"}
+    forces = rows_of(tmp_path / "results" / "force_log.csv")
+    held = [float(row["force_z_N"]) for row in forces if row["body"] == blocks[0].name]
+    # Before the charge goes off, after half a second, the connection carries the block's weight within what 10 passes
+    # of the solver leave.
+    assert held[10] == pytest.approx(250.0 * -scene.gravity.z, rel=1e-3)
+    (load,) = rows_of(tmp_path / "results" / "explosion_log.csv")
+    assert load["body"] == blocks[0].name
+    assert float(load["stand_off_m"]) == pytest.approx(5.0, abs=1e-3)
+    assert float(load["projected_area_m2"]) == pytest.approx(1.0, abs=1e-3)
+
+
+def rows_of(log):
+    """Lines of a log by its columns."""
+    with log.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))

@@ -407,10 +407,17 @@ class BulletWorld:
         return np.array(addresses, np.uint64)
 
     def _find_connections(self, depsgraph: bpy.types.Depsgraph, body_addresses: np.ndarray) -> np.ndarray:
-        """Bullet's constraints (m,), 0 for one that is switched off. Only evaluated objects know theirs."""
+        """Bullet's constraints (m,), 0 for one that is switched off.
+
+        Blender notes them on the objects that it finds in the collection of the world's constraints: evaluated copies,
+        or the objects themselves where that collection is not in the scene. Blender's own buttons leave it out.
+        """
         offset = self._layout.blender.connection_physics
-        evaluated = [connection.evaluated_get(depsgraph) for connection in self.connections]
-        addresses = [read_pointer(each.rigid_body_constraint.as_pointer() + offset) for each in evaluated]
+        holders = self.connections
+        constraints = self.scene.rigidbody_world.constraints
+        if constraints and constraints.evaluated_get(depsgraph).is_evaluated:
+            holders = [connection.evaluated_get(depsgraph) for connection in self.connections]
+        addresses = [read_pointer(each.rigid_body_constraint.as_pointer() + offset) for each in holders]
         existing = [pair for pair in zip(self.connections, addresses, strict=True) if pair[1]]
         for connection, address in zip(self.connections, addresses, strict=True):
             if not address and connection.rigid_body_constraint.enabled:

@@ -38,6 +38,12 @@ BEGIN = """
         bpy.ops.object.delete()
 """
 
+BY_HAND = """
+    for link in links:
+        scene.collection.objects.link(link)
+    scene.collection.children.unlink(blocks.world.constraints)
+"""
+
 RECORDED = """
     recording = Recording(scene, folder)
     handlers.start(recording)
@@ -120,6 +126,13 @@ def in_own_process(folder, *parts):
 def test_deleting_while_recorded(tmp_path, deletion):
     afterwards = AFTERWARDS.replace("UPDATE", "bpy.context.view_layer.update()")
     in_own_process(tmp_path, RECORDED, deletion, afterwards, RECORDED_ANEW)
+
+
+@pytest.mark.parametrize("deletion", ["body removed", "connection removed", "body and connections deleted"])
+def test_deleting_where_constraints_were_made_by_blenders_own_buttons(tmp_path, deletion):
+    # These put them into a collection that is not in the scene, and Blender frees what is Bullet's at another time.
+    afterwards = AFTERWARDS.replace("UPDATE", "bpy.context.view_layer.update()")
+    in_own_process(tmp_path, BY_HAND, RECORDED, DELETIONS[deletion], afterwards, RECORDED_ANEW)
 
 
 @pytest.mark.parametrize("deletion", ["body removed", "connection removed"])
