@@ -1,4 +1,4 @@
-"""``bda run``: run a scenario and keep its results in a folder."""
+"""``bda run``: run scenarios, and keep the results of each in a folder."""
 
 import argparse
 import os
@@ -8,43 +8,113 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import SimulationError
+from ..core.errors import GeometryError, OutputError, ScenarioError, SimulationError
+from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
-from ..simulation.output import RESULT_FILES
+from ..simulation.output import RESULT_FILES, check_folder, remove_report
 from .progress import Progress, progress_on
+
+COMPARISON_FOLDER = "report"
+"""Where in the folder of a study its runs are compared."""
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
-    parser = commands.add_parser("run", help="run a scenario and keep its results in a folder", allow_abbrev=False)
-    parser.add_argument("scenario", metavar="SCENARIO.toml", help="scenario file, see docs/scenario.md")
+    parser = commands.add_parser(
+        "run",
+        help="run a scenario and keep its results in a folder",
+        description="Of one scenario, the results are kept in DIR. Several are a study: they are run in order, "
+        "and the results of each are kept in a folder in DIR that is called like its file.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("scenarios", metavar="SCENARIO.toml", nargs="+", help="scenario file, see docs/scenario.md")
     parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the results, made if new")
     parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
     parser.add_argument("--no-pictures", action="store_true", help="render no pictures")
     parser.add_argument(
         "--film", action="store_true", help="make a film with contours of force, contours.mp4; it takes minutes"
     )
-    parser.add_argument("--report", action="store_true", help="make a report of the run at its end")
+    parser.add_argument(
+        "--report",
+        action="store_true",
+        help=f"make a report of each run at its end, and one that compares all of a study, in DIR/{COMPARISON_FOLDER}",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=run)
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Run the scenario, say how far it is, and then where the results are."""
-    scenario = read_scenario(arguments.scenario)
+    """Run the scenarios, say how far they are, and then where the results are."""
+    scenarios = [read_scenario(path) for path in arguments.scenarios]
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with _blender_silenced() if arguments.quiet else nullcontext():
-            summary = _run_scenario(scenario, arguments, progress)
-            report = _report(arguments, progress) if arguments.report else []
+            if len(scenarios) == 1:
+                _run_and_report(scenarios[0], arguments.output, arguments, progress)
+            else:
+                _run_study(scenarios, arguments, progress)
     finally:
         progress.finish()
+
+
+def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, progress: Progress) -> None:
+    """Run scenarios one after the other, none of them if any has to be refused; and compare them if that is wanted."""
+    comparison = arguments.output / COMPARISON_FOLDER
+    folders = study_folders(arguments.scenarios, arguments.output)
+    if arguments.report and comparison in folders:
+        raise OutputError(f"{comparison}: is the folder of the report; call its scenario something else")
+    progress.stage(f"checking {len(scenarios)} scenarios")
+    for folder in [*folders, comparison] if arguments.report else folders:
+        check_folder(folder, overwrite=arguments.overwrite)
+    for path, scenario in zip(arguments.scenarios, scenarios, strict=True):
+        try:
+            runnable_model(scenario)
+        except (GeometryError, ScenarioError) as error:
+            raise type(error)(f"{path}: {error}") from error
+    remove_report(comparison)  # an earlier one would be wrong
+    for number, (path, scenario, folder) in enumerate(zip(arguments.scenarios, scenarios, folders, strict=True), 1):
+        progress.stage(f"scenario {number} of {len(scenarios)}: {path}")
+        _run_and_report(scenario, folder, arguments, progress)
+    if arguments.report:
+        progress.stage(f"comparing {len(scenarios)} runs")
+        written = _report(folders, comparison, progress)
+        if not arguments.quiet:
+            progress.finish()
+            _print_paths(written)
+
+
+def study_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
+    """Folders of the runs of several scenario files, called like these.
+
+    Raises
+    ------
+    OutputError
+        Two of the files are called the same, also where only capitals differ, which some file systems do not see.
+    """
+    files: dict[str, str] = {}
+    for file in scenarios:
+        name = Path(file).stem
+        if other := files.get(name.casefold()):
+            raise OutputError(
+                f"{other} and {file}: the results of both would go to {output / name}; "
+                "call one of the files something else"
+            )
+        files[name.casefold()] = file
+    return [output / Path(file).stem for file in scenarios]
+
+
+def _run_and_report(scenario: Scenario, output: Path, arguments: argparse.Namespace, progress: Progress) -> None:
+    summary = _run_scenario(scenario, output, arguments, progress)
+    report = _report([output], None, progress) if arguments.report else []
     if not arguments.quiet:
-        _print_results(summary, arguments.output, report)
+        progress.finish()
+        _print_results(summary, output, report)
 
 
-def _run_scenario(scenario: Scenario, arguments: argparse.Namespace, progress: Progress) -> Mapping[str, Any]:
+def _run_scenario(
+    scenario: Scenario, output: Path, arguments: argparse.Namespace, progress: Progress
+) -> Mapping[str, Any]:
     try:
         from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
     except ModuleNotFoundError as error:
@@ -53,7 +123,7 @@ def _run_scenario(scenario: Scenario, arguments: argparse.Namespace, progress: P
         raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
     return run_scenario(
         scenario,
-        arguments.output,
+        output,
         overwrite=arguments.overwrite,
         pictures=not arguments.no_pictures,
         film=arguments.film,
@@ -76,21 +146,24 @@ def _blender_silenced() -> Iterator[None]:
         os.close(standard_output)
 
 
-def _report(arguments: argparse.Namespace, progress: Progress) -> list[Path]:
+def _report(folders: Sequence[Path], output: Path | None, progress: Progress) -> list[Path]:
     from ..report.write import write_report
 
-    return write_report([arguments.output], None, progress=progress)
+    return write_report(folders, output, progress=progress)
 
 
 def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path]) -> None:
     print()
     for name, value in _result_facts(summary):
         print(f"{name:<24}{value}")
+    results = [output / name for name in RESULT_FILES]
+    _print_paths([*(path for path in results if path.exists() and path not in report), *report])
+
+
+def _print_paths(paths: Sequence[Path]) -> None:
+    """Print paths after an empty line, one on each."""
     print()
-    for path in (output / name for name in RESULT_FILES):
-        if path.exists() and path not in report:
-            print(path)
-    for path in report:
+    for path in paths:
         print(path)
 
 

@@ -46,20 +46,41 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
     OutputError
         The folder is there already and may not be overwritten, is no folder, or cannot be written.
     """
+    check_folder(folder, overwrite=overwrite)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in RESULT_FILES:
+            (folder / name).unlink(missing_ok=True)
+        remove_report(folder)
+        (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
+    return folder
+
+
+def check_folder(folder: Path, *, overwrite: bool) -> None:
+    """See that a folder for results is new or may be overwritten, without changing anything.
+
+    Raises
+    ------
+    OutputError
+        The folder is there already and may not be overwritten, or is no folder.
+    """
     try:
         if folder.exists() and not folder.is_dir():
             raise OutputError(f"{folder}: expected a folder for the results, found a file")
         if folder.exists() and not overwrite:
             raise OutputError(f"{folder}: exists already; choose another folder or allow overwriting")
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in RESULT_FILES:
-            (folder / name).unlink(missing_ok=True)
-        for table in (folder / TABLE_FOLDER).glob("*.csv"):
-            table.unlink()
-        (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
     except OSError as error:
         raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
-    return folder
+
+
+def remove_report(folder: Path) -> None:
+    """Remove the report that is kept in a folder, with its tables, if there is one."""
+    for name in REPORT_FILES:
+        (folder / name).unlink(missing_ok=True)
+    for table in (folder / TABLE_FOLDER).glob("*.csv"):
+        table.unlink()
 
 
 def checked_log(path: Path, *, overwrite: bool) -> Path:

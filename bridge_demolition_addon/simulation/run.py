@@ -14,9 +14,9 @@ import bpy
 import numpy as np
 
 from ..core.contours import ContourSettings
-from ..core.events import model_structure, schedule
 from ..core.extent import extent, surface_height
-from ..core.model import Model, build_model
+from ..core.model import Model
+from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
 from ..scene.demolition import build_demolition
@@ -71,8 +71,8 @@ def run_scenario(
 
     Raises
     ------
-    GeometryError
-        The bridge cannot be cut as asked.
+    GeometryError, ScenarioError
+        The bridge cannot be cut as asked, or something planned concerns nothing.
     OutputError
         The folder is there already or cannot be written.
     SimulationError, LayoutError
@@ -82,8 +82,7 @@ def run_scenario(
     """
     began = time.perf_counter()
     progress.stage("building the bridge and its shards")
-    model = build_model(scenario)
-    schedule(scenario.changes, model_structure(model))  # refuses what concerns nothing
+    model = runnable_model(scenario)
     folder = prepared_folder(output, overwrite=overwrite)
     (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
     scene = _empty_scene(scenario.title)

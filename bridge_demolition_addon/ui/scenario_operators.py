@@ -6,8 +6,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ..core.errors import DemolitionError, OutputError
-from ..core.events import model_structure, schedule
-from ..core.model import build_model
+from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario, scenario_text
 from ..scene.demolition import build_demolition
@@ -125,9 +124,7 @@ class BDA_OT_build_scenario(bpy.types.Operator):
         is_new = settings.scenario_path not in ("", settings.loaded_path)
         try:
             scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-            model = build_model(scenario)
-            schedule(scenario.changes, model_structure(model))  # refuses what concerns nothing
-            build_demolition(context.scene, scenario, model)
+            build_demolition(context.scene, scenario, runnable_model(scenario))
         except DemolitionError as error:
             return refused(self, error)
         if is_new:
