@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import partial
+from itertools import takewhile
 
 from ..core.collapse import collapse_progress
 from ..core.debris import debris_of
+from ..core.scenario import Ball
 from .document import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
 from .histories import compared_histories
-from .plans import outlines_map
+from .plans import debris_maps, debris_maps_height_mm
 from .run_folder import Run
 
 
@@ -26,6 +29,8 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
         for name, run in zip(names, runs, strict=True)
         for text in run.shortcomings
     ]
+    if shared := shared_beginning(runs):
+        notices.append(Paragraph(f"The names of all folders begin with {shared}, which is left out here."))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
@@ -36,9 +41,20 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
 
 
 def unique_names(runs: Sequence[Run]) -> list[str]:
-    """Names of the runs, with numbers where two folders are called the same."""
-    names = [run.name for run in runs]
+    """Names of the runs without what they share, and with numbers where two folders are called the same."""
+    names = [run.name.removeprefix(shared_beginning(runs)) for run in runs]
     return [f"{name} ({row + 1})" if names.count(name) > 1 else name for row, name in enumerate(names)]
+
+
+def shared_beginning(runs: Sequence[Run]) -> str:
+    """Whole words that all names of runs begin with: bridge_ of bridge_mid_span and bridge_near_end.
+
+    Without it the names are as short as columns and legends want them.
+    """
+    each_in_words = (re.findall(r"[^_ -]*[_ -]", run.name) for run in runs)
+    in_step = zip(*each_in_words, strict=False)
+    shared = "".join(words[0] for words in takewhile(lambda words: len(set(words)) == 1, in_step))
+    return "" if any(run.name == shared for run in runs) else shared
 
 
 def _differences(run: Run) -> str:
@@ -47,11 +63,17 @@ def _differences(run: Run) -> str:
     ball, charges = run.scenario.ball, run.scenario.placed_charges
     words = []
     if ball:
-        target = f"({ball.target_m[0]:g}, {ball.target_m[1]:g}) m"
-        words.append(f"ball of {ball.mass_kg / 1e3:g} t from {ball.drop_height_m:g} m on {target}")
+        words.append(f"ball of {ball.mass_kg / 1e3:g} t {_way_of(ball)}")
     if charges and run.scenario.blast.explosion:
         words.append(f"{len(charges)} charges, {sum(charge.mass_kg for charge in charges):g} kg")
     return "; ".join(words) or "no ball and no charges"
+
+
+def _way_of(ball: Ball) -> str:
+    if ball.cable:
+        return f"on a cable of {ball.cable.length_m:g} m, drawn aside by {ball.cable.angle_degrees:g}°"
+    drops = (f"from {drop.drop_height_m:g} m on ({drop.target_m[0]:g}, {drop.target_m[1]:g}) m" for drop in ball.drops)
+    return ", then ".join(drops)
 
 
 def _finding_table(runs: Sequence[tuple[str, Run]]) -> DataTable:
@@ -91,6 +113,5 @@ def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
         if histories
     ]
     debris = [(name, debris_of(run.results)) for name, run in runs]
-    areas = [(name, each.area) for name, each in debris]
-    told = "Footprints of the debris, and the bridge of the first run before."
-    return [*blocks, Picture(partial(outlines_map, areas=areas, bridge=debris[0][1].outline), told, 120.0)]
+    told = "Debris at the end in plan, and the bridge before."
+    return [*blocks, Picture(partial(debris_maps, runs=debris), told, debris_maps_height_mm(debris))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -18,6 +19,7 @@ from ..core.exclusion import ExclusionZone
 from ..core.plan import corners_at, outlines
 from ..core.results import Results
 from ..core.scenario import Zone
+from .document import PAGE_WIDTH_MM
 
 NAMED_THROWS = 5
 """Largest throws that the map names."""
@@ -25,6 +27,10 @@ NAMED_THROWS = 5
 _ROOM = 0.04
 _LABEL_SHARE = 0.03
 """Where a zone has its name: in its upper left corner, so much of its sides away from them."""
+
+_MAPS_ABREAST = 2
+_MAP_TITLE_MM, _MAP_LEGEND_MM, _HIGHEST_MAPS_MM = 20.0, 10.0, 220.0
+"""What title and labels of one of the maps beside each other need, their legend, and what fits on a page."""
 
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
@@ -95,15 +101,44 @@ def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone]
     _dimension(axes, zone)
 
 
-def outlines_map(figure: FigureBase, areas: Sequence[tuple[str, CrossSection]], bridge: CrossSection) -> None:
-    """Footprints of the debris of several runs over each other."""
-    axes = _plan_axes(figure)
-    draw_area(axes, bridge, facecolor="0.88", edgecolor="0.5", linewidth=1.0, label="bridge before")
-    styles = ("-", "--", "-.", ":")
-    for number, (name, area) in enumerate(areas):
-        style = {"linestyle": styles[number % len(styles)], "linewidth": 1.2 + 0.8 * (number // len(styles))}
-        draw_area(axes, area, fill=False, edgecolor="black", **style, label=plain(name))
-    _fit(axes, figure)
+def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
+    """Footprints of the debris of several runs beside each other, all at one scale, each with the name of its run."""
+    low, high = _bounds_of(runs)
+    rows = math.ceil(len(runs) / _MAPS_ABREAST)
+    panels = figure.subplots(rows, min(len(runs), _MAPS_ABREAST), squeeze=False)
+    for axes, (name, debris) in zip(panels.flat, runs, strict=False):
+        axes.set_title(plain(name), fontsize=8, loc="left")
+        axes.set_aspect("equal", adjustable="box")
+        axes.set(xlabel="x along the road (m)", ylabel="y across (m)")
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+        axes.grid(alpha=0.25)
+        axes.set_axisbelow(True)
+        draw_area(axes, debris.area, facecolor="0.7", edgecolor="0.3", linewidth=0.4, label="footprint of the debris")
+        style = {"fill": False, "edgecolor": "black", "linewidth": 1.2, "linestyle": "--"}
+        draw_area(axes, debris.outline, label="bridge before", **style)
+    for axes in panels.flat[len(runs) :]:
+        axes.remove()
+    handles, labels = panels.flat[0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False, fontsize=8)
+
+
+def debris_maps_height_mm(runs: Sequence[tuple[str, Debris]]) -> float:
+    """Height of `debris_maps` at the full width of a page, which suits their shape."""
+    low, high = _bounds_of(runs)
+    columns, rows = min(len(runs), _MAPS_ABREAST), math.ceil(len(runs) / _MAPS_ABREAST)
+    wide, across = high - low
+    each = PAGE_WIDTH_MM / columns * float(across / wide) + _MAP_TITLE_MM
+    return min(rows * each + _MAP_LEGEND_MM, _HIGHEST_MAPS_MM)
+
+
+def _bounds_of(runs: Sequence[tuple[str, Debris]]) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest x and y of all debris and bridges, with some room around them."""
+    areas = [area for _, debris in runs for area in (debris.area, debris.outline) if not area.is_empty()]
+    bounds = np.array([area.bounds() for area in areas])
+    low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
+    room = _ROOM * float((high - low).max())
+    return low - room, high + room
 
 
 def draw_area(axes: Axes, area: CrossSection, label: str | None = None, **style: Any) -> None:

@@ -17,6 +17,7 @@ from run_folders import I235, TOLD, flying_shards, keep_run
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results import Results
+from bridge_demolition_addon.core.scenario import BallCable, BallHit
 from bridge_demolition_addon.report.cover import cover_section
 from bridge_demolition_addon.report.document import Paragraph
 from bridge_demolition_addon.report.run_folder import read_run
@@ -269,6 +270,41 @@ def test_runs_are_set_side_by_side(tmp_path):
     assert float(throw["run (1)"]) == pytest.approx(2.0 * float(throw["run (2)"]))
     assert len(page.pictures) == 4
     assert not (folders[0] / "report.html").exists()
+
+
+@pytest.mark.parametrize(
+    "names, shown",
+    [
+        (("bridge_mid_span", "bridge_near_end"), ("mid_span", "near_end")),
+        (("bridge_1", "bridge_12"), ("1", "12")),
+        (("bridge", "bridges"), ("bridge", "bridges")),
+        (("bridge_", "bridge_a"), ("bridge_", "bridge_a")),
+    ],
+)
+def test_words_that_all_names_begin_with_are_left_out(tmp_path, names, shown):
+    folders = [keep_run(tmp_path / name, flying_shards(6, 13)) for name in names]
+    page, _ = made(*folders, output=tmp_path / "both")
+    assert [row["run"] for row in table(tmp_path / "both", "runs")] == list(shown)
+    assert ("begin with bridge_, which is left out here" in page.text) == (names != shown)
+
+
+def test_what_sets_runs_apart_is_told_of_each(tmp_path):
+    hit = BallHit(target_m=(3.0, 1.5), drop_height_m=6.0, lift_time_s=2.0, release_time_s=4.5, lift_duration_s=2.0)
+    cable = BallCable(crane_point_m=(6.5, -6.0, 20.0), length_m=12.0, angle_degrees=30.0)
+    balls = {
+        "once": I235.ball,
+        "twice": replace(I235.ball, hits=(hit,)),
+        "swing": replace(I235.ball, target_m=None, drop_height_m=None, cable=cable),
+    }
+    folders = [
+        keep_run(tmp_path / name, flying_shards(6, 13), replace(I235, ball=ball)) for name, ball in balls.items()
+    ]
+    made(*folders, output=tmp_path / "all")
+    assert [row["means"] for row in table(tmp_path / "all", "runs")] == [
+        "ball of 10 t from 5 m on (6.5, 0) m",
+        "ball of 10 t from 5 m on (6.5, 0) m, then from 6 m on (3, 1.5) m",
+        "ball of 10 t on a cable of 12 m, drawn aside by 30°",
+    ]
 
 
 def test_a_killed_run_beside_a_whole_one_is_named(tmp_path):
