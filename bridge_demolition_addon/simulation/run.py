@@ -30,6 +30,9 @@ from .run_summary import Subject, rest_watch, run_summary
 
 PICTURES = ("before", "impact", "after")
 
+_DEBRIS_HEIGHTS = 0.5
+"""Ground that pictures show around the bridge, as a part of its height: most of the debris of a fall lies on it."""
+
 
 class Progress(Protocol):
     """Whoever wants to know how far a run is."""
@@ -133,7 +136,9 @@ def _empty_scene(title: str) -> bpy.types.Scene:
 def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
     ball, settings = scenario.ball, scenario.pictures
     (first, right, _), (last, left, top) = extent(model.members)
-    seen = [(x, y, z) for x in (first, last) for y in (right, left) for z in (0.0, top)]
+    room = _DEBRIS_HEIGHTS * top
+    seen = [(x, y, top) for x in (first, last) for y in (right, left)]
+    seen += [(x, y, 0.0) for x in (first - room, last + room) for y in (right - room, left + room)]
     if ball:
         for drop in ball.drops:
             surface = surface_height(scenario, model.members, drop.target_m)

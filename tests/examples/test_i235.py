@@ -210,7 +210,8 @@ def test_two_spans_carry_their_own_weight(tmp_path):
     largest = {
         pair: tonnes[(kinds == pair).all(axis=1)].max() for pair in (("deck", "deck"), ("pier", "pier"), ("", "pier"))
     }
-    assert largest[("deck", "deck")] < 10.0 < largest[("pier", "pier")] < largest[("", "pier")] < 40.0
+    # Decks and piers still sway a little.
+    assert list(largest.values()) == pytest.approx([5.0, 17.0, 29.0], abs=2.0)
 
 
 def test_two_spans_would_fall_by_themselves_if_their_piers_broke_like_their_decks(tmp_path):
