@@ -72,7 +72,8 @@ def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, pro
             runnable_model(scenario)
         except (GeometryError, ScenarioError) as error:
             raise type(error)(f"{path}: {error}") from error
-    remove_report(comparison)  # an earlier one would be wrong
+    if arguments.overwrite:
+        remove_report(comparison)  # it would be that of earlier runs
     for number, (path, scenario, folder) in enumerate(zip(arguments.scenarios, scenarios, folders, strict=True), 1):
         progress.stage(f"scenario {number} of {len(scenarios)}: {path}")
         _run_and_report(scenario, folder, arguments, progress)

@@ -124,7 +124,8 @@ class BDA_OT_build_scenario(bpy.types.Operator):
         is_new = settings.scenario_path not in ("", settings.loaded_path)
         try:
             scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-            build_demolition(context.scene, scenario, runnable_model(scenario))
+            model = runnable_model(scenario)
+            build_demolition(context.scene, scenario, model)
         except DemolitionError as error:
             return refused(self, error)
         if is_new:
