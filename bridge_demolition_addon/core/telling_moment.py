@@ -7,8 +7,8 @@ import numpy as np
 from .results import Results
 from .summary import impact_step
 
-_FLYING_S = 0.25
-"""How long after the last load of a blast: shards at 10 m/s are 2.5 m away, and what falls has come down by 0.3 m."""
+_FLYING_S = 0.5
+"""How long after the last load of a blast: what falls has come down by 1.2 m, what flies is not yet out of sight."""
 
 
 def telling_step(results: Results, gravity_m_s2: np.ndarray) -> int:
