@@ -34,7 +34,7 @@ def test_mass_and_spans_are_those_of_the_report(ball):
 
 def test_it_stands_until_the_ball_hits(ball):
     before = ball.at(ball.summary["impact"]["time_s"]) - 1
-    # Decks that sag on their bearings: with 50 iterations a beam of 13 shards of 1 m sags by some 10 mm.
+    # Decks that sag on their bearings, by Bullet's own compliance with 50 iterations and not by that of concrete.
     assert ball.moved_m(ball.shards, before).max() < 0.04
     assert (~ball.results.intact[before]).sum() <= 0.03 * ball.summary["connections"]["count"]  # slivers of faces
 
@@ -84,11 +84,11 @@ def test_it_stands_until_the_charges_go_off(explosives):
 
 def test_shards_fly_away_from_the_charges(explosives):
     for charge in explosives.scenario.placed_charges:
-        nearest = explosives.near(charge, 2.5)
-        detonation_s = explosives.scenario.blast.start_s + charge.delay_s
-        loaded = explosives.at(detonation_s) + 1  # the wave is past them within 10 ms
-        assert len(nearest) >= 4
-        # Shards are still connected with those around them, which turns them: none flies towards its charge.
+        nearest = explosives.near(charge, 3.0)
+        # By then the wave is past them: 5 m at more than the speed of sound.
+        loaded = explosives.at(explosives.scenario.blast.start_s + charge.delay_s + 0.015)
+        assert len(nearest) >= 8
+        # Shards are still connected with those around them, which turns them, but hardly any flies towards its charge.
         cosines = explosives.outwards(charge, nearest, loaded)
         assert np.median(cosines) > 0.6, charge.name
         assert (cosines > 0.0).mean() >= 0.9, charge.name
