@@ -18,7 +18,7 @@ def still(**more):
 def breaking(*times_s):
     """A run in which one connection breaks at each of the times, and one never."""
     count = len(times_s) + 1
-    intact = np.column_stack([TIMES_S < time_s - 1e-9 for time_s in (*times_s, 99.0)])
+    intact = np.column_stack([time_s - 1e-9 > TIMES_S for time_s in (*times_s, 99.0)])
     return {
         "intact": intact,
         "connection_names": np.array([f"Connection {row}" for row in range(count)]),

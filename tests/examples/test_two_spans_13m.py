@@ -28,7 +28,8 @@ def explosives(tmp_path_factory):
 
 def test_mass_and_spans_are_those_of_the_report(ball):
     assert ball.scenario.bridge.span_lengths_m == (13.0, 13.0)
-    assert ball.results.masses_kg[ball.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)  # Blender keeps them as float32
+    # Blender keeps masses as float32.
+    assert ball.results.masses_kg[ball.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)
     assert sum(ball.summary["members_kg"].values()) == pytest.approx(MASS_KG, rel=1e-9)
 
 
