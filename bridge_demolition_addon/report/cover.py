@@ -159,8 +159,13 @@ def _findings(run: Run) -> Iterator[tuple[str, str]]:
 
 
 def _caption(run: Run, picture: str) -> str:
-    if picture == "impact":
-        if run.impact_s is not None:
-            return "At the impact of the ball"
-        return "When the blast last pushed" if run.summary and run.summary.get("blast") else "At the largest force"
-    return {"before": "Before", "after": "At the end"}[picture]
+    """What a picture shows; that in the middle is of the moment that `core.telling_moment` chooses."""
+    if picture != "impact":
+        return {"before": "Before", "after": "At the end"}[picture]
+    summary = run.summary or {}
+    if run.impact_s is not None:
+        return "At the impact of the ball"
+    if summary.get("blast"):
+        return "Shortly after the blast"
+    broken = summary.get("connections", {}).get("broken")
+    return "When half of the connections that broke had broken" if broken else "At the largest force"

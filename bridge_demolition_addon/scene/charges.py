@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import bpy
+import trimesh
 from mathutils import Matrix
 
 from ..core.blast.charges import EXPLOSIVES, Charge
 from ..core.errors import BlastError
+from .bodies import mesh_of
 from .collections import collection_for, find_collection
 
 MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
@@ -16,6 +18,8 @@ MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "
 
 _ROLE = "Charges"
 _SYMBOL_SIZE_M = 0.3
+_SYMBOL_MARK = "bda_charge_symbol"
+_RED = (0.8, 0.05, 0.02, 1.0)
 
 _SHOWN = {
     MASS: {"min": 0.0, "description": "Mass of the explosive itself, in kg; with 0 nothing goes off"},
@@ -68,9 +72,31 @@ def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
     return tuple(_charge(each) for each in charge_objects(scene))
 
 
+def hide_from(charge: bpy.types.Object, frame: int) -> None:
+    """Show a charge in pictures of the frames before the one in which it has gone off, and not from there on."""
+    for hidden, key_frame in ((True, frame), (False, 0)):
+        charge.hide_render = hidden
+        charge.keyframe_insert("hide_render", frame=key_frame)
+
+
+def _symbol() -> bpy.types.Collection:
+    """A red ball for all charges, as pictures show no empties; it is in no scene but by way of them."""
+    found = next((each for each in bpy.data.collections if each.get(_SYMBOL_MARK) and not each.library), None)
+    if found:
+        return found
+    solid = trimesh.creation.icosphere(subdivisions=2, radius=_SYMBOL_SIZE_M)
+    ball = bpy.data.objects.new("Charge symbol", mesh_of("Charge symbol", solid))
+    collection = bpy.data.collections.new("Charge symbol")
+    collection[_SYMBOL_MARK] = True
+    collection.objects.link(ball)
+    return collection
+
+
 def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Object:
     empty = bpy.data.objects.new(charge.name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
+    empty.instance_type, empty.instance_collection = "COLLECTION", _symbol()
+    empty.color = _RED  # which its instances have
     empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
     empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
     empty[DELAY], empty[BURST] = charge.delay_s, charge.burst.value

@@ -80,4 +80,9 @@ def last_frame(scenario: Scenario) -> int:
 
 def release_frame(scenario: Scenario) -> int:
     """First frame towards which the ball falls freely."""
-    return FIRST_STEP_FRAME + scenario.timeline.frames_until(scenario.ball.release_time_s)
+    return first_frame_after(scenario, scenario.ball.release_time_s)
+
+
+def first_frame_after(scenario: Scenario, time_s: float) -> int:
+    """First frame that begins at a simulated time or later."""
+    return FIRST_STEP_FRAME + scenario.timeline.frames_until(time_s)

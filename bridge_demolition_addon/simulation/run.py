@@ -14,12 +14,15 @@ import bpy
 import numpy as np
 
 from ..core.contours import ContourSettings
-from ..core.extent import extent, surface_height
 from ..core.model import Model
+from ..core.results import Results
 from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
-from ..scene.demolition import build_demolition
+from ..core.telling_moment import telling_step
+from ..core.view import points_to_see
+from ..scene.charges import charge_objects, hide_from
+from ..scene.demolition import build_demolition, first_frame_after
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames
 from .film import FilmRendering, FilmSettings
@@ -29,9 +32,6 @@ from .recording import Recording
 from .run_summary import Subject, rest_watch, run_summary
 
 PICTURES = ("before", "impact", "after")
-
-_DEBRIS_HEIGHTS = 0.5
-"""Ground that pictures show around the bridge, as a part of its height: most of the debris of a fall lies on it."""
 
 
 class Progress(Protocol):
@@ -112,7 +112,7 @@ def run_scenario(
         raise KeyboardInterrupt
     if pictures:
         progress.stage("rendering pictures")
-        _render(scene, folder, summary)
+        _render(scene, folder, results)
     if film:
         progress.stage("rendering the film")
         _render_film(scene, folder, progress)
@@ -134,18 +134,11 @@ def _empty_scene(title: str) -> bpy.types.Scene:
 
 
 def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
-    ball, settings = scenario.ball, scenario.pictures
-    (first, right, _), (last, left, top) = extent(model.members)
-    room = _DEBRIS_HEIGHTS * top
-    seen = [(x, y, top) for x in (first, last) for y in (right, left)]
-    seen += [(x, y, 0.0) for x in (first - room, last + room) for y in (right - room, left + room)]
-    if ball:
-        for drop in ball.drops:
-            surface = surface_height(scenario, model.members, drop.target_m)
-            seen.append((*drop.target_m, surface + drop.drop_height_m + ball.diameter_m))
-    if ball and ball.cable:
-        seen += [ball.cable.start_m, ball.cable.crane_point_m]
-    prepare_pictures(scene, np.array(seen), settings.width_px, settings.height_px)
+    settings = scenario.pictures
+    prepare_pictures(scene, points_to_see(scenario, model.members), settings.width_px, settings.height_px)
+    if scenario.blast.explosion:
+        for empty, charge in zip(charge_objects(scene), scenario.placed_charges, strict=True):
+            hide_from(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
 
 
 def _simulate(scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress) -> tuple[Playing, bool]:
@@ -183,14 +176,8 @@ def _interruptible() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
 
 
-def _decisive_moment(summary: dict[str, Any]) -> dict[str, Any] | None:
-    """Frame and time of the impact, or else of the blast or of the largest force."""
-    blast = summary["blast"] and summary["blast"]["last_load"]
-    return summary["impact"] or blast or summary["largest_force_sum"]
-
-
-def _render(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
-    """Pictures at the start, at the impact (or else the blast, or the largest force) and at the end."""
-    moment = _decisive_moment(summary) or {"frame": scene.frame_end}
-    for name, frame in zip(PICTURES, (START_FRAME, moment["frame"], scene.frame_end), strict=True):
+def _render(scene: bpy.types.Scene, folder: Path, results: Results) -> None:
+    """Pictures at the start, at the moment that tells most and at the end."""
+    telling = int(results.frames[telling_step(results, np.array(scene.gravity))])
+    for name, frame in zip(PICTURES, (START_FRAME, telling, scene.frame_end), strict=True):
         render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")

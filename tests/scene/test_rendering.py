@@ -72,3 +72,24 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
     ball, deck, soil = brightness((6.5, 0.0, 11.22)), brightness((6.5, 0.0, 5.55)), brightness((12.0, -8.0, 0.0))
     assert ball < soil - 0.05 < soil + 0.05 < deck
     assert not (tmp_path / "before.png.png").exists()
+
+
+def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
+    from bridge_demolition_addon.core.blast.charges import Charge
+    from bridge_demolition_addon.scene.charges import create_charges, hide_from
+    from bridge_demolition_addon.scene.rendering import prepare_pictures, render_picture
+
+    scene = blender.context.scene
+    charges = [Charge(name=name, place_m=place, mass_kg=1.0) for name, place in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))]
+    first, second = create_charges(scene, charges)
+    assert first.instance_collection == second.instance_collection
+    prepare_pictures(scene, np.array(list(product((-1.5, 1.5), (-0.5, 0.5), (-0.5, 0.5)))), 160, 90)
+    hide_from(first, 5)
+    red = []
+    for frame in (1, 4, 5, 9):
+        render_picture(scene, frame, tmp_path / f"{frame}.png")
+        picture = imread(tmp_path / f"{frame}.png")
+        red.append(int((picture[:, :, 0] > 2.0 * picture[:, :, 1:3].max(axis=2)).sum()))
+    # Two red balls of 0.6 m in a view of some 3 m, and then one of them.
+    assert red[0] > 200 and red[1] == red[0] and red[2] == red[3]
+    assert 0.3 < red[2] / red[0] < 0.7

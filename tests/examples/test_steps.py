@@ -1,15 +1,14 @@
 """The example that takes a span down in steps: all of them happen, in order, and the run ends at rest."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from example_runs import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results import load_results
 from bridge_demolition_addon.core.scenario.file import read_scenario
 
-STEPS = read_scenario(Path(__file__).parents[2] / "examples" / "i235_steps.toml")
+STEPS = read_scenario(EXAMPLES / "i235_steps.toml")
 
 
 def test_span_is_taken_down_in_steps(tmp_path):

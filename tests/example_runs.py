@@ -1,0 +1,72 @@
+"""Runs of the examples, whole or cut short, and what the tests of them measure."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.results import Results, load_results
+from bridge_demolition_addon.core.scenario import Scenario
+from bridge_demolition_addon.core.scenario.file import read_scenario
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+@dataclass(frozen=True)
+class ExampleRun:
+    """An example that was run: scenario, summary and results."""
+
+    scenario: Scenario
+    summary: dict
+    results: Results
+
+    @property
+    def shards(self):
+        return self.results.of_kind("shard")
+
+    def of_members(self, *kinds):
+        """Indices of the shards of kinds of members."""
+        return self.shards[np.isin(self.results.body_member_kinds[self.shards], kinds)]
+
+    def at(self, time_s):
+        """Recorded step that begins a frame at a time or, where none does, the one after."""
+        return int(np.searchsorted(self.results.times_s, time_s - 1e-6))
+
+    def moved_m(self, bodies, step=-1):
+        """How far bodies are from where they were at first, (n,) m."""
+        return np.linalg.norm(self.results.places_m[step, bodies] - self.results.places_m[0, bodies], axis=1)
+
+    def fallen_m(self, bodies, step=-1):
+        """How far bodies have come down, (n,) m."""
+        return self.results.places_m[0, bodies, 2] - self.results.places_m[step, bodies, 2]
+
+    def throws_m(self, bodies):
+        """How far bodies are on plan from where they were at first, (n,) m."""
+        return np.linalg.norm((self.results.places_m[-1, bodies] - self.results.places_m[0, bodies])[:, :2], axis=1)
+
+    def outwards(self, charge, bodies, step):
+        """Cosine of the angle between the velocity of each body and its direction from a charge, (n,)."""
+        directions = self.results.places_m[0, bodies] - np.array(charge.place_m)
+        velocities = self.results.velocities_m_s[step, bodies]
+        lengths = np.linalg.norm(directions, axis=1) * np.linalg.norm(velocities, axis=1)
+        return (directions * velocities).sum(axis=1) / np.maximum(lengths, 1e-12)
+
+    def near(self, charge, distance_m):
+        """Shards whose centres of mass are at first within a distance of a charge."""
+        places = self.results.places_m[0, self.shards]
+        return self.shards[np.linalg.norm(places - np.array(charge.place_m), axis=1) < distance_m]
+
+
+def example(name, duration_s=None):
+    """The scenario of an example, cut short where a duration is given."""
+    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+    return replace(scenario, time=replace(scenario.time, duration_s=duration_s)) if duration_s else scenario
+
+
+def run_example(scenario, folder):
+    """Run a scenario without pictures."""
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    summary = run_scenario(scenario, folder / "run", overwrite=True, pictures=False, progress=Silence())
+    return ExampleRun(scenario, summary, load_results(folder / "run" / "results.npz"))
