@@ -72,8 +72,10 @@ def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
     return tuple(_charge(each) for each in charge_objects(scene))
 
 
-def hide_from(charge: bpy.types.Object, frame: int) -> None:
-    """Show a charge in pictures of the frames before the one in which it has gone off, and not from there on."""
+def show_until(charge: bpy.types.Object, frame: int) -> None:
+    """Show a charge in pictures, as a red ball, of the frames before the one in which it has gone off."""
+    charge.instance_type, charge.instance_collection = "COLLECTION", _symbol()
+    charge.color = _RED  # which its instances have
     for hidden, key_frame in ((True, frame), (False, 0)):
         charge.hide_render = hidden
         charge.keyframe_insert("hide_render", frame=key_frame)
@@ -95,8 +97,6 @@ def _symbol() -> bpy.types.Collection:
 def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Object:
     empty = bpy.data.objects.new(charge.name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
-    empty.instance_type, empty.instance_collection = "COLLECTION", _symbol()
-    empty.color = _RED  # which its instances have
     empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
     empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
     empty[DELAY], empty[BURST] = charge.delay_s, charge.burst.value

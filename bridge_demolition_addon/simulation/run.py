@@ -21,7 +21,7 @@ from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
 from ..core.telling_moment import telling_step
 from ..core.view import points_to_see
-from ..scene.charges import charge_objects, hide_from
+from ..scene.charges import charge_objects, show_until
 from ..scene.demolition import build_demolition, first_frame_after
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames
@@ -138,7 +138,7 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> N
     prepare_pictures(scene, points_to_see(scenario, model.members), settings.width_px, settings.height_px)
     if scenario.blast.explosion:
         for empty, charge in zip(charge_objects(scene), scenario.placed_charges, strict=True):
-            hide_from(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
+            show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
 
 
 def _simulate(scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress) -> tuple[Playing, bool]:

@@ -76,15 +76,16 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 
 def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
     from bridge_demolition_addon.core.blast.charges import Charge
-    from bridge_demolition_addon.scene.charges import create_charges, hide_from
+    from bridge_demolition_addon.scene.charges import create_charges, show_until
     from bridge_demolition_addon.scene.rendering import prepare_pictures, render_picture
 
     scene = blender.context.scene
     charges = [Charge(name=name, place_m=place, mass_kg=1.0) for name, place in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))]
     first, second = create_charges(scene, charges)
-    assert first.instance_collection == second.instance_collection
     prepare_pictures(scene, np.array(list(product((-1.5, 1.5), (-0.5, 0.5), (-0.5, 0.5)))), 160, 90)
-    hide_from(first, 5)
+    show_until(first, 5)
+    show_until(second, 99)
+    assert first.instance_collection == second.instance_collection
     red = []
     for frame in (1, 4, 5, 9):
         render_picture(scene, frame, tmp_path / f"{frame}.png")
