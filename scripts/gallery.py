@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
+
+Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg, and docs/gallery.md is written anew. With
+names of examples only those are run again; texts and times of all others stay.
+"""
+
+import json
+import subprocess
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES, RUNS = ROOT / "examples", ROOT / "runs" / "gallery"
+PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gallery"
+TIMES = PICTURES / "times.json"
+"""Seconds that each run took, kept so that a page can be written without all of them."""
+
+MOMENTS = ("before", "impact", "after")
+PICTURE_PX, GAP_PX = (640, 360), 10
+QUALITY = 85
+LEFT_OUT = "Every key is explained"
+"""How the paragraph of an example begins that the page needs only once."""
+
+HEADER = """\
+# Gallery
+
+<!-- Made by `scripts/gallery`: change the examples' own comments instead. -->
+
+Every example is a [scenario file](scenario.md) to start from. `bda run examples/NAME.toml --output DIR` runs it, and
+`--report` makes a [report](report.md) of it. Pictures are of the start, of the impact (or of the blast, or of the
+largest force) and of the end. Times are those of two cores, pictures included. All of them together took
+{minutes} minutes.
+"""
+
+
+def main(names: list[str]) -> int:
+    """Run examples and write the page; the exit status."""
+    wanted = [EXAMPLES / f"{name}.toml" for name in names] or examples()
+    if missing := [path.stem for path in wanted if not path.exists()]:
+        print(f"gallery: there is no example {', '.join(missing)}", file=sys.stderr)
+        return 2
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    for path in wanted:
+        seconds = run(path)
+        side_by_side(RUNS / path.stem / "frames", PICTURES / f"{path.stem}.jpg")
+        TIMES.write_text(json.dumps(times() | {path.stem: seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+    PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    return 0
+
+
+def examples() -> list[Path]:
+    """All examples, by name."""
+    return sorted(EXAMPLES.glob("*.toml"))
+
+
+def run(path: Path) -> float:
+    """Run an example as a reader does, and take the time."""
+    bda = Path(sys.executable).parent / "bda"
+    began = time.perf_counter()
+    subprocess.run([bda, "run", path, "--output", RUNS / path.stem, "--overwrite"], check=True)
+    return round(time.perf_counter() - began, 1)
+
+
+def times() -> dict[str, float]:
+    """Seconds of every run so far, by name."""
+    return json.loads(TIMES.read_text(encoding="utf-8")) if TIMES.exists() else {}
+
+
+def side_by_side(folder: Path, target: Path) -> None:
+    """Put the pictures of a run beside each other."""
+    width, height = PICTURE_PX
+    strip = Image.new("RGB", (len(MOMENTS) * (width + GAP_PX) - GAP_PX, height), "white")
+    for number, moment in enumerate(MOMENTS):
+        with Image.open(folder / f"{moment}.png") as picture:
+            fitted = picture.convert("RGB").resize(PICTURE_PX, Image.Resampling.LANCZOS)
+        strip.paste(fitted, (number * (width + GAP_PX), 0))
+    strip.save(target, quality=QUALITY, optimize=True)
+
+
+def page() -> str:
+    """The page, from what the examples say of themselves."""
+    taken = times()
+    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)))
+    return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples())])
+
+
+def section(path: Path, seconds: float | None) -> str:
+    """One example: its title, its pictures, its words and how long it takes."""
+    title = tomllib.loads(path.read_text(encoding="utf-8"))["scenario"]["title"]
+    told = [each for each in paragraphs(path) if not each.startswith(LEFT_OUT)]
+    took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
+    file = f"[{path.name}](../examples/{path.name})"
+    picture = f"![{title}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"
+    return "\n\n".join([f"## {title}", picture, *told, " ".join([f"Scenario: {file}.", *took])]) + "\n"
+
+
+def paragraphs(path: Path) -> list[str]:
+    """What stands in the comment at the head of an example, paragraph by paragraph."""
+    lines = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            break
+        lines.append(line.removeprefix("#").strip())
+    return [" ".join(each.split("\n")) for each in "\n".join(lines).split("\n\n")]
+
+
+def rounded(seconds: float) -> int:
+    """To 5 s, as the next run takes a little more or less."""
+    return max(5, 5 * round(seconds / 5.0))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The gallery shows every example, with what its file says now."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import gallery  # noqa: E402
+
+PARTS = ("To see:", "Assumed:", "To trust:")
+
+
+@pytest.mark.parametrize("path", gallery.examples(), ids=lambda path: path.stem)
+def test_every_example_tells_what_there_is_to_see_what_is_assumed_and_how_far_to_trust_it(path):
+    told = gallery.paragraphs(path)
+    assert [part for part in PARTS if any(each.startswith(part) for each in told)] == list(PARTS)
+    assert "2019" in told[0]
+
+
+def test_the_page_is_made_of_what_the_examples_say():
+    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page()
+
+
+def test_every_example_has_its_picture_and_its_time_and_no_other_has():
+    names = {path.stem for path in gallery.examples()}
+    assert {path.stem for path in gallery.PICTURES.glob("*.jpg")} == names
+    assert set(gallery.times()) == names
+    assert sum(gallery.times().values()) < 20 * 60
