@@ -9,6 +9,7 @@ from ..core.blast.models import BlastModel
 from ..core.errors import DemolitionError, OutputError
 from ..simulation import handlers
 from . import last_recording
+from .looking import look_at_selected, select_only
 from .refusal import refused
 from .sidebar import SidebarPanel, draw_sentence
 
@@ -42,14 +43,9 @@ class BDA_OT_go_to_body(bpy.types.Operator):
             self.report({"ERROR"}, f"{self.body!r} is not in this scene any more")
             return {"CANCELLED"}
         context.scene.frame_set(self.frame)
-        for each in context.selected_objects:
-            each.select_set(False)
-        body.select_set(True)
+        select_only(context, [body])
         context.view_layer.objects.active = body
-        if context.area and context.area.type == "VIEW_3D":
-            region = next(each for each in context.area.regions if each.type == "WINDOW")
-            with context.temp_override(region=region):
-                bpy.ops.view3d.view_selected()
+        look_at_selected(context)
         return {"FINISHED"}
 
 

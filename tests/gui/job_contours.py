@@ -2,10 +2,9 @@
 """Show contours while a recording plays and when scrubbing afterwards, with vectors and colour bar; then a film."""
 
 import bpy
-import numpy as np
 from habits import build, go_to_start, play_or_pause, register
 from person import Person, Steps
-from traces import handlers
+from traces import colours, handlers, module
 
 
 def steps(person: Person) -> Steps:
@@ -85,7 +84,7 @@ def open_post_processing() -> None:
 def sub_panels(person: Person) -> Steps:
     """Open each sub-panel by the arrow of its header, below the last button, and close it again."""
     yield from person.hover("bda.load_results")
-    x, y = person._mouse
+    x, y = person.mouse
     for name, below in (("film", 58), ("vectors_and_charges", 32)):
         for _ in range(2):
             yield from person.move(x, y - below)
@@ -114,18 +113,7 @@ def look(person: Person) -> None:
 
 
 def add_charge(person: Person) -> None:
-    from importlib import import_module
-
-    from traces import EXTENSION
-
-    charge = import_module(f"{EXTENSION}.core.blast.charges").Charge
-    create = import_module(f"{EXTENSION}.scene.charges").create_charges
+    charge = module("core.blast.charges").Charge
+    create = module("scene.charges").create_charges
     places = {"Charge A": (1.0, 0.0, 1.0), "Charge B": (7.0, 0.0, 1.0)}
     create(person.scene, [charge(name=name, place_m=place, mass_kg=0.4) for name, place in places.items()])
-
-
-def colours(person: Person, shown: bool = False) -> np.ndarray:
-    """Colours of all bodies, their own or as they are shown."""
-    bodies = person.scene.rigidbody_world.collection.all_objects
-    graph = person.window.view_layer.depsgraph
-    return np.array([(each.evaluated_get(graph) if shown else each).color for each in bodies])

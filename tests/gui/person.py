@@ -7,6 +7,7 @@ What takes time is a generator, to be called with ``yield from``: it hands over 
 import json
 import subprocess
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -20,14 +21,35 @@ TAB_PX = 20
 SCROLLS, NOTCHES, TO_THE_TOP = 3, 8, 30
 """How often the sidebar is scrolled in search of something, and by how much of the wheel: less than its height."""
 
+KEYS = {".": "PERIOD", ",": "COMMA", "-": "MINUS", " ": "SPACE", "/": "SLASH"} | dict(
+    zip("0123456789", ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"), strict=True)
+)
+"""Keys that are not called by their letter."""
+
+DRAG_STEPS = 8
+
+PICTURES = "pictures"
+"""Folder for the pictures of the walk-through, among what is kept of a job."""
+PICTURE_COLOURS = 128
+"""Few enough for a small file, and enough for contours."""
+
 PROBE_PX = 8
 """Between two places where the mouse looks for a button; less than a button is high."""
-PROBE_COLUMNS = (0.7, 0.3)
+PROBE_COLUMNS = (0.7, 0.3, 0.9)
 """Where across the sidebar the mouse looks for buttons."""
 
 
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A part of a window, with buttons in it."""
+
+    window: bpy.types.Window
+    area: bpy.types.Area
+    region: bpy.types.Region
+
+
 class Person:
-    """Works in the first window of Blender, and notes in a folder what was found right and wrong.
+    """Works in the windows of Blender, and notes in a folder what was found right and wrong.
 
     Parameters
     ----------
@@ -37,8 +59,10 @@ class Person:
 
     def __init__(self, folder: Path):
         self.folder = folder
-        self._mouse = (0, 0)
+        self.mouse = (0, 0)
+        self._hand: bpy.types.Window | None = None
         self._pictures = 0
+        self._seen: dict[tuple[str, str], tuple[int, int]] = {}
 
     # What there is to see
 
@@ -65,7 +89,16 @@ class Person:
     @property
     def sidebar(self) -> bpy.types.Region:
         """The sidebar of the 3D view."""
-        return _region(self.view, "UI")
+        return region_of(self.view, "UI")
+
+    @property
+    def hand(self) -> bpy.types.Window:
+        """The window that mouse and keyboard are in."""
+        return self._hand if self._hand in list(bpy.context.window_manager.windows) else self.window
+
+    def take_to(self, window: bpy.types.Window | None) -> None:
+        """Take mouse and keyboard to another window, or back to the first one for None."""
+        self._hand = window
 
     def open_sidebar(self) -> Steps:
         """Show the tab, and the reports in place of the outliner.
@@ -90,7 +123,7 @@ class Person:
         """What was reported, of whatever level, since it was last taken; without the log of what was done."""
         area = self._area("INFO")
         bpy.context.window_manager.clipboard = ""
-        with bpy.context.temp_override(window=self.window, area=area, region=_region(area, "WINDOW")):
+        with bpy.context.temp_override(window=self.window, area=area, region=region_of(area, "WINDOW")):
             bpy.ops.info.select_all(action="SELECT")
             bpy.ops.info.report_copy()
             bpy.ops.info.report_delete()
@@ -117,8 +150,8 @@ class Person:
 
     def move(self, x: int, y: int) -> Steps:
         """Move the mouse to a place in the window, counted from its lower left corner."""
-        self._mouse = (x, y)
-        self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+        self.mouse = (x, y)
+        self.hand.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
         yield
 
     def move_to_view(self) -> Steps:
@@ -133,47 +166,77 @@ class Person:
 
     def press(self, key: str, unicode: str | None = None, **modifiers: bool) -> Steps:
         """Press a key or button of the mouse where the mouse is, and let it go."""
-        x, y = self._mouse
-        self.window.event_simulate(type=key, value="PRESS", unicode=unicode, x=x, y=y, **modifiers)
+        x, y = self.mouse
+        self.hand.event_simulate(type=key, value="PRESS", unicode=unicode, x=x, y=y, **modifiers)
         yield
-        self.window.event_simulate(type=key, value="RELEASE", x=x, y=y, **modifiers)
+        self.hand.event_simulate(type=key, value="RELEASE", x=x, y=y, **modifiers)
         yield
 
-    def click(self, name: str) -> Steps:
+    def click(self, name: str, place: Place | None = None, of: str = "") -> Steps:
         """Click a button, named by its operator (``bda.build_scenario``), or a field, by its property."""
-        yield from self.hover(name)
+        yield from self.hover(name, place, of)
         yield from self.press("LEFTMOUSE")
 
-    def fill_in(self, name: str, text: str) -> Steps:
+    def fill_in(self, name: str, text: str, place: Place | None = None, of: str = "") -> Steps:
         """Type into a field in place of what it holds."""
-        yield from self.click(name)
-        yield from self.press("A", ctrl=True)
-        yield from self.press("BACK_SPACE")
-        for letter in text:
-            yield from self.press(letter.upper() if letter.isascii() and letter.isalpha() else "SLASH", letter)
+        yield from self.click(name, place, of)
+        yield from self.replace_text(text)
         yield from self.press("RET")
 
-    def hover(self, name: str) -> Steps:
-        """Move the mouse about the sidebar until it is over a button or field, and leave it there.
+    def replace_text(self, text: str) -> Steps:
+        """Type a text in place of that in the field that is being edited."""
+        yield from self.press("A", ctrl=True)
+        yield from self.press("BACK_SPACE")
+        yield from self.write(text)
 
-        The sidebar is scrolled for what lies beyond its edges.
+    def write(self, text: str) -> Steps:
+        """Type a text where the keyboard's letters go."""
+        for letter in text:
+            is_letter = letter.isascii() and letter.isalpha()
+            yield from self.press(letter.upper() if is_letter else KEYS.get(letter, "SLASH"), letter)
+
+    def drag(self, start: tuple[int, int], end: tuple[int, int]) -> Steps:
+        """Press the left button of the mouse in one place, and let it go in another."""
+        yield from self.move(*start)
+        self.hand.event_simulate(type="LEFTMOUSE", value="PRESS", x=start[0], y=start[1])
+        yield 0.1
+        for step in range(1, DRAG_STEPS + 1):
+            share = step / DRAG_STEPS
+            yield from self.move(*(round(a + share * (b - a)) for a, b in zip(start, end, strict=True)))
+        self.hand.event_simulate(type="LEFTMOUSE", value="RELEASE", x=end[0], y=end[1])
+        yield 0.2
+
+    def hover(self, name: str, place: Place | None = None, of: str = "") -> Steps:
+        """Move the mouse about until it is over a button or field, and leave it there.
+
+        Parameters
+        ----------
+        name
+            Operator of the button, or property of the field.
+        place
+            Where to look: the sidebar, which is scrolled for what lies beyond its edges, unless given.
+        of
+            Name of the object whose property it is, for one of several rows.
 
         Raises
         ------
         LookupError
             There is none to be seen.
         """
-        for notches in (-TO_THE_TOP, *[NOTCHES] * SCROLLS):
-            sidebar = self.sidebar
-            for column in PROBE_COLUMNS:
-                for y in range(sidebar.y + sidebar.height - PROBE_PX, sidebar.y, -PROBE_PX):
-                    yield from self.move(sidebar.x + int(column * sidebar.width), y)
-                    if name == self._under_mouse():
-                        yield from self.move(self._mouse[0], y - PROBE_PX // 2)  # off the button's edge
-                        yield from self.move(self._mouse[0] + 1, self._mouse[1])
-                        return
+        for notches in (-TO_THE_TOP, *[NOTCHES] * SCROLLS, None):
+            region = (place or self._sidebar_place).region
+            last_time = self._seen.get((name, of))
+            for x, y in [*([last_time] if last_time else []), *_probes(region)]:
+                yield from self.move(x, y)
+                if name == self._under_mouse(place or self._sidebar_place, of):
+                    self._seen[name, of] = (x, y)
+                    yield from self.move(x, y - PROBE_PX // 2)  # off the button's edge
+                    yield from self.move(x + 1, y - PROBE_PX // 2)
+                    return
+            if place or notches is None:
+                break
             yield from self.scroll(notches)
-        raise LookupError(f"the sidebar shows no {name}")
+        raise LookupError(f"there is no {name} {of} to be seen")
 
     def scroll(self, notches: int) -> Steps:
         """Turn the wheel over the sidebar, downwards, or upwards for less than none."""
@@ -215,21 +278,48 @@ class Person:
         path = self.folder / f"{self._pictures:02}_{name}.png"
         subprocess.run(["import", "-window", "root", str(path)], check=True)
 
+    def illustrate(self, name: str, *parts: bpy.types.Area | bpy.types.Region) -> Steps:
+        """Keep a screenshot, and in it the picture of that name for the walk-through: what spans some parts."""
+        yield from self.picture(name)
+        pictures = self.folder / PICTURES
+        pictures.mkdir(exist_ok=True)
+        left, bottom = min(each.x for each in parts), min(each.y for each in parts)
+        right, top = max(each.x + each.width for each in parts), max(each.y + each.height for each in parts)
+        crop = ("-crop", f"{right - left}x{top - bottom}+{left}+{self.window.height - top}", "+repage")
+        small = ("-dither", "None", "-colors", str(PICTURE_COLOURS), "-strip")
+        subprocess.run(["import", "-window", "root", *crop, *small, str(pictures / f"{name}.png")], check=True)
+
     def _area(self, kind: str) -> bpy.types.Area:
         return next(area for area in self.window.screen.areas if area.type == kind)
+
+    @property
+    def _sidebar_place(self) -> Place:
+        return Place(self.window, self.view, self.sidebar)
 
     def _in_sidebar(self) -> Any:
         return bpy.context.temp_override(window=self.window, area=self.view, region=self.sidebar)
 
-    def _under_mouse(self) -> str:
-        """Name of the button's operator or of the field's property that is under the mouse, empty over neither."""
-        with self._in_sidebar():
+    def _under_mouse(self, place: Place, of: str) -> str:
+        """Name of the button's operator or of the field's property that is under the mouse, empty over neither.
+
+        Of fields, only those of an object count where its name is given.
+        """
+        with bpy.context.temp_override(window=place.window, area=place.area, region=place.region):
             if bpy.ops.ui.copy_python_command_button.poll():
                 bpy.ops.ui.copy_python_command_button()
                 return bpy.context.window_manager.clipboard.removeprefix("bpy.ops.").partition("(")[0]
             found = bpy.context.property
-        return found[1].rpartition(".")[2] if found else ""
+        if not found or (of and found[0].name != of):
+            return ""
+        return found[1].rpartition(".")[2]
 
 
-def _region(area: bpy.types.Area, kind: str) -> bpy.types.Region:
+def _probes(region: bpy.types.Region) -> Iterator[tuple[int, int]]:
+    """Places where the mouse looks for a button, from top to bottom, in one column after the other."""
+    for column in PROBE_COLUMNS:
+        for y in range(region.y + region.height - PROBE_PX // 2, region.y, -PROBE_PX):
+            yield region.x + int(column * region.width), y
+
+
+def region_of(area: bpy.types.Area, kind: str) -> bpy.types.Region:
     return next(region for region in area.regions if region.type == kind)
