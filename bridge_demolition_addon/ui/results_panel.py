@@ -1,5 +1,7 @@
 """The panel Results: what the last recording came to."""
 
+import shutil
+import sys
 from typing import Any
 
 import bpy
@@ -14,6 +16,8 @@ from .refusal import refused
 from .sidebar import SidebarPanel, draw_sentence
 
 _CHARTS = "charts"
+_OPENER = "xdg-open"
+"""Opens folders on Linux. Blender, where it is missing, only writes to the console."""
 _N_PER_KN = 1000.0
 
 
@@ -63,6 +67,8 @@ class BDA_OT_open_results(bpy.types.Operator):
         folder = last_recording.last().folder
         if not folder.is_dir():
             return refused(self, OutputError(f"{folder}: is not there any more"))
+        if sys.platform.startswith("linux") and not shutil.which(_OPENER):
+            return refused(self, OutputError(f"{folder}: this system has no {_OPENER}, which opens folders"))
         bpy.ops.wm.path_open(filepath=str(folder))
         return {"FINISHED"}
 

@@ -217,21 +217,19 @@ def cursor_to_the_deck(person: Person) -> Steps:
 def choose_explosive(person: Person) -> Steps:
     yield from person.click("charge_explosive")
     yield 0.3
-    for _ in range(2):
-        yield from person.press("DOWN_ARROW")
     yield from person.picture("explosives")
-    yield from person.press("RET")
+    yield from person.press("C", "c")  # the letter that is underlined
     yield 0.3
 
 
 def type_place(person: Person) -> Steps:
     """X, Y and Z, with the tabulator from one to the next."""
     yield from person.click("location")
-    for number in EAST_M:
+    for number, key in zip(EAST_M, ("TAB", "TAB", "RET"), strict=True):
         yield from person.replace_text(f"{number:g}")
-        yield from person.press("TAB")
-    yield from person.press("RET")
+        yield from person.press(key)
     yield 0.3
+    yield from person.picture("typed")
 
 
 def choose_logs(person: Person, panels: Panels) -> Steps:
@@ -380,7 +378,7 @@ def make_report(person: Person, panels: Panels) -> Steps:
 def hide_and_undo(person: Person, panels: Panels) -> Steps:
     """Hide Connections and Forces, undo that, and show them again."""
     yield from panels.show_only("Post Processing")
-    yield from panels.toggle_inner(1, "bda.load_results")
+    yield from panels.toggle_inner(0, "bda.load_results")
     yield from person.picture("vectors_and_charges")
     layer = person.window.view_layer
     symbols = [*person.scene.rigidbody_world.constraints.objects]
@@ -398,7 +396,7 @@ def hide_and_undo(person: Person, panels: Panels) -> Steps:
     yield from person.picture("undone")
     person.expect("contours are still shown", person.scene.bda.contours)
     person.expect_reports("nothing is reported")
-    yield from panels.toggle_inner(1, "bda.load_results")
+    yield from panels.toggle_inner(0, "bda.load_results")
 
 
 def save_what_was_changed(person: Person, panels: Panels) -> Steps:

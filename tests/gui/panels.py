@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panels of the tab: opening and closing them by their headers, and making the sidebar wider."""
 
-from person import TO_THE_TOP, Person, Steps
+from person import TO_THE_END, Person, Steps
 
 PANELS = (
     *("Scenario", "Bridge", "Fracture", "Connections", "Shards", "Ball and Sequence"),
@@ -32,7 +32,7 @@ class Panels:
 
     def show_only(self, panel: str) -> Steps:
         """Open a panel and close all others: by Ctrl and a click on its header."""
-        yield from self._person.scroll(-TO_THE_TOP)
+        yield from self._person.scroll(-TO_THE_END)
         if self._shown is None:  # the first one is open, and others
             yield from self._click(PANELS[0])
             yield from self._click(PANELS[0], ctrl=True)

@@ -18,7 +18,7 @@ Steps = Iterator[float | None]
 TAB = "BDA"
 TAB_PX = 20
 """Width of the tabs' edge, and less than a tab is high."""
-SCROLLS, NOTCHES, TO_THE_TOP = 3, 8, 30
+SCROLLS, NOTCHES, TO_THE_END = 3, 8, 30
 """How often the sidebar is scrolled in search of something, and by how much of the wheel: less than its height."""
 
 KEYS = {".": "PERIOD", ",": "COMMA", "-": "MINUS", " ": "SPACE", "/": "SLASH"} | dict(
@@ -26,6 +26,7 @@ KEYS = {".": "PERIOD", ",": "COMMA", "-": "MINUS", " ": "SPACE", "/": "SLASH"} |
 )
 """Keys that are not called by their letter."""
 
+STATUS_BAR_PX = 24
 DRAG_STEPS = 8
 
 PICTURES = "pictures"
@@ -46,6 +47,16 @@ class Place:
     window: bpy.types.Window
     area: bpy.types.Area
     region: bpy.types.Region
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of the window by its pixels, counted from the lower left corner."""
+
+    x: int
+    y: int
+    width: int
+    height: int
 
 
 class Person:
@@ -90,6 +101,11 @@ class Person:
     def sidebar(self) -> bpy.types.Region:
         """The sidebar of the 3D view."""
         return region_of(self.view, "UI")
+
+    @property
+    def status_bar(self) -> Part:
+        """The line at the foot of the window, as far as the 3D view reaches."""
+        return Part(self.view.x, 0, self.view.width, STATUS_BAR_PX)
 
     @property
     def hand(self) -> bpy.types.Window:
@@ -223,7 +239,7 @@ class Person:
         LookupError
             There is none to be seen.
         """
-        for notches in (-TO_THE_TOP, *[NOTCHES] * SCROLLS, None):
+        for notches in (-TO_THE_END, *[NOTCHES] * SCROLLS, None):
             region = (place or self._sidebar_place).region
             last_time = self._seen.get((name, of))
             for x, y in [*([last_time] if last_time else []), *_probes(region)]:
@@ -278,7 +294,7 @@ class Person:
         path = self.folder / f"{self._pictures:02}_{name}.png"
         subprocess.run(["import", "-window", "root", str(path)], check=True)
 
-    def illustrate(self, name: str, *parts: bpy.types.Area | bpy.types.Region) -> Steps:
+    def illustrate(self, name: str, *parts: bpy.types.Area | bpy.types.Region | Part) -> Steps:
         """Keep a screenshot, and in it the picture of that name for the walk-through: what spans some parts."""
         yield from self.picture(name)
         pictures = self.folder / PICTURES
@@ -286,8 +302,8 @@ class Person:
         left, bottom = min(each.x for each in parts), min(each.y for each in parts)
         right, top = max(each.x + each.width for each in parts), max(each.y + each.height for each in parts)
         crop = ("-crop", f"{right - left}x{top - bottom}+{left}+{self.window.height - top}", "+repage")
-        small = ("-dither", "None", "-colors", str(PICTURE_COLOURS), "-strip")
-        subprocess.run(["import", "-window", "root", *crop, *small, str(pictures / f"{name}.png")], check=True)
+        small = ("-dither", "None", "-colors", str(PICTURE_COLOURS), "-strip", "-quality", "90")
+        subprocess.run(["import", "-window", "root", *crop, *small, f"png8:{pictures / name}.png"], check=True)
 
     def _area(self, kind: str) -> bpy.types.Area:
         return next(area for area in self.window.screen.areas if area.type == kind)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How often Blender gets round to events, and to drawing, while it is busy."""
+
+import time
+
+import bpy
+import numpy as np
+
+_BEAT_S = 0.01
+
+
+class Pulse:
+    """Takes the time whenever Blender looks for events, and whenever it draws a 3D view."""
+
+    def __init__(self) -> None:
+        self._events: list[float] = []
+        self._drawings: list[float] = []
+        self._handle = bpy.types.SpaceView3D.draw_handler_add(self._drawn, (), "WINDOW", "POST_PIXEL")
+        bpy.app.timers.register(self._beat)
+
+    def stop(self) -> None:
+        """Take no more times."""
+        bpy.app.timers.unregister(self._beat)
+        bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+
+    def waits(self) -> dict[str, np.ndarray]:
+        """Times between two looks for events, and between two drawings, s."""
+        return {"events": np.diff(self._events), "drawings": np.diff(self._drawings)}
+
+    def _beat(self) -> float:
+        self._events.append(time.perf_counter())
+        return _BEAT_S
+
+    def _drawn(self) -> None:
+        self._drawings.append(time.perf_counter())
