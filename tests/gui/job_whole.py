@@ -172,6 +172,7 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     person.expect("its delay is as typed", math.isclose(found.delay_s, DELAY_S, rel_tol=1e-6))
 
     yield from person.click("bda.add_source_point")
+    yield from person.picture("third")
     person.expect("there is a third", len(charges(scene)), 3)
     yield from person.click("bda.delete_source_point")
     person.expect("Delete deletes just that", [each.name for each in charges(scene)], [WEST, EAST])
@@ -228,6 +229,7 @@ def type_place(person: Person) -> Steps:
     for number, key in zip(EAST_M, ("TAB", "TAB", "RET"), strict=True):
         yield from person.replace_text(f"{number:g}")
         yield from person.press(key)
+    yield from person.move_to_view()
     yield 0.3
     yield from person.picture("typed")
 

@@ -26,6 +26,8 @@ KEYS = {".": "PERIOD", ",": "COMMA", "-": "MINUS", " ": "SPACE", "/": "SLASH"} |
 )
 """Keys that are not called by their letter."""
 
+MODIFIERS = {"shift": "LEFT_SHIFT", "ctrl": "LEFT_CTRL"}
+
 STATUS_BAR_PX = 24
 DRAG_STEPS = 8
 
@@ -183,9 +185,13 @@ class Person:
     def press(self, key: str, unicode: str | None = None, **modifiers: bool) -> Steps:
         """Press a key or button of the mouse where the mouse is, and let it go."""
         x, y = self.mouse
+        for modifier in modifiers:
+            self.hand.event_simulate(type=MODIFIERS[modifier], value="PRESS", x=x, y=y)
         self.hand.event_simulate(type=key, value="PRESS", unicode=unicode, x=x, y=y, **modifiers)
         yield
         self.hand.event_simulate(type=key, value="RELEASE", x=x, y=y, **modifiers)
+        for modifier in modifiers:
+            self.hand.event_simulate(type=MODIFIERS[modifier], value="RELEASE", x=x, y=y)
         yield
 
     def click(self, name: str, place: Place | None = None, of: str = "") -> Steps:
