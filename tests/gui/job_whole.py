@@ -8,6 +8,7 @@ import json
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +35,9 @@ MASS, DELAY = '["bda_mass_kg"]', '["bda_delay_s"]'
 LAST_FRAME = 74
 FRAMES = range(2, LAST_FRAME + 1)
 
-OK_COLOUR = 0.02
+WIDER_PX = 250
+"""By how much the sidebar is made wider to show all columns of the list of charges."""
+COLOUR_NOISE = 0.02
 """Between a colour and the end of the colour map."""
 
 
@@ -133,10 +136,20 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
     person.expect("shards and ground are in the world", len(shards), SHARDS + 1)
     person.expect("there are connections", len(world.constraints.objects) > SHARDS)
     person.expect("the timeline is as long as the scenario", person.scene.frame_end, LAST_FRAME)
+    person.expect("the view shows all of the bridge beside the sidebar", out_of_sight(person), [])
     mass = sum(each.rigid_body.mass for each in shards if each.rigid_body.type == "ACTIVE")
     expected = VOLUME_M3 * DENSITY_KG_M3
     person.expect("they weigh what the bridge does by hand", math.isclose(mass, expected, rel_tol=1e-5))
     person.expect_reports("nothing but the building is reported", f"{SHARDS} shards")
+
+
+def out_of_sight(person: Person) -> list[tuple[float, ...]]:
+    """Corners of the bridge, by hand, that are not in the view, or behind the sidebar."""
+    region = region_of(person.view, "WINDOW")
+    corners = product((-0.5, 13.5), (-4.25, 4.25), (0.0, 5.9))
+    seen = {each: location_3d_to_region_2d(region, person.view.spaces.active.region_3d, each) for each in corners}
+    right = person.sidebar.x - region.x
+    return [each for each, at in seen.items() if at is None or not (0.0 < at.x < right and 0.0 < at.y < region.height)]
 
 
 def place_charges(person: Person, panels: Panels) -> Steps:
@@ -181,6 +194,10 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     yield from person.press("Z", ctrl=True)
     yield 0.5
     person.expect("Ctrl-Z takes one back", [each.name for each in charges(person.scene)], [WEST, EAST])
+
+    yield from panels.widen(WIDER_PX)
+    yield from person.picture("wide_list")
+    yield from panels.widen(-WIDER_PX)
 
     yield from person.click("bda.build_force_objects")
     person.expect_reports("every shard gets a force object", f"{SHARDS} force objects made, 0 kept")
@@ -348,7 +365,7 @@ def look_at_results(person: Person, panels: Panels) -> Steps:
     person.expect("and to its frame", person.scene.frame_current, int(largest["frame"]))
     bodies = list(person.scene.rigidbody_world.collection.all_objects)
     red = colours(person, shown=True)[bodies.index(active)]
-    person.expect("that body is the reddest of all", red[0] > 0.4 and max(red[1], red[2]) < OK_COLOUR)
+    person.expect("that body is the reddest of all", red[0] > 0.4 and max(red[1], red[2]) < COLOUR_NOISE)
     yield from person.illustrate("results", person.view)
     yield from person.click("bda.draw_charts")
     yield from person.wait_for("there are charts", lambda: len(list(charts(person))) > 1, 60.0)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panels of the tab: opening and closing them by their headers, and making the sidebar wider."""
 
-from person import TO_THE_END, Person, Steps
+from person import Person, Steps
 
 PANELS = (
     *("Scenario", "Bridge", "Fracture", "Connections", "Shards", "Ball and Sequence"),
@@ -32,7 +32,7 @@ class Panels:
 
     def show_only(self, panel: str) -> Steps:
         """Open a panel and close all others: by Ctrl and a click on its header."""
-        yield from self._person.scroll(-TO_THE_END)
+        yield from self._person.scroll_to_top()
         if self._shown is None:  # the first one is open, and others
             yield from self._click(PANELS[0])
             yield from self._click(PANELS[0], ctrl=True)
@@ -42,6 +42,7 @@ class Panels:
         if panel != self._shown:
             yield from self._click(panel, ctrl=True)
         self._shown = panel
+        self._person.looks_from = self._header(panel)  # its buttons are below it
 
     def toggle_inner(self, number: int, last: str) -> Steps:
         """Open or close a sub-panel of the shown panel, where those above it are closed.
@@ -68,7 +69,11 @@ class Panels:
 
     def _click(self, panel: str, **modifiers: bool) -> Steps:
         sidebar = self._person.sidebar
-        top = sidebar.y + sidebar.height - FIRST_HEADER_PX
-        yield from self._person.move(sidebar.x + sidebar.width // 2, top - HEADER_PX * PANELS.index(panel))
+        yield from self._person.move(sidebar.x + sidebar.width // 2, self._header(panel))
         yield from self._person.press("LEFTMOUSE", **modifiers)
         yield 0.6  # Blender moves the panels slowly
+
+    def _header(self, panel: str) -> int:
+        """Height of a header in the window, where all panels above it are closed."""
+        sidebar = self._person.sidebar
+        return sidebar.y + sidebar.height - FIRST_HEADER_PX - HEADER_PX * PANELS.index(panel)

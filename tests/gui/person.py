@@ -21,6 +21,8 @@ TAB_PX = 20
 SCROLLS, NOTCHES, TO_THE_END = 3, 8, 30
 """How often the sidebar is scrolled in search of something, and by how much of the wheel: less than its height."""
 
+AT_THE_TOP_PX = 3
+
 KEYS = {".": "PERIOD", ",": "COMMA", "-": "MINUS", " ": "SPACE", "/": "SLASH"} | dict(
     zip("0123456789", ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"), strict=True)
 )
@@ -36,8 +38,8 @@ PICTURES = "pictures"
 PICTURE_COLOURS = 128
 """Few enough for a small file, and enough for contours."""
 
-PROBE_PX = 8
-"""Between two places where the mouse looks for a button; less than a button is high."""
+PROBE_PX = 10
+"""Between two places where the mouse looks for a button: half of a button's height."""
 PROBE_COLUMNS = (0.7, 0.3, 0.9)
 """Where across the sidebar the mouse looks for buttons."""
 
@@ -75,6 +77,7 @@ class Person:
         self.mouse = (0, 0)
         self._hand: bpy.types.Window | None = None
         self._pictures = 0
+        self.looks_from: int | None = None
         self._seen: dict[tuple[str, str], tuple[int, int]] = {}
 
     # What there is to see
@@ -245,19 +248,20 @@ class Person:
         LookupError
             There is none to be seen.
         """
-        for notches in (-TO_THE_END, *[NOTCHES] * SCROLLS, None):
+        for number in range(SCROLLS + 2):  # as the sidebar is, from its top, and further down
             region = (place or self._sidebar_place).region
             last_time = self._seen.get((name, of))
-            for x, y in [*([last_time] if last_time else []), *_probes(region)]:
+            top = self.looks_from if number == 0 and not place else None
+            for x, y in [*([last_time] if last_time else []), *_probes(region, top)]:
                 yield from self.move(x, y)
                 if name == self._under_mouse(place or self._sidebar_place, of):
                     self._seen[name, of] = (x, y)
                     yield from self.move(x, y - PROBE_PX // 2)  # off the button's edge
                     yield from self.move(x + 1, y - PROBE_PX // 2)
                     return
-            if place or notches is None:
+            if place:
                 break
-            yield from self.scroll(notches)
+            yield from (self.scroll_to_top() if number == 0 else self.scroll(NOTCHES))
         raise LookupError(f"there is no {name} {of} to be seen")
 
     def scroll(self, notches: int) -> Steps:
@@ -266,6 +270,14 @@ class Person:
         yield from self.move(sidebar.x + sidebar.width // 3, sidebar.y + sidebar.height // 2)
         for _ in range(abs(notches)):
             yield from self.press("WHEELDOWNMOUSE" if notches > 0 else "WHEELUPMOUSE")
+
+    def scroll_to_top(self) -> Steps:
+        """Turn the wheel over the sidebar upwards until nothing is above what it shows."""
+        for _ in range(TO_THE_END):
+            if self.sidebar.view2d.region_to_view(0, self.sidebar.height - 1)[1] > -AT_THE_TOP_PX:
+                return
+            yield from self.scroll(-1)
+            yield 0.05
 
     def wait_for(self, what: str, happens: Callable[[], bool], seconds: float = 30.0) -> Steps:
         """Wait until something happens, and note if it does not."""
@@ -336,10 +348,10 @@ class Person:
         return found[1].rpartition(".")[2]
 
 
-def _probes(region: bpy.types.Region) -> Iterator[tuple[int, int]]:
+def _probes(region: bpy.types.Region, top: int | None) -> Iterator[tuple[int, int]]:
     """Places where the mouse looks for a button, from top to bottom, in one column after the other."""
     for column in PROBE_COLUMNS:
-        for y in range(region.y + region.height - PROBE_PX // 2, region.y, -PROBE_PX):
+        for y in range(top or region.y + region.height - PROBE_PX // 2, region.y, -PROBE_PX):
             yield region.x + int(column * region.width), y
 
 
