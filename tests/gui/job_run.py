@@ -5,7 +5,7 @@ import json
 
 import bpy
 import numpy as np
-from habits import build
+from habits import build, delete_all
 from panels import Panels
 from person import Person, Steps
 from pulse import Pulse
@@ -25,10 +25,11 @@ LONGEST_S = 2.0
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
     panels = Panels(person)
+    yield from delete_all(person)
     yield from panels.widen(160)
     yield from build(person, SCENARIO)
     yield from panels.show_only("Frame Change Event Handler")
-    person.expect_reports("nothing but the building is reported", f"{SHARDS} shards")
+    person.expect_reports("nothing but the building is reported", "Deleted 3 object", f"{SHARDS} shards")
     yield from stop_with_escape(person)
     yield from run_to_the_end(person)
     yield from bake(person)

@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from file_browser import choose_file
-from habits import play_or_pause, register
+from habits import delete_all, play_or_pause, register
 from panels import Panels
 from person import Person, Steps, region_of
 from traces import PRESETS, charges, colours, handlers, opened, rows, scenario_in, scenario_shown
@@ -62,10 +62,7 @@ def steps(person: Person) -> Steps:
 
 def empty_scene(person: Person, panels: Panels) -> Steps:
     """What Blender starts with is of no use here: A and Delete."""
-    yield from person.move_to_view()
-    yield from person.press("A", "a")
-    yield from person.press("DEL")
-    yield 0.5
+    yield from delete_all(person)
     person.expect("A and Delete empty the scene", [each.name for each in person.scene.objects], [])
     width = person.sidebar.width
     yield from panels.widen(160)

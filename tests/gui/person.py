@@ -250,9 +250,8 @@ class Person:
         """
         for number in range(SCROLLS + 2):  # as the sidebar is, from its top, and further down
             region = (place or self._sidebar_place).region
-            last_time = self._seen.get((name, of))
             top = self.looks_from if number == 0 and not place else None
-            for x, y in [*([last_time] if last_time else []), *_probes(region, top)]:
+            for x, y in [*self._approach(name, of), *_probes(region, top)]:
                 yield from self.move(x, y)
                 if name == self._under_mouse(place or self._sidebar_place, of):
                     self._seen[name, of] = (x, y)
@@ -263,6 +262,13 @@ class Person:
                 break
             yield from (self.scroll_to_top() if number == 0 else self.scroll(NOTCHES))
         raise LookupError(f"there is no {name} {of} to be seen")
+
+    def _approach(self, name: str, of: str) -> list[tuple[int, int]]:
+        """The way to where a button was the last time; none where it was not seen yet."""
+        if (name, of) not in self._seen:
+            return []
+        x, y = self._seen[name, of]
+        return [(x, y + number * PROBE_PX) for number in (4, 3, 2, 1, 0)]
 
     def scroll(self, notches: int) -> Steps:
         """Turn the wheel over the sidebar, downwards, or upwards for less than none."""

@@ -16,11 +16,12 @@ class Pulse:
         self._events: list[float] = []
         self._drawings: list[float] = []
         self._handle = bpy.types.SpaceView3D.draw_handler_add(self._drawn, (), "WINDOW", "POST_PIXEL")
-        bpy.app.timers.register(self._beat)
+        self._timer = self._beat  # Blender knows a function again by its identity
+        bpy.app.timers.register(self._timer)
 
     def stop(self) -> None:
         """Take no more times."""
-        bpy.app.timers.unregister(self._beat)
+        bpy.app.timers.unregister(self._timer)
         bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
 
     def waits(self) -> dict[str, np.ndarray]:
