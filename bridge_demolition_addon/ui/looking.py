@@ -27,7 +27,7 @@ def look_at_selected(context: bpy.types.Context) -> None:
     view, covered = context.space_data.region_3d, covered_px(context, "UI")
     if view.view_perspective == "CAMERA" or covered > _MOST_COVERED * region.width:
         return
-    view.view_distance *= region.width / (region.width - covered)
+    view.view_distance *= max(min(region.width, region.height) / (region.width - covered), 1.0)
     view.update()
     edge, middle = (region_2d_to_location_3d(region, view, (x, 0.0), view.view_location) for x in (0.0, covered / 2.0))
     view.view_location += middle - edge
