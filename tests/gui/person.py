@@ -260,10 +260,13 @@ class Person:
             top = self.looks_from if number == 0 and not place else None
             for x, y in [*self._approach(name, of), *_probes(region, top)]:
                 yield from self.move(x, y)
+                if name != self._under_mouse(place or self._sidebar_place, of):
+                    continue
+                yield from self.move(x, y - PROBE_PX // 2)  # off the button's edge
+                yield from self.move(x + 1, y - PROBE_PX // 2)
+                # The mouse may only now have left the button that it was over before.
                 if name == self._under_mouse(place or self._sidebar_place, of):
                     self._seen[name, of] = (x, y)
-                    yield from self.move(x, y - PROBE_PX // 2)  # off the button's edge
-                    yield from self.move(x + 1, y - PROBE_PX // 2)
                     return
             if place:
                 break
@@ -275,7 +278,7 @@ class Person:
         if (name, of) not in self._seen:
             return []
         x, y = self._seen[name, of]
-        return [(x, y + number * PROBE_PX) for number in (4, 3, 2, 1, 0)]
+        return [(x, y + 2 * PROBE_PX), (x, y), (x + 1, y)]
 
     def scroll(self, notches: int) -> Steps:
         """Turn the wheel over the sidebar, downwards, or upwards for less than none."""
