@@ -17,8 +17,16 @@ def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object])
         each.select_set(True)
 
 
-def look_at_selected(context: bpy.types.Context) -> None:
-    """Let the 3D view that the mouse is in show what is selected beside the sidebar, where the mouse is in one."""
+def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> None:
+    """Let the 3D view that the mouse is in show what is selected beside the sidebar, where the mouse is in one.
+
+    Parameters
+    ----------
+    context
+        With the 3D view as its area.
+    surroundings
+        How many times as far as is needed to look from.
+    """
     if not context.area or context.area.type != "VIEW_3D":
         return
     region = next(each for each in context.area.regions if each.type == "WINDOW")
@@ -27,7 +35,7 @@ def look_at_selected(context: bpy.types.Context) -> None:
     view, covered = context.space_data.region_3d, covered_px(context, "UI")
     if view.view_perspective == "CAMERA" or covered > _MOST_COVERED * region.width:
         return
-    view.view_distance *= max(min(region.width, region.height) / (region.width - covered), 1.0)
+    view.view_distance *= surroundings * max(min(region.width, region.height) / (region.width - covered), 1.0)
     view.update()
     edge, middle = (region_2d_to_location_3d(region, view, (x, 0.0), view.view_location) for x in (0.0, covered / 2.0))
     view.view_location += middle - edge

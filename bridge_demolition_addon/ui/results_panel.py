@@ -19,6 +19,7 @@ _CHARTS = "charts"
 _OPENER = "xdg-open"
 """Opens folders on Linux. Blender, where it is missing, only writes to the console."""
 _N_PER_KN = 1000.0
+_SURROUNDINGS = 3.0
 
 
 class BDA_OT_go_to_body(bpy.types.Operator):
@@ -49,7 +50,7 @@ class BDA_OT_go_to_body(bpy.types.Operator):
         context.scene.frame_set(self.frame)
         select_only(context, [body])
         context.view_layer.objects.active = body
-        look_at_selected(context)
+        look_at_selected(context, _SURROUNDINGS)
         return {"FINISHED"}
 
 
@@ -119,7 +120,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         column = layout.column(align=True)
         for line in lines_of(summary):
             column.label(text=line)
-        self._draw_place("Largest force", summary["largest_resultant"], last_frame=None)
+        self._draw_place("Largest peak force", summary["largest_resultant"], last_frame=None)
         self._draw_place("Largest throw", summary["largest_throw"], last_frame=int(last.results.frames[-1]))
         row = layout.row(align=True)
         row.operator("bda.open_results")

@@ -50,13 +50,15 @@ def steps(person: Person) -> Steps:
     yield from change_values(person, panels)
     yield from build_bridge(person, panels)
     yield from place_charges(person, panels)
+    yield from turn_view(person)
     yield from choose_logs(person, panels)
+    yield from hide_and_undo(person, panels)
     yield from record(person, panels)
     check_logs(person)
     yield from scrub(person)
     yield from look_at_results(person, panels)
     yield from make_report(person, panels)
-    yield from hide_and_undo(person, panels)
+    yield from undo(person)
     yield from save_what_was_changed(person, panels)
 
 
@@ -259,6 +261,8 @@ def choose_logs(person: Person, panels: Panels) -> Steps:
     yield from person.click("contours")
     yield 0.5
     person.expect("Contours is ticked", person.scene.bda.contours)
+    yield from person.click("contour_logarithmic")
+    person.expect("Logarithmic is ticked", person.scene.bda.contour_logarithmic)
     yield from person.illustrate("post_processing", person.sidebar)
     person.expect_reports("nothing is reported")
 
@@ -356,14 +360,19 @@ def look_at_results(person: Person, panels: Panels) -> Steps:
     yield 0.5
     log = rows(person.folder / "my_force_log.csv")
     shards = [row for row in log if row["body"].startswith("Shard")]
-    largest = max(shards, key=lambda row: math.hypot(*(float(row[f"force_{axis}_N"]) for axis in "xyz")))
+    largest = max(shards, key=lambda row: float(row["peak_force_N"]))
     active = person.window.view_layer.objects.active
-    person.expect("the button leads to the body that has the largest force in the log", active.name, largest["body"])
+    person.expect(
+        "the button leads to the body that has the largest peak force in the log", active.name, largest["body"]
+    )
     person.expect("and to its frame", person.scene.frame_current, int(largest["frame"]))
+    yield from person.illustrate("results", person.view)
+    person.scene.bda.contour_peak = True
+    yield 0.5
     bodies = list(person.scene.rigidbody_world.collection.all_objects)
     red = colours(person, shown=True)[bodies.index(active)]
-    person.expect("that body is the reddest of all", red[0] > 0.4 and max(red[1], red[2]) < COLOUR_NOISE)
-    yield from person.illustrate("results", person.view)
+    person.expect("among the peaks so far that body is at the red end", bool(max(red[1:3]) < COLOUR_NOISE < red[0]))
+    person.scene.bda.contour_peak = False
     yield from person.click("bda.draw_charts")
     yield from person.wait_for("there are charts", lambda: len(list(charts(person))) > 1, 60.0)
     yield 1.0
@@ -391,28 +400,54 @@ def make_report(person: Person, panels: Panels) -> Steps:
     yield from person.picture("report")
 
 
+def turn_view(person: Person) -> Steps:
+    """One notch of the wheel away from the bridge, and a bit to the right, where the colour bar does not hide it."""
+    yield from person.move_to_view()
+    yield from person.press("WHEELDOWNMOUSE")
+    x, y = person.view.x + 200, person.view.y + 150
+    yield from person.drag((x, y), (x + 110, y), button="MIDDLEMOUSE", shift=True)
+    yield 0.3
+
+
 def hide_and_undo(person: Person, panels: Panels) -> Steps:
-    """Hide Connections and Forces, undo that, and show them again."""
-    yield from panels.show_only("Post Processing")
+    """Hide Connections and Forces; undo that; and hide them again."""
     yield from panels.toggle_inner(0, "bda.load_results")
-    yield from person.picture("vectors_and_charges")
-    layer = person.window.view_layer
-    symbols = [*person.scene.rigidbody_world.constraints.objects]
-    person.expect("connections are seen at first", any(each.visible_get(view_layer=layer) for each in symbols))
+    person.expect("connections and force objects are seen at first", hidden_symbols(person) == set())
     yield from person.click("bda.toggle_symbols")
-    yield from person.illustrate("hidden", person.view)
-    symbols = [each for each in person.scene.objects if each.type == "EMPTY" and each.name not in (WEST, EAST)]
-    person.expect("none is seen then", [each.name for each in symbols if each.visible_get()], [])
+    yield 0.5
+    every = hidden_symbols(person)
+    person.expect("then none of them is", len(every) > SHARDS)
     person.expect("charges are", all(bpy.data.objects[name].visible_get() for name in (WEST, EAST)))
     yield from person.move_to_view()
     yield from person.press("Z", ctrl=True)
     yield 1.0
-    symbols = [each for each in person.scene.objects if each.type == "EMPTY" and each.name not in (WEST, EAST)]
-    person.expect("Ctrl-Z shows them", all(each.visible_get() for each in symbols))
-    yield from person.picture("undone")
-    person.expect("contours are still shown", person.scene.bda.contours)
+    person.expect("Ctrl-Z shows them", hidden_symbols(person), set())
+    yield from person.click("bda.toggle_symbols")
+    yield 0.5
+    person.expect("they are hidden again", hidden_symbols(person), every)
+    yield from person.illustrate("hidden", person.view)
     person.expect_reports("nothing is reported")
     yield from panels.toggle_inner(0, "bda.load_results")
+
+
+def hidden_symbols(person: Person) -> set[str]:
+    """Names of the connections and force objects that are not seen."""
+    empties = [each for each in person.scene.objects if each.type == "EMPTY" and each.name not in (WEST, EAST)]
+    return {each.name for each in empties if not each.visible_get(view_layer=person.window.view_layer)}
+
+
+def undo(person: Person) -> Steps:
+    """Ctrl-Z, after all, and Ctrl-Shift-Z."""
+    yield from person.move_to_view()
+    yield from person.press("Z", ctrl=True)
+    yield 1.0
+    yield from person.picture("undone")
+    person.expect("contours are still shown after Ctrl-Z", person.scene.bda.contours)
+    yield from person.press("Z", ctrl=True, shift=True)
+    yield 1.0
+    person.expect("and after Ctrl-Shift-Z", person.scene.bda.contours)
+    person.expect("the bridge is there", len(person.scene.rigidbody_world.collection.objects), SHARDS + 1)
+    person.expect_reports("nothing is reported of it")
 
 
 def save_what_was_changed(person: Person, panels: Panels) -> Steps:

@@ -227,15 +227,15 @@ class Person:
                 self.hand.event_simulate(type=key, value="RELEASE", x=x, y=y)
             yield
 
-    def drag(self, start: tuple[int, int], end: tuple[int, int]) -> Steps:
-        """Press the left button of the mouse in one place, and let it go in another."""
+    def drag(self, start: tuple[int, int], end: tuple[int, int], button: str = "LEFTMOUSE", **modifiers: bool) -> Steps:
+        """Press a button of the mouse in one place, and let it go in another."""
         yield from self.move(*start)
-        self.hand.event_simulate(type="LEFTMOUSE", value="PRESS", x=start[0], y=start[1])
+        self.hand.event_simulate(type=button, value="PRESS", x=start[0], y=start[1], **modifiers)
         yield 0.1
         for step in range(1, DRAG_STEPS + 1):
             share = step / DRAG_STEPS
             yield from self.move(*(round(a + share * (b - a)) for a, b in zip(start, end, strict=True)))
-        self.hand.event_simulate(type="LEFTMOUSE", value="RELEASE", x=end[0], y=end[1])
+        self.hand.event_simulate(type=button, value="RELEASE", x=end[0], y=end[1])
         yield 0.2
 
     def hover(self, name: str, place: Place | None = None, of: str = "") -> Steps:
