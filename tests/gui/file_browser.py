@@ -18,7 +18,11 @@ def choose_file(person: Person, path: Path) -> Steps:
     person.take_to(window)
     yield from person.fill_in("directory", f"{path.parent}/", folder)
     yield 0.5
-    yield from person.fill_in("filename", path.name, name)
+    try:
+        yield from person.fill_in("filename", path.name, name)
+    except LookupError:  # Blender 5 has the name edited at once, and shows no other button until that is done
+        yield from person.replace_text(path.name)
+        yield from person.press("RET")
     yield from person.picture(f"choosing_{path.stem}")
     yield from person.click("file.execute", name)
     yield from person.wait_for("the file browser closes", lambda: len(manager.windows) == 1, 10.0)

@@ -405,7 +405,7 @@ def turn_view(person: Person) -> Steps:
     yield from person.move_to_view()
     yield from person.press("WHEELDOWNMOUSE")
     x, y = person.view.x + 200, person.view.y + 150
-    yield from person.drag((x, y), (x + 110, y), button="MIDDLEMOUSE", shift=True)
+    yield from person.drag((x, y), (x + 60, y), button="MIDDLEMOUSE", shift=True)
     yield 0.3
 
 
@@ -460,7 +460,9 @@ def save_what_was_changed(person: Person, panels: Panels) -> Steps:
     person.expect(
         "everything else is saved as it was loaded", replace(found, charges=()), as_typed(scenario_in(PRESET))
     )
-    person.expect("the charges are saved", found.placed_charges, charges(person.scene))
+    for saved, placed in zip(found.placed_charges, charges(person.scene), strict=True):
+        person.expect(f"{placed.name} is saved", replace(saved, delay_s=placed.delay_s), placed)
+        person.expect("with its delay", math.isclose(saved.delay_s, placed.delay_s, abs_tol=1e-9))
     yield from person.click("bda.load_scenario")
     yield 0.5
     person.expect("loading it again changes nothing", scenario_shown(person.scene), found)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panels of the tab: opening and closing them by their headers, and making the sidebar wider."""
 
-from person import Person, Steps
+from person import NOTCHES, Person, Steps
 
 PANELS = (
     *("Scenario", "Bridge", "Fracture", "Connections", "Shards", "Ball and Sequence"),
@@ -54,9 +54,14 @@ class Panels:
         last
             The last button or field above all sub-panels.
         """
+        below = BELOW_CONTENT_PX + number * SUB_HEADER_PX
+        self._person.looks_from = None
         yield from self._person.hover(last)
+        if self._person.mouse[1] - below < self._person.sidebar.y + SUB_HEADER_PX:
+            yield from self._person.scroll(NOTCHES)
+            yield from self._person.hover(last)
         x, y = self._person.mouse
-        yield from self._person.move(x, y - BELOW_CONTENT_PX - number * SUB_HEADER_PX)
+        yield from self._person.move(x, y - below)
         yield from self._person.press("LEFTMOUSE")
         yield 0.5
 
