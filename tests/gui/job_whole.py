@@ -288,7 +288,7 @@ def record(person: Person, panels: Panels) -> Steps:
     person.expect("the log grew while it played", len(rows(log)), len(FRAMES) * (SHARDS + 1))
     yield from person.click("bda.unregister_handler")
     yield 2.0
-    yield from person.illustrate("unregistered", person.sidebar)
+    yield from person.picture("unregistered")
     person.expect("no handler is left", dict(handlers()), {})
     person.expect_reports("nothing but the results is reported", f"Results are in {person.folder / 'results'}")
 
