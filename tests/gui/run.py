@@ -34,7 +34,7 @@ JOBS = tuple(
 )
 REPEATED = (*JOBS, *(upheaval_job(upheaval, ALONE) for upheaval in UPHEAVALS))
 """Those that may crash for Blender's own sake are not part of a run of all."""
-JOB_SECONDS = 900
+JOB_SECONDS = 1800
 
 PICTURES = "pictures"
 """Folder of a job's pictures for the walk-through."""
