@@ -97,6 +97,7 @@ def _symbol() -> bpy.types.Collection:
 def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Object:
     empty = bpy.data.objects.new(charge.name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
+    empty.show_in_front = True  # charges mostly sit where concrete hides them
     empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
     empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
     empty[DELAY], empty[BURST] = charge.delay_s, charge.burst.value

@@ -190,6 +190,7 @@ def _template(scene: bpy.types.Scene) -> bpy.types.Object:
     with bpy.context.temp_override(scene=scene):
         bpy.ops.object.effector_add(type="FORCE")  # the only way to an object with a field
     template = bpy.context.view_layer.objects.active
+    template.select_set(False)  # its copies would be selected as well, to be moved or deleted by the next key
     for each in selected:
         each.select_set(True)
     bpy.context.view_layer.objects.active = active

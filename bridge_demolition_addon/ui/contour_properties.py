@@ -8,6 +8,7 @@ from ..core.colour_maps import ColourMap
 from ..core.contours import TITLES, Quantity, RangeKind
 from ..simulation.film import FilmKind
 from . import contour_view
+from .sidebar import RELATIVE_PATHS
 
 _QUANTITIES = (
     (Quantity.RESULTANT.name, TITLES[Quantity.RESULTANT], "Magnitude of the sum of all contact and connection forces"),
@@ -97,6 +98,7 @@ class ContourProperties:
         name="Kept Results",
         description="File results.npz of an earlier recording of this scene",
         subtype="FILE_PATH",
+        options=RELATIVE_PATHS,
     )
     show_vectors: BoolProperty(
         name="Force Vectors", description="Show forces as arrows in the 3D view", default=False, update=_redraw
@@ -130,7 +132,10 @@ class ContourProperties:
         name="Damage", description="What the rings stand for", items=_DAMAGES, default="1", update=_redraw
     )
     film_directory: StringProperty(
-        name="Film", description="Folder for the pictures or the film; it is made if new", subtype="DIR_PATH"
+        name="Film",
+        description="Folder for the pictures or the film; it is made if new",
+        subtype="DIR_PATH",
+        options=RELATIVE_PATHS,
     )
     film_kind: EnumProperty(name="Make", description="What is rendered", items=_KINDS)
     film_slowness: FloatProperty(

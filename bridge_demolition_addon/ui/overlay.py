@@ -23,6 +23,7 @@ from ..core.number_text import tick_text
 from ..scene.charges import charges_of
 from ..simulation import contours
 from . import contour_view
+from .looking import covered_px
 
 _FONT, _FONT_PX = 0, 12.0
 _LINE_PX = 17.0
@@ -243,16 +244,9 @@ def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tup
 
 def _tools_width(context: bpy.types.Context) -> float:
     """How much of the view's left the toolbar covers, px."""
-    return _covered(context, "TOOLS")
+    return covered_px(context, "TOOLS")
 
 
 def _right_end(context: bpy.types.Context) -> float:
     """Where the sidebar begins to cover the view, px."""
-    return context.region.width - _covered(context, "UI")
-
-
-def _covered(context: bpy.types.Context, kind: str) -> float:
-    """Width of a region of the 3D view that lies over the view itself, px."""
-    region = next((each for each in context.area.regions if each.type == kind), None)
-    covers = region and context.preferences.system.use_region_overlap and region.width > 1
-    return float(region.width) if covers else 0.0
+    return context.region.width - covered_px(context, "UI")

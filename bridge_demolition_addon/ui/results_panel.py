@@ -1,5 +1,7 @@
 """The panel Results: what the last recording came to."""
 
+import shutil
+import sys
 from typing import Any
 
 import bpy
@@ -9,11 +11,15 @@ from ..core.blast.models import BlastModel
 from ..core.errors import DemolitionError, OutputError
 from ..simulation import handlers
 from . import last_recording
+from .looking import look_at_selected, select_only
 from .refusal import refused
 from .sidebar import SidebarPanel, draw_sentence
 
 _CHARTS = "charts"
+_OPENER = "xdg-open"
+"""Opens folders on Linux. Blender, where it is missing, only writes to the console."""
 _N_PER_KN = 1000.0
+_SURROUNDINGS = 3.0
 
 
 class BDA_OT_go_to_body(bpy.types.Operator):
@@ -42,14 +48,9 @@ class BDA_OT_go_to_body(bpy.types.Operator):
             self.report({"ERROR"}, f"{self.body!r} is not in this scene any more")
             return {"CANCELLED"}
         context.scene.frame_set(self.frame)
-        for each in context.selected_objects:
-            each.select_set(False)
-        body.select_set(True)
+        select_only(context, [body])
         context.view_layer.objects.active = body
-        if context.area and context.area.type == "VIEW_3D":
-            region = next(each for each in context.area.regions if each.type == "WINDOW")
-            with context.temp_override(region=region):
-                bpy.ops.view3d.view_selected()
+        look_at_selected(context, _SURROUNDINGS)
         return {"FINISHED"}
 
 
@@ -67,6 +68,8 @@ class BDA_OT_open_results(bpy.types.Operator):
         folder = last_recording.last().folder
         if not folder.is_dir():
             return refused(self, OutputError(f"{folder}: is not there any more"))
+        if sys.platform.startswith("linux") and not shutil.which(_OPENER):
+            return refused(self, OutputError(f"{folder}: this system has no {_OPENER}, which opens folders"))
         bpy.ops.wm.path_open(filepath=str(folder))
         return {"FINISHED"}
 
@@ -117,7 +120,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         column = layout.column(align=True)
         for line in lines_of(summary):
             column.label(text=line)
-        self._draw_place("Largest force", summary["largest_resultant"], last_frame=None)
+        self._draw_place("Largest peak force", summary["largest_resultant"], last_frame=None)
         self._draw_place("Largest throw", summary["largest_throw"], last_frame=int(last.results.frames[-1]))
         row = layout.row(align=True)
         row.operator("bda.open_results")

@@ -9,7 +9,9 @@ from ..core.errors import DemolitionError, OutputError
 from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario, scenario_text
+from ..scene.bodies import Kind, bodies_of, kind_of
 from ..scene.demolition import build_demolition
+from .looking import look_at_selected, select_only
 from .refusal import absolute, refused
 from .scenario_properties import PRESETS, default_scenario
 from .scenario_values import scenario_of, show_scenario
@@ -118,6 +120,16 @@ class BDA_OT_build_scenario(bpy.types.Operator):
             )
             return False
         return True
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Build it, and let the view show the bridge: its ground is too large for Blender's View All."""
+        done = self.execute(context)
+        if "FINISHED" in done and context.mode == "OBJECT":
+            selected = list(context.selected_objects)
+            select_only(context, [body for body in bodies_of(context.scene) if kind_of(body) == Kind.SHARD])
+            look_at_selected(context)
+            select_only(context, selected)
+        return done
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.bda

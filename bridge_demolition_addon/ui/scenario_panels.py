@@ -208,8 +208,8 @@ def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.Propert
         layout.prop(group, row.name, text=row.label)
         return
     fits = row.length == 1 and len(row.label) + _LETTERS_OF_VALUE <= letters
-    if not row.is_number:  # Blender gives half of a line to the label of a text or a choice
-        fits = fits and len(row.label) <= letters // 2
+    if not row.is_number:  # Blender gives part of a line to the label of a text or a choice
+        fits = fits and len(row.label) <= letters // (4 if row.is_optional else 2)
     if row.is_optional:
         line = layout.row(align=True)
         line.prop(group, USE + row.name, text="" if fits else row.label)

@@ -32,6 +32,7 @@ def next_step() -> float | None:
         person.note("done")
     except Exception:
         person.note("every step can be taken", traceback.format_exc())
+        list(person.picture("where_it_stopped"))
     bpy.ops.wm.quit_blender()
     return None
 

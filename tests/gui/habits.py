@@ -7,6 +7,14 @@ from person import Person, Steps
 from traces import SCENARIO, handlers
 
 
+def delete_all(person: Person) -> Steps:
+    """Press A and Delete over the 3D view, for Blender starts with things that are of no use here."""
+    yield from person.move_to_view()
+    yield from person.press("A", "a")
+    yield from person.press("DEL")
+    yield 0.5
+
+
 def load(person: Person, scenario: Path = SCENARIO) -> Steps:
     """Choose a scenario and load it."""
     yield from person.fill_in("scenario_path", str(scenario))

@@ -2,25 +2,27 @@
 """Show contours while a recording plays and when scrubbing afterwards, with vectors and colour bar; then a film."""
 
 import bpy
-import numpy as np
 from habits import build, go_to_start, play_or_pause, register
-from person import Person, Steps
-from traces import handlers
+from panels import Panels
+from person import TO_THE_END, Person, Steps
+from traces import colours, handlers, module
 
 
 def steps(person: Person) -> Steps:
-    open_post_processing()
     yield from person.open_sidebar()
+    panels = Panels(person)
     yield from build(person)
     person.expect_reports("nothing but the building is reported", "30 shards")
     look(person)
     bpy.data.objects["Cube"].hide_set(True)  # of Blender's start-up file, it stands in the bridge
     yield from person.picture("built")
     own = colours(person)
+    yield from panels.show_only("Post Processing")
     yield from person.click("contours")
     yield 0.5
     person.expect("the box is ticked", person.scene.bda.contours)
     results = person.folder / "results"
+    yield from panels.show_only("Frame Change Event Handler")
     yield from register(person, results)
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield from play_or_pause(person)
@@ -31,6 +33,7 @@ def steps(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield 1.0
     person.expect_reports("nothing but the results is reported", f"Results are in {results}")
+    yield from panels.show_only("Post Processing")
     yield from go_to_start(person)
     yield from person.picture("start")
     shown = {}
@@ -58,7 +61,7 @@ def steps(person: Person) -> Steps:
     yield 0.5
     yield from person.picture("charges")
     settings.show_charges = settings.show_rings = False
-    yield from sub_panels(person)
+    yield from inner_panels(person, panels)
     bpy.ops.bda.toggle_symbols()
     yield 0.5
     yield from person.picture("symbols_hidden")
@@ -71,26 +74,13 @@ def steps(person: Person) -> Steps:
     yield from film(person)
 
 
-def open_post_processing() -> None:
-    """Have the panel of the contours open from the beginning, as a person leaves it."""
-    panel = bpy.types.BDA_PT_post_processing
-    inner = [each for each in bpy.types.Panel.__subclasses__() if getattr(each, "bl_parent_id", "") == panel.__name__]
-    for each in (*inner, panel):
-        bpy.utils.unregister_class(each)
-    panel.bl_options = set()
-    for each in (panel, *inner):
-        bpy.utils.register_class(each)
-
-
-def sub_panels(person: Person) -> Steps:
-    """Open each sub-panel by the arrow of its header, below the last button, and close it again."""
-    yield from person.hover("bda.load_results")
-    x, y = person._mouse
-    for name, below in (("film", 58), ("vectors_and_charges", 32)):
-        for _ in range(2):
-            yield from person.move(x, y - below)
-            yield from person.press("LEFTMOUSE")
-            yield from person.picture(f"panel_{name}")
+def inner_panels(person: Person, panels: Panels) -> Steps:
+    """Open each sub-panel by its header, below the last button, look at its lower end, and close it again."""
+    for number, name in enumerate(("vectors_and_charges", "film")):
+        yield from panels.toggle_inner(number, "bda.load_results")
+        yield from person.scroll(TO_THE_END)
+        yield from person.picture(f"panel_{name}")
+        yield from panels.toggle_inner(number, "bda.load_results")
 
 
 def film(person: Person) -> Steps:
@@ -114,18 +104,7 @@ def look(person: Person) -> None:
 
 
 def add_charge(person: Person) -> None:
-    from importlib import import_module
-
-    from traces import EXTENSION
-
-    charge = import_module(f"{EXTENSION}.core.blast.charges").Charge
-    create = import_module(f"{EXTENSION}.scene.charges").create_charges
+    charge = module("core.blast.charges").Charge
+    create = module("scene.charges").create_charges
     places = {"Charge A": (1.0, 0.0, 1.0), "Charge B": (7.0, 0.0, 1.0)}
     create(person.scene, [charge(name=name, place_m=place, mass_kg=0.4) for name, place in places.items()])
-
-
-def colours(person: Person, shown: bool = False) -> np.ndarray:
-    """Colours of all bodies, their own or as they are shown."""
-    bodies = person.scene.rigidbody_world.collection.all_objects
-    graph = person.window.view_layer.depsgraph
-    return np.array([(each.evaluated_get(graph) if shown else each).color for each in bodies])

@@ -1,90 +1,129 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run a scenario in one go; stop another run with Esc; bake; keep answering meanwhile."""
+"""Run a scenario of 200 shards in one go; Esc stops; then to the end, answering all the time; bake."""
 
 import json
-import time
 
 import bpy
 import numpy as np
+from habits import build, delete_all
+from panels import Panels
 from person import Person, Steps
-from traces import EXTENSION, SCENARIO, handlers
+from pulse import Pulse
+from traces import CHECKOUT, EXTENSION, handlers, rows
+
+SCENARIO = CHECKOUT / "examples" / "i235_one_span.toml"
+SHARDS = 200
 
 ANSWER_S = 0.5
-"""Blender answers at least so often while it runs."""
+"""Blender answers and draws at least so often while it runs."""
+SHARE = 0.95
+"""Of the waits that must be shorter: the world is made in one of the first frames."""
+LONGEST_S = 2.0
+"""And no wait is ever as long as this."""
 
 
 def steps(person: Person) -> Steps:
-    yield 0.5
-    start(person, "build_scenario")
-    yield 0.5
-    yield from run_to_the_end(person)
+    yield from person.open_sidebar()
+    panels = Panels(person)
+    yield from delete_all(person)
+    yield from panels.widen(160)
+    yield from build(person, SCENARIO)
+    yield from panels.show_only("Frame Change Event Handler")
+    person.expect_reports("nothing but the building is reported", "Deleted 3 object", f"{SHARDS} shards")
     yield from stop_with_escape(person)
+    yield from run_to_the_end(person)
     yield from bake(person)
     yield from switch_off_while_it_runs(person)
 
 
-def run_to_the_end(person: Person) -> Steps:
-    folder = person.folder / "results"
-    start(person, "run", folder)
-    longest, last = 0.0, time.perf_counter()
-    undone = False
-    while handlers():
-        yield
-        now = time.perf_counter()
-        if not handlers():  # it has just written the results, and drawn their chart
-            break
-        longest, last = max(longest, now - last), now
-        if person.scene.frame_current > 15 and not undone:
-            yield from person.picture("running")
-            yield from person.press("Z", ctrl=True)
-            undone, last = True, time.perf_counter()
-    yield 0.5
-    yield from person.picture("run")
-    person.expect("undo does nothing meanwhile", person.scene.frame_current, person.scene.frame_end)
-    person.note(f"the longest wait for an answer was {longest:.2f} s", "" if longest < ANSWER_S else "too long")
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    person.expect("the run is complete", summary["completed"])
-    with np.load(folder / "results.npz") as arrays:
-        person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, 39)))
-    person.expect("no handler is left", dict(handlers()), {})
+def run(person: Person, name: str) -> Steps:
+    """Give a folder, and click Run."""
+    yield from person.fill_in("output_directory", str(person.folder / name))
+    yield from person.click("bda.run")
+    yield from person.wait_for("it runs", lambda: bool(handlers()), 10.0)
 
 
 def stop_with_escape(person: Person) -> Steps:
-    folder = person.folder / "stopped"
-    start(person, "run", folder)
-    yield from person.wait_for("it runs", lambda: person.scene.frame_current >= 8)
+    yield from run(person, "stopped")
+    yield from person.wait_for("it runs up to frame 20", lambda: person.scene.frame_current >= 20, 60.0)
+    yield from person.illustrate("running", person.view, person.status_bar)
     yield from person.move_to_view()
     yield from person.press("ESC")
+    yield from person.wait_for("it stops", lambda: not handlers(), 10.0)
     yield 1.0
     stopped = person.scene.frame_current
-    person.expect("it stops", stopped < person.scene.frame_end and not handlers())
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    person.expect("it stops before the end", stopped < person.scene.frame_end)
+    person.expect_reports("that it stopped is reported", "Stopped after", "Results are in")
+    summary = json.loads((person.folder / "stopped" / "summary.json").read_text(encoding="utf-8"))
     person.expect("the results say so", not summary["completed"])
+    yield from person.picture("stopped")
     yield 0.5
     person.expect("it stays stopped", person.scene.frame_current, stopped)
 
 
+def run_to_the_end(person: Person) -> Steps:
+    folder = person.folder / "results"
+    yield from run(person, "results")
+    pulse = Pulse()
+    undone = False
+    while handlers():
+        yield
+        if person.scene.frame_current > 15 and not undone:
+            yield from person.press("Z", ctrl=True)
+            undone = True
+    pulse.stop()
+    yield 1.0
+    yield from person.picture("run")
+    person.expect("undo does nothing meanwhile", person.scene.frame_current, person.scene.frame_end)
+    for what, waits in pulse.waits().items():
+        judge(person, what, waits[:-1])  # the last one is that for the results and their chart
+        person.note(f"writing the results kept {what} waiting for {waits[-1, 0]:.2f} s")
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    person.expect("the run is complete", summary["completed"])
+    with np.load(folder / "results.npz") as arrays:
+        person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, person.scene.frame_end + 1)))
+    person.expect("no handler is left", dict(handlers()), {})
+    person.expect_reports("nothing but the results is reported", "Results are in")
+
+
+def judge(person: Person, what: str, waits: np.ndarray) -> None:
+    """Note how long Blender did not look for events, or did not draw, and judge it by the time that it worked."""
+    for name, column in zip(("by the clock", "of work"), waits.T, strict=True):
+        middle, most, longest = np.quantile(column, (0.5, SHARE, 1.0))
+        times = f"{middle:.3f} s in the middle, {most:.3f} s for {SHARE:.0%}, {longest:.3f} s at most"
+        is_judged = name == "of work"
+        trouble = "too long" if is_judged and not (most < ANSWER_S and longest < LONGEST_S) else ""
+        person.note(f"{len(column)} waits between {what} while it runs, {name}: {times}", trouble)
+
+
 def bake(person: Person) -> Steps:
-    start(person, "bake")
+    yield from person.click("bda.bake")
     yield 0.5
-    person.expect("it is baked", person.scene.rigidbody_world.point_cache.is_baked)
-    start(person, "delete_bake")
+    world = person.scene.rigidbody_world
+    person.expect("it is baked", world.point_cache.is_baked)
+    yield from person.picture("baked")
+    person.scene.frame_set(person.scene.frame_end)
     yield 0.5
-    person.expect("the bake is deleted", not person.scene.rigidbody_world.point_cache.is_baked)
+    last = {row["body"]: row for row in rows(person.folder / "results" / "debris_log.csv")}
+    graph = person.window.view_layer.depsgraph
+    apart = [
+        np.linalg.norm(
+            np.array(each.evaluated_get(graph).matrix_world.translation)
+            - [float(last[each.name][f"{axis}_m"]) for axis in "xyz"]
+        )
+        for each in world.collection.objects
+    ]
+    person.expect("the bake leaves bodies where the debris log says", max(apart) < 1e-3)
+    yield from person.click("bda.delete_bake")
+    yield 0.5
+    person.expect("the bake is deleted", not world.point_cache.is_baked)
+    person.expect_reports("nothing but the bake is reported", "Baked: ")
 
 
 def switch_off_while_it_runs(person: Person) -> Steps:
-    start(person, "run", person.folder / "switched_off")
-    yield from person.wait_for("it runs", lambda: person.scene.frame_current >= 8)
+    yield from run(person, "switched_off")
+    yield from person.wait_for("it runs again", lambda: person.scene.frame_current >= 8)
     bpy.ops.preferences.addon_disable(module=EXTENSION)
     yield 1.0
     yield from person.picture("switched_off_while_running")
     person.expect("no handler is left after switching off", dict(handlers("")), {})
-
-
-def start(person: Person, operator: str, folder=None) -> None:
-    """As its button does."""
-    with bpy.context.temp_override(window=person.window, area=person.view, region=person.sidebar):
-        person.scene.bda.scenario_path = str(SCENARIO)
-        person.scene.bda.output_directory = str(folder or person.folder)
-        getattr(bpy.ops.bda, operator)("INVOKE_DEFAULT")

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Open every panel, scroll through all of them, and see how long they take with many shards and charges."""
 
-import importlib
 import time
 from collections.abc import Callable
+from statistics import median
 
 import bpy
 from habits import load
 from person import Person, Steps
-from traces import EXTENSION
+from traces import module
 
 SHARDS = 1000
 CHARGES = 100
 MOST_MS = 2.0
-SCROLLS = 12
+SCROLLS = 20
 NOTCHES = 9
 """Of the mouse wheel; together they move the sidebar by less than it is high."""
 
@@ -38,7 +38,7 @@ def steps(person: Person) -> Steps:
 
 def open_panels(seconds: dict[str, list[float]]) -> None:
     """Have all panels open from the beginning, and take their times."""
-    classes = importlib.import_module(EXTENSION + ".ui.classes").classes()
+    classes = (*module("ui.classes").classes(), *module("ui.contour_panel").CLASSES)
     found = [each for each in classes if issubclass(each, bpy.types.Panel)]
     for each in reversed(found):
         bpy.utils.unregister_class(each)
@@ -50,9 +50,9 @@ def open_panels(seconds: dict[str, list[float]]) -> None:
 
 def timed(draw: Callable, seconds: list[float]) -> Callable:
     def timed_draw(self, context) -> None:
-        began = time.perf_counter()
+        began = time.thread_time()  # without what others on the machine do meanwhile
         draw(self, context)
-        seconds.append(time.perf_counter() - began)
+        seconds.append(time.thread_time() - began)
 
     return timed_draw
 
@@ -64,8 +64,8 @@ def make_many(person: Person) -> Steps:
     settings.scenario.connections.use_search_radius_m = False
     yield from person.click("bda.build_scenario")
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)
-    charge = importlib.import_module(EXTENSION + ".core.blast.charges").Charge
-    create = importlib.import_module(EXTENSION + ".scene.charges").create_charges
+    charge = module("core.blast.charges").Charge
+    create = module("scene.charges").create_charges
     places = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
     create(person.scene, [charge(name=f"Charge {n}", place_m=place, mass_kg=1.0) for n, place in enumerate(places, 1)])
     settings.charge_index = 5
@@ -84,8 +84,8 @@ def measure(person: Person, seconds: dict[str, list[float]]) -> Steps:
     for _ in range(20):
         person.sidebar.tag_redraw()
         yield 0.05
-    means = {name: 1e3 * sum(times) / max(len(times), 1) for name, times in seconds.items()}
-    total = sum(means.values())
-    slowest = max(means, key=means.get)
-    person.note(f"all panels together are drawn in {total:.2f} ms, {slowest} in {means[slowest]:.2f} ms")
+    usual = {name: 1e3 * median(times) if times else 0.0 for name, times in seconds.items()}
+    total = sum(usual.values())
+    slowest = max(usual, key=usual.get)
+    person.note(f"all panels together are usually drawn in {total:.2f} ms, {slowest} in {usual[slowest]:.2f} ms")
     person.expect(f"less than {MOST_MS} ms", total < MOST_MS)

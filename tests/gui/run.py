@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -33,7 +34,10 @@ JOBS = tuple(
 )
 REPEATED = (*JOBS, *(upheaval_job(upheaval, ALONE) for upheaval in UPHEAVALS))
 """Those that may crash for Blender's own sake are not part of a run of all."""
-JOB_SECONDS = 300
+JOB_SECONDS = 1800
+
+PICTURES = "pictures"
+"""Folder of a job's pictures for the walk-through."""
 
 ENDED_BY_SIGNAL = 128
 """Exit statuses above this one are signals."""
@@ -73,6 +77,8 @@ def main() -> int:
         failures = sum([repeat_job(machine, output, job, options.repeat) for job in jobs])
     else:
         failures = sum([run_job(machine, output, job) for job in jobs])
+    if options.pictures and not failures:
+        keep_pictures(output, jobs, options.pictures)
     print(f"{failures} failed" if failures else "all as it should be", f"- screenshots and logs are in {output}")
     return 1 if failures else 0
 
@@ -99,6 +105,12 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--repeat", type=int, default=1, metavar="N", help="do every job so often, and count how often Blender crashes"
     )
+    parser.add_argument(
+        "--pictures",
+        type=Path,
+        metavar="DIR",
+        help="copy the pictures that the jobs make for the walk-through there, if everything was as it should be",
+    )
     return parser.parse_args()
 
 
@@ -109,6 +121,14 @@ def emptied(folder: Path) -> Path:
         shutil.rmtree(folder / name, ignore_errors=True)
         (folder / name).mkdir()
     return folder
+
+
+def keep_pictures(output: Path, jobs: Sequence[str], folder: Path) -> None:
+    """Copy the pictures that jobs made for the walk-through."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for job in jobs:
+        for picture in (output / job / PICTURES).glob("*.png"):
+            shutil.copyfile(picture, folder / picture.name)
 
 
 def build(machine: System | DebianRoot, output: Path) -> Path:
@@ -156,7 +176,7 @@ def blender(machine: System | DebianRoot, output: Path, *arguments: str) -> subp
 def environment(output: Path) -> dict[str, str]:
     """Nothing of the person's own settings and packages."""
     return {
-        "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
+        "PATH": f"{HERE / 'programs'}:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
         "LANG": "C.UTF-8",
         "HOME": str(output / "home"),
         "TMPDIR": str(output / "home"),

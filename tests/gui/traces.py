@@ -2,13 +2,53 @@
 """What the extension leaves in Blender and on disk, for a job to check."""
 
 import csv
+import importlib
 from collections import Counter
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import bpy
+import numpy as np
+from person import Person
 
 EXTENSION = "bl_ext.user_default.bridge_demolition_addon"
-SCENARIO = Path(__file__).resolve().parent / "small.toml"
+CHECKOUT = Path(__file__).resolve().parents[2]
+SCENARIO = CHECKOUT / "tests" / "gui" / "small.toml"
+PRESETS = CHECKOUT / "bridge_demolition_addon" / "ui" / "presets"
+
+
+def module(name: str) -> ModuleType:
+    """A module of the extension."""
+    return importlib.import_module(f"{EXTENSION}.{name}")
+
+
+def scenario_in(file: Path) -> Any:
+    """The scenario in a file."""
+    return module("core.scenario.file").read_scenario(file)
+
+
+def scenario_shown(scene: bpy.types.Scene) -> Any:
+    """The scenario that the panels show."""
+    return module("ui.scenario_values").scenario_of(scene.bda)
+
+
+def charges(scene: bpy.types.Scene) -> tuple[Any, ...]:
+    """The charges of a scene."""
+    return module("scene.charges").charges_of(scene)
+
+
+def colours(person: Person, shown: bool = False) -> np.ndarray:
+    """Colours of all bodies, their own or as they are shown."""
+    bodies = person.scene.rigidbody_world.collection.all_objects
+    graph = person.window.view_layer.depsgraph
+    return np.array([(each.evaluated_get(graph) if shown else each).color for each in bodies])
+
+
+def opened() -> list[str]:
+    """What the system's file manager was asked to open."""
+    file = Path.home() / "opened.txt"
+    return file.read_text(encoding="utf-8").splitlines() if file.exists() else []
 
 
 def handlers(module: str = "simulation.handlers") -> Counter[str]:

@@ -96,6 +96,13 @@ def test_every_active_body_gets_a_force_object_once(built):
     assert len(fields) == 31
 
 
+def test_force_objects_leave_the_selection_as_it_is(built):
+    """Whatever is selected is moved or deleted by the next key."""
+    before = list(built.context.selected_objects)
+    built.ops.bda.build_force_objects()
+    assert list(built.context.selected_objects) == before
+
+
 def test_buttons_without_a_world_are_greyed(extension):
     assert not extension.ops.bda.build_force_objects.poll()
     assert not extension.ops.bda.show_total_mass.poll()

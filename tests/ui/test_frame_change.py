@@ -2,6 +2,7 @@
 
 import csv
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -145,6 +146,14 @@ def test_results_lead_to_body_and_frame(built, tmp_path):
     assert built.context.view_layer.objects.active.name == largest["body"]
     with pytest.raises(RuntimeError, match="not in this scene any more"):
         built.ops.bda.go_to_body(body="Shard 99999", frame=1)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems open folders by themselves")
+def test_a_system_that_opens_no_folders_is_told_of(built, monkeypatch):
+    record(built)
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(RuntimeError, match="no xdg-open, which opens folders"):
+        built.ops.bda.open_results()
 
 
 def test_results_tell_the_totals(built, tmp_path):

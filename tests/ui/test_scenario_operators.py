@@ -173,3 +173,14 @@ def test_settings_are_saved_with_the_file(extension, settings, tmp_path):
     extension.ops.wm.read_factory_settings(use_empty=True)
     extension.ops.wm.open_mainfile(filepath=file)
     assert scenario_of(extension.context.scene.bda) == expected
+
+
+def test_building_by_its_button_leaves_the_selection(extension, settings):
+    """The shards are selected meanwhile, for the view to show them."""
+    context = extension.context
+    settings.scenario_path = str(SMALL)
+    charge = extension.data.objects.new("Charge", None)
+    context.scene.collection.objects.link(charge)
+    charge.select_set(True)
+    extension.ops.bda.build_scenario("INVOKE_DEFAULT")
+    assert list(context.selected_objects) == [charge]
