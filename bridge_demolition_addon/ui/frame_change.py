@@ -19,7 +19,7 @@ from ..simulation.output import SCENARIO_FILE, checked_log, keep_results, prepar
 from ..simulation.playing import start_over
 from ..simulation.recording import Recording, check_recordable
 from ..simulation.run_summary import Subject, rest_watch, run_summary
-from . import last_recording, redraw
+from . import last_recording, redraw, running
 from .explosion import keep_blast
 from .refusal import absolute, refused
 from .scenario_values import scenario_of, table_of
@@ -66,6 +66,9 @@ class BDA_OT_unregister_handler(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not handlers.current():
             cls.poll_message_set("No handler is registered")
+            return False
+        if running.goes_on():
+            cls.poll_message_set("Run is at work: Esc stops it")
             return False
         return True
 

@@ -7,7 +7,7 @@ from ..scene.world import keep_played_frames
 from ..simulation import handlers
 from ..simulation.playing import Playing
 from ..simulation.safe_render import frames_are_known
-from . import redraw
+from . import redraw, running
 from .frame_change import keep_recording, new_recording, rest_to_stop_at, why_not_recorded
 
 _TICK_S = 0.001
@@ -24,9 +24,6 @@ _LOOKING_ROUND = {
 """Events that Blender gets as ever; all others would change what is simulated, or undo it."""
 
 _SLOW_FRAME_S = 0.5
-
-_timers: list[bpy.types.Timer] = []
-"""Of the run that goes on, if any: switching the extension off takes its operator away without a word to it."""
 
 
 class BDA_OT_run(bpy.types.Operator):
@@ -58,10 +55,8 @@ class BDA_OT_run(bpy.types.Operator):
             bpy.ops.screen.animation_cancel(restore_frame=False)
         if not self._begin(context):
             return {"CANCELLED"}
-        manager = context.window_manager
-        manager.progress_begin(0, self._playing.total)
-        _timers.append(manager.event_timer_add(_TICK_S, window=context.window))
-        manager.modal_handler_add(self)
+        running.begin(context, _TICK_S, self._playing.total)
+        context.window_manager.modal_handler_add(self)
         redraw.follow_recording()
         return {"RUNNING_MODAL"}
 
@@ -82,7 +77,7 @@ class BDA_OT_run(bpy.types.Operator):
     def cancel(self, context: bpy.types.Context) -> None:
         """Called by Blender where it ends the run itself, as it does before another file is loaded."""
         self._playing.end()
-        _stop_showing(context)
+        running.end(context)
 
     def _begin(self, context: bpy.types.Context) -> bool:
         try:
@@ -99,7 +94,7 @@ class BDA_OT_run(bpy.types.Operator):
         context.workspace.status_text_set(progress_text(playing))
 
     def _leave(self, context: bpy.types.Context) -> set[str]:
-        _stop_showing(context)
+        running.end(context)
         return self._end()
 
     def _end(self) -> set[str]:
@@ -183,7 +178,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Take the operators away, and what a run that goes on shows."""
-    _stop_showing(bpy.context)
+    running.end(bpy.context)
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)
 
@@ -200,12 +195,3 @@ def progress_text(playing: Playing) -> str:
     if playing.longest_frame_s > _SLOW_FRAME_S:
         parts.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
     return " | ".join(parts)
-
-
-def _stop_showing(context: bpy.types.Context) -> None:
-    if not _timers:
-        return
-    context.window_manager.event_timer_remove(_timers.pop())
-    context.window_manager.progress_end()
-    if context.workspace:
-        context.workspace.status_text_set(None)
