@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
 
-Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg, and docs/gallery.md is written anew. With
-names of examples only those are run again; texts and times of all others stay.
+Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg, and docs/gallery.md is written anew, as is the
+table of examples in the README. With names of examples only those are run again; texts and times of all others stay.
 """
 
 import json
@@ -16,6 +16,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES, RUNS = ROOT / "examples", ROOT / "runs" / "gallery"
+README, TABLE = ROOT / "README.md", ("<!-- examples: scripts/gallery -->\n", "<!-- end of examples -->\n")
 PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gallery"
 TIMES = PICTURES / "times.json"
 """Seconds that each run took, kept so that a page can be written without all of them."""
@@ -50,6 +51,7 @@ def main(names: list[str]) -> int:
         side_by_side(RUNS / path.stem / "frames", PICTURES / f"{path.stem}.jpg")
         TIMES.write_text(json.dumps(times() | {path.stem: seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    README.write_text(with_table(README.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
     return 0
 
 
@@ -89,14 +91,30 @@ def page() -> str:
     return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples())])
 
 
+def with_table(readme: str) -> str:
+    """The README with a table of all examples and their times in its place."""
+    before, rest = readme.split(TABLE[0])
+    _, after = rest.split(TABLE[1])
+    taken = times()
+    rows = [
+        f"| [{path.stem}](examples/{path.name}) | {title(path)} | {rounded(taken[path.stem])} |" for path in examples()
+    ]
+    table = "\n".join(["", "| example | what it shows | s |", "| --- | --- | --- |", *rows, "", ""])
+    return before + TABLE[0] + table + TABLE[1] + after
+
+
+def title(path: Path) -> str:
+    """Title of a scenario."""
+    return tomllib.loads(path.read_text(encoding="utf-8"))["scenario"]["title"]
+
+
 def section(path: Path, seconds: float | None) -> str:
     """One example: its title, its pictures, its words and how long it takes."""
-    title = tomllib.loads(path.read_text(encoding="utf-8"))["scenario"]["title"]
     told = [each for each in paragraphs(path) if not each.startswith(LEFT_OUT)]
     took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
     file = f"[{path.name}](../examples/{path.name})"
-    picture = f"![{title}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"
-    return "\n\n".join([f"## {title}", picture, *told, " ".join([f"Scenario: {file}.", *took])]) + "\n"
+    picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"
+    return "\n\n".join([f"## {title(path)}", picture, *told, " ".join([f"Scenario: {file}.", *took])]) + "\n"
 
 
 def paragraphs(path: Path) -> list[str]:

@@ -25,6 +25,11 @@ def test_the_page_is_made_of_what_the_examples_say():
     assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page()
 
 
+def test_the_readme_lists_all_examples():
+    text = gallery.README.read_text(encoding="utf-8")
+    assert text == gallery.with_table(text)
+
+
 def test_every_example_has_its_picture_and_its_time_and_no_other_has():
     names = {path.stem for path in gallery.examples()}
     assert {path.stem for path in gallery.PICTURES.glob("*.jpg")} == names
