@@ -35,7 +35,7 @@ class Layout:
     def row(self, **_settings: object) -> "Layout":
         return self
 
-    column = box = row
+    column = box = split = row
 
     def prop(self, *_names: object, **_settings: object) -> None:
         pass

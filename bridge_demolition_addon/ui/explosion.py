@@ -17,9 +17,11 @@ from .scenario_values import table_of
 from .sidebar import SidebarPanel, letters_of
 
 _NEW_CHARGE_KG = 10.0
-_LETTERS_FOR_PLACES = 55
-_LETTERS_FOR_ALL = 80
+_LETTERS_FOR_PLACES = 65
+_LETTERS_FOR_ALL = 90
 """Width of the sidebar from which a row of the list shows more than name and mass."""
+_SHARE_OF_NAME = 0.35
+"""Of a row of the list: the rest is for numbers."""
 
 
 def keep_blast(scene: bpy.types.Scene) -> None:
@@ -126,8 +128,9 @@ class BDA_UL_charges(bpy.types.UIList):
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index) -> None:
         """Name and mass always, the rest where the sidebar is wide enough for it."""
         letters = letters_of(context)
-        row = layout.row(align=True)
-        row.prop(item, "name", text="", emboss=False, icon="EMPTY_AXIS")
+        halves = layout.split(factor=_SHARE_OF_NAME, align=True)
+        halves.prop(item, "name", text="", emboss=False, icon="EMPTY_AXIS")
+        row = halves.row(align=True)
         if not is_charge(item):
             row.label(text="no charge")
             return
