@@ -51,9 +51,9 @@ def test_blast_pushes_away_from_the_charges(loud):
     assert loud.summary["charges"]["mass_kg"] == sum(charge.mass_kg for charge in charges)
 
 
+@pytest.mark.parametrize("loud", ["single_span_explosives"], indirect=True)
 def test_shards_near_a_charge_fly_away_from_it(loud):
-    if loud.scenario.blast.apply == "fields":
-        pytest.skip("a field spreads each load over its frame of 42 ms: most columns hold")
+    # In the other example a field spreads each load over a frame of 42 ms, and most columns hold.
     for charge in loud.scenario.placed_charges:
         nearest = loud.near(charge, 3.5)
         loaded = loud.at(loud.scenario.blast.start_s + charge.delay_s) + 1  # the wave is past them within 10 ms

@@ -12,8 +12,9 @@ from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.core.scenario import Removal, SawCut, Weakening
 from bridge_demolition_addon.core.strength import Ductility, Strength
+from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.breaking import Breaking
-from bridge_demolition_addon.scene.changes import changes_of, keep_changes, mark_member
+from bridge_demolition_addon.scene.changes import changes_of, keep_changes
 from bridge_demolition_addon.simulation import handlers
 from bridge_demolition_addon.simulation.recording import Recording
 
