@@ -12,7 +12,7 @@ from ..scene.charges import DELAY, EXPLOSIVE, MASS, charge_collection, charge_ob
 from ..scene.explosion import explosion_settings, keep_explosion
 from ..scene.force_fields import build_force_objects
 from .charge_properties import shown_charge
-from .refusal import refused
+from .refusal import Refusing, no_world, refused
 from .scenario_values import table_of
 from .sidebar import SidebarPanel, letters_of
 
@@ -83,7 +83,7 @@ class BDA_OT_delete_source_point(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_build_force_objects(bpy.types.Operator):
+class BDA_OT_build_force_objects(Refusing, bpy.types.Operator):
     """Give every shard a force object, through which the blast pushes it, and remove those of shards that are gone"""
 
     bl_idname = "bda.build_force_objects"
@@ -91,8 +91,8 @@ class BDA_OT_build_force_objects(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return _has_world(cls, context)
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return no_world(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
@@ -104,7 +104,7 @@ class BDA_OT_build_force_objects(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_show_total_mass(bpy.types.Operator):
+class BDA_OT_show_total_mass(Refusing, bpy.types.Operator):
     """Add up the masses of all active bodies but the ball"""
 
     bl_idname = "bda.show_total_mass"
@@ -112,8 +112,8 @@ class BDA_OT_show_total_mass(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return _has_world(cls, context)
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return no_world(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")
@@ -184,11 +184,3 @@ CLASSES = (
     BDA_UL_charges,
     BDA_PT_explosion,
 )
-
-
-def _has_world(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    world = context.scene.rigidbody_world
-    if not world or not world.collection:
-        operator.poll_message_set("This scene has no rigid-body world: build a scenario first")
-        return False
-    return True

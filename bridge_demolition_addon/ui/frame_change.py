@@ -21,7 +21,7 @@ from ..simulation.recording import Recording, check_recordable
 from ..simulation.run_summary import Subject, rest_watch, run_summary
 from . import last_recording, redraw, running
 from .explosion import keep_blast
-from .refusal import absolute, refused
+from .refusal import Refusing, absolute, refused
 from .scenario_values import scenario_of, table_of
 from .sidebar import SidebarPanel, draw_sentence
 
@@ -31,18 +31,15 @@ _subjects: WeakKeyDictionary[Recording, Subject] = WeakKeyDictionary()
 """What each recording is of."""
 
 
-class BDA_OT_register_handler(bpy.types.Operator):
+class BDA_OT_register_handler(Refusing, bpy.types.Operator):
     """Go to the start frame, and record forces and debris from there while the timeline plays"""
 
     bl_idname = "bda.register_handler"
     bl_label = "Register Handler"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if reason := why_not_recorded(context.scene):
-            cls.poll_message_set(reason)
-            return False
-        return True
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return why_not_recorded(context.scene)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
@@ -56,21 +53,17 @@ class BDA_OT_register_handler(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_unregister_handler(bpy.types.Operator):
+class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
     """End the recording and write its results"""
 
     bl_idname = "bda.unregister_handler"
     bl_label = "Unregister Handler"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, _context: bpy.types.Context) -> str | None:
         if not handlers.current():
-            cls.poll_message_set("No handler is registered")
-            return False
-        if running.goes_on():
-            cls.poll_message_set("Run is at work: Esc stops it")
-            return False
-        return True
+            return "No handler is registered"
+        return "Run is at work: Esc stops it" if running.goes_on() else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         recording = handlers.stop()

@@ -7,6 +7,29 @@ import bpy
 from ..core.errors import OutputError
 
 
+class Refusing:
+    """Base of buttons that are greyed, with a reason in their tooltip, as long as they cannot work."""
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        """Why the button cannot work now, in a sentence; None where it can."""
+        raise NotImplementedError
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if reason := cls.why_not(context):
+            cls.poll_message_set(reason)
+        return not reason
+
+
+def no_world(context: bpy.types.Context) -> str | None:
+    """That the scene has no rigid-body world, in a sentence; None where it has."""
+    world = context.scene.rigidbody_world
+    if world and world.collection:
+        return None
+    return "This scene has no rigid-body world: build a scenario first"
+
+
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
     """End an operator with a message."""
     operator.report({"ERROR"}, str(error))

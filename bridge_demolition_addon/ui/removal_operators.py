@@ -4,23 +4,19 @@ import bpy
 
 from ..scene.removal import remove_demolition, remove_loose_connections
 from ..simulation import contours, handlers
+from .refusal import Refusing, no_world
 
 
-class _Removal:
+class _Removal(Refusing):
     """Base of the two."""
 
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        world = context.scene.rigidbody_world
-        if not world or not world.collection:
-            cls.poll_message_set("This scene has no rigid-body world: there is nothing to remove")
-            return False
-        if handlers.current():
-            cls.poll_message_set("A recording runs: unregister its handler first")
-            return False
-        return True
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if no_world(context):
+            return "This scene has no rigid-body world: there is nothing to remove"
+        return "A recording runs: unregister its handler first" if handlers.current() else None
 
 
 class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):

@@ -12,7 +12,7 @@ from ..core.errors import DemolitionError, OutputError
 from ..simulation import handlers
 from . import last_recording
 from .looking import look_at_selected, select_only
-from .refusal import refused
+from .refusal import Refusing, refused
 from .sidebar import SidebarPanel, draw_sentence
 
 _CHARTS = "charts"
@@ -54,15 +54,15 @@ class BDA_OT_go_to_body(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_open_results(bpy.types.Operator):
+class BDA_OT_open_results(Refusing, bpy.types.Operator):
     """Open the folder of the last recording in the system's file manager"""
 
     bl_idname = "bda.open_results"
     bl_label = "Open Folder"
 
     @classmethod
-    def poll(cls, _context: bpy.types.Context) -> bool:
-        return _has_results(cls)
+    def why_not(cls, _context: bpy.types.Context) -> str | None:
+        return _nothing_recorded()
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
         folder = last_recording.last().folder
@@ -74,15 +74,15 @@ class BDA_OT_open_results(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_draw_charts(bpy.types.Operator):
+class BDA_OT_draw_charts(Refusing, bpy.types.Operator):
     """Draw the forces over time, and the charts to choose charges by, into the folder of the last recording"""
 
     bl_idname = "bda.draw_charts"
     bl_label = "Draw Charts"
 
     @classmethod
-    def poll(cls, _context: bpy.types.Context) -> bool:
-        return _has_results(cls)
+    def why_not(cls, _context: bpy.types.Context) -> str | None:
+        return _nothing_recorded()
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         # Loading matplotlib takes a second, which switching the extension on need not wait for.
@@ -151,8 +151,5 @@ def lines_of(summary: dict[str, Any]) -> list[str]:
     ]
 
 
-def _has_results(operator: type[bpy.types.Operator]) -> bool:
-    if last_recording.last() is None:
-        operator.poll_message_set("Nothing was recorded yet: register the handler and play")
-        return False
-    return True
+def _nothing_recorded() -> str | None:
+    return None if last_recording.last() else "Nothing was recorded yet: register the handler and play"

@@ -9,6 +9,7 @@ from ..simulation.playing import Playing
 from ..simulation.safe_render import frames_are_known
 from . import redraw, running
 from .frame_change import keep_recording, new_recording, rest_to_stop_at, why_not_recorded
+from .refusal import Refusing
 
 _TICK_S = 0.001
 """Between two frames: Blender takes in mouse and keyboard, and draws."""
@@ -26,18 +27,15 @@ _LOOKING_ROUND = {
 _SLOW_FRAME_S = 0.5
 
 
-class BDA_OT_run(bpy.types.Operator):
+class BDA_OT_run(Refusing, bpy.types.Operator):
     """Simulate and record from the start frame to the last one, and write the results; Esc stops"""
 
     bl_idname = "bda.run"
     bl_label = "Run"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if reason := why_not_recorded(context.scene):
-            cls.poll_message_set(reason)
-            return False
-        return True
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return why_not_recorded(context.scene)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """The whole run in one call, for scripts."""
