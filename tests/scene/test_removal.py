@@ -19,11 +19,19 @@ from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.painting import painted_points
 from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
 from bridge_demolition_addon.scene.slow_motion import time_is_animated
-from bridge_demolition_addon.simulation import handlers
+from bridge_demolition_addon.simulation import handlers, watch
 from bridge_demolition_addon.simulation.recording import Recording
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 I235 = replace(read_scenario(EXAMPLES / "i235_one_span.toml"), fracture=FractureSettings(shards=30))
+
+
+@pytest.fixture
+def watched():
+    """Deleting a body that was simulated crashes Blender by itself; the add-on watches over it."""
+    watch.register()
+    yield
+    watch.unregister()
 
 
 def shards_of(scene):
@@ -103,7 +111,7 @@ def test_what_was_not_built_here_stays(blender):
 
 
 @pytest.mark.parametrize("played", [0, 12])
-def test_loose_connections_are_removed_and_no_other(blender, tmp_path, played):
+def test_loose_connections_are_removed_and_no_other(blender, watched, tmp_path, played):
     scene = blender.context.scene
     build_demolition(scene, I235, build_model(I235))
     shard = shards_of(scene)[3]
