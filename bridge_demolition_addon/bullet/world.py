@@ -161,11 +161,12 @@ class BulletWorld:
         To be called before a sub-step, from a function of `call_around_substeps`: Bullet forgets them after it. A body
         that sleeps or cannot move is not moved by them.
         """
-        named, rows = np.unique(bodies, return_inverse=True)
+        count = len(self.bodies)
+        named = self._named(bodies)
         for offset, values in ((0, forces_n), (32, torques_nm)):
             if values is None:
                 continue
-            sums = np.column_stack([np.bincount(rows.ravel(), column, len(named)) for column in values.T])
+            sums = np.column_stack([np.bincount(bodies, column, count) for column in values.T])[named]
             fields = self._body_addresses[named] + np.uint64(self._layout.body.total_force + offset)
             write_vectors(fields, gather_doubles(fields, 3) + sums)
 
@@ -175,9 +176,9 @@ class BulletWorld:
         To be called before a sub-step: Bullet has passed the sleeping ones by when it gave all others their weight, so
         they get it here.
         """
-        named = np.unique(bodies)
+        named = self._named(bodies)
         states = gather_integers(self._body_addresses[named] + np.uint64(self._layout.body.activation))
-        drowsy = self._body_addresses[named[np.isin(states, (ASLEEP, WANTS_SLEEP))]]
+        drowsy = self._body_addresses[named[(states == ASLEEP) | (states == WANTS_SLEEP)]]
         write_integers(drowsy + np.uint64(self._layout.body.activation), AWAKE)
         write_doubles(drowsy + np.uint64(self._layout.body.deactivation_time), 0.0)
         sleeping = named[states == ASLEEP]
@@ -335,6 +336,10 @@ class BulletWorld:
         self._point_feedback_at(np.uint64(0))
         retire(self._layout, dynamics, self._body_addresses, connections, alive)
         self._exists[:] = False
+
+    def _named(self, bodies: np.ndarray) -> np.ndarray:
+        """Those of bodies (k,), each once and in order."""
+        return np.flatnonzero(np.bincount(bodies, minlength=len(self.bodies)))
 
     def _forget_freed_connections(self) -> None:
         """Leave those alone that Blender has freed by now."""

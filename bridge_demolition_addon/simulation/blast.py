@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..bullet.world import BulletWorld
-from ..core.blast.explosion import Explosion, StepLoads, added, no_loads
+from ..core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ..core.blast.hulls import convex_hulls
 from ..core.blast.isolation import Reaches, isolating_reaches
 from ..core.errors import SimulationError
@@ -102,7 +102,7 @@ class DirectBlast:
     def __init__(self, world: BulletWorld, rows: np.ndarray, explosion: Explosion):
         self._world, self._rows, self._explosion = world, rows, explosion
         self._elapsed_s = 0.0
-        self._loads = no_loads()
+        self._loads: list[StepLoads] = []
 
     def begin_frame(self, start_s: float) -> None:
         """Set the time at which the coming frame begins."""
@@ -117,15 +117,15 @@ class DirectBlast:
         loads = self._explosion.loads(start_s, self._elapsed_s, centres[self._rows], rotations[self._rows])
         if not len(loads):
             return
-        pushed = np.unique(loads.bodies)
+        pushed = np.flatnonzero(np.bincount(loads.bodies, minlength=len(self._rows)))
         forces = loads.vectors(len(self._rows))[pushed] / substep_s
         self._world.wake(self._rows[pushed])
         self._world.add_forces(self._rows[pushed], forces)
-        self._loads = added(self._loads, loads)
+        self._loads.append(loads)
 
     def after_frame(self) -> StepLoads:
         """The loads of the frame."""
-        loads, self._loads = self._loads, no_loads()
+        loads, self._loads = sum_of_loads(self._loads), []
         return loads
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion, added, no_loads
+from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion, sum_of_loads
 from bridge_demolition_addon.core.blast.hulls import convex_hulls
 from bridge_demolition_addon.core.blast.isolation import LONGEST_M, WIDEST_M, isolating_reaches
 
@@ -84,11 +84,11 @@ def test_a_body_behind_another_gets_nothing_where_it_is_shielded():
 def test_loads_of_two_steps_become_those_of_one():
     blast = explosion(charge((0, 0, 0)), charge((1, 0, 0), delay=0.001))
     whole = explosion(charge((0, 0, 0)), charge((1, 0, 0), delay=0.001)).loads(0.0, 0.05, CENTRES, UPRIGHT)
-    parts = no_loads()
-    for start, end in ((0.0, 0.0105), (0.0105, 0.0121), (0.0121, 0.05)):
-        parts = added(parts, blast.loads(start, end, CENTRES, UPRIGHT))
+    steps = ((0.0, 0.0105), (0.0105, 0.0121), (0.0121, 0.05))
+    parts = [blast.loads(start, end, CENTRES, UPRIGHT) for start, end in steps]
     for name in whole.__dataclass_fields__:
-        np.testing.assert_allclose(getattr(parts, name), getattr(whole, name), rtol=1e-12)
+        np.testing.assert_allclose(getattr(sum_of_loads(parts), name), getattr(whole, name), rtol=1e-12)
+    assert not len(sum_of_loads([]))
 
 
 def test_no_field_holds_the_centre_of_another_body():

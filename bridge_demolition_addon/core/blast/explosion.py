@@ -74,9 +74,8 @@ class StepLoads:
 
     def vectors(self, count: int) -> np.ndarray:
         """Impulse (count, 3) in N·s on each of so many bodies, of all charges together."""
-        sums = np.zeros((count, 3))
-        np.add.at(sums, self.bodies, self.impulses_ns[:, None] * self.directions)
-        return sums
+        columns = (self.impulses_ns[:, None] * self.directions).T
+        return np.column_stack([np.bincount(self.bodies, column, count) for column in columns])
 
 
 class Explosion:
@@ -123,7 +122,7 @@ class Explosion:
         bodies, charges = np.nonzero(during)
         if not len(bodies):
             return no_loads()
-        active = np.unique(charges)
+        active = np.flatnonzero(during.any(axis=0))
         pairs = bodies, np.searchsorted(active, charges)
         areas = projected_areas(self._hulls, rotations, self._directions[:, active])[pairs]
         areas = areas * self._shares[bodies, charges]
@@ -177,20 +176,20 @@ def no_loads() -> StepLoads:
     return StepLoads(none, none, nothing, nothing, nothing, np.zeros((0, 3)), nothing, nothing, nothing)
 
 
-def added(first: StepLoads, second: StepLoads) -> StepLoads:
-    """Loads of two steps of time that follow each other, as those of one step.
+def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
+    """Loads of steps of time that follow each other, as those of one step.
 
     What does not stay the same in between, the area, is the mean that the impulses have met.
     """
-    if not len(first) or not len(second):
-        return first if len(first) else second
-    both = StepLoads(*(np.concatenate((getattr(first, name), getattr(second, name))) for name in _COLUMNS))
-    pairs = both.bodies * (1 + both.charges.max()) + both.charges
+    if not steps:
+        return no_loads()
+    every = StepLoads(*(np.concatenate([getattr(step, name) for step in steps]) for name in _COLUMNS))
+    pairs = every.bodies * (1 + every.charges.max(initial=0)) + every.charges
     pairs, rows, groups = np.unique(pairs, return_index=True, return_inverse=True)
-    impulses = np.bincount(groups.ravel(), both.impulses_ns, len(pairs))
-    pressures = np.bincount(groups.ravel(), both.pressure_impulses_pa_s, len(pairs))
-    areas = np.divide(impulses, pressures, where=pressures > 0.0, out=both.areas_m2[rows])
-    once = StepLoads(*(getattr(both, name)[rows] for name in _COLUMNS))
+    impulses = np.bincount(groups.ravel(), every.impulses_ns, len(pairs))
+    pressures = np.bincount(groups.ravel(), every.pressure_impulses_pa_s, len(pairs))
+    areas = np.divide(impulses, pressures, where=pressures > 0.0, out=every.areas_m2[rows])
+    once = StepLoads(*(getattr(every, name)[rows] for name in _COLUMNS))
     return replace(once, impulses_ns=impulses, pressure_impulses_pa_s=pressures, areas_m2=areas)
 
 

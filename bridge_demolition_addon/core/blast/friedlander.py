@@ -4,6 +4,8 @@ The report's equation 1 (Friedlander 1946). τ is the time since the front arriv
 suction that follows, the negative phase, is not modelled.
 """
 
+from math import factorial
+
 import numpy as np
 
 LARGEST_SHARE = 0.5
@@ -98,10 +100,9 @@ def _moment(order: int, exponent: np.ndarray) -> np.ndarray:
     for n in range(1, order + 1):
         closed = (n * closed - np.exp(-large)) / large
     small = np.minimum(exponent, _SERIES_BELOW)
-    series, power = np.zeros_like(small), np.ones_like(small)
-    for term in range(_SERIES_TERMS):
-        series = series + power / (term + order + 1)
-        power = power * -small / (term + 1)
+    series = np.zeros_like(small)
+    for term in reversed(range(_SERIES_TERMS)):
+        series = 1.0 / (factorial(term) * (term + order + 1)) - small * series
     return np.where(exponent < _SERIES_BELOW, series, closed)
 
 

@@ -25,6 +25,8 @@ class ConvexHulls:
         (f, 3) outward unit normals; the faces of a body follow each other.
     areas
         (f,) face areas, m².
+    face_vectors
+        (3, f) normals times areas, m².
     offsets
         (f,) distances of the faces from the body's centre of mass along their normals, m.
     starts
@@ -37,6 +39,7 @@ class ConvexHulls:
 
     normals: np.ndarray
     areas: np.ndarray
+    face_vectors: np.ndarray
     offsets: np.ndarray
     starts: np.ndarray
     vertices: np.ndarray
@@ -76,9 +79,11 @@ def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = Non
     meshes = [_hull(np.asarray(vertices, float), name) for name, vertices in zip(called, bodies, strict=True)]
     faces = [_faces(vertices[triangles]) for vertices, triangles in meshes]
     planes = np.concatenate([np.zeros((0, 4)), *(planes for planes, _ in faces)])
+    areas = np.concatenate([np.zeros(0), *(areas for _, areas in faces)])
     return ConvexHulls(
         normals=planes[:, :3],
-        areas=np.concatenate([np.zeros(0), *(areas for _, areas in faces)]),
+        areas=areas,
+        face_vectors=np.ascontiguousarray((planes[:, :3] * areas[:, None]).T),
         offsets=planes[:, 3],
         starts=np.cumsum([0, *(len(areas) for _, areas in faces)]),
         vertices=np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in meshes)]),
