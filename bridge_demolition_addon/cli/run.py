@@ -33,7 +33,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
     parser.add_argument("--no-pictures", action="store_true", help="render no pictures")
     parser.add_argument(
-        "--film", action="store_true", help="make a film with contours of force, contours.mp4; it takes minutes"
+        "--film",
+        action="store_true",
+        help="make films with contours of force, contours.mp4 and contours_slow_motion.mp4; it takes minutes",
     )
     parser.add_argument(
         "--report",

@@ -17,7 +17,7 @@ from ..core.film import film_rows
 from ..report.contour_legend import add_legend, legend_width
 from ..scene.film import PictureSettings, encode_film, set_up_for_pictures
 from . import contours
-from .output import FILM_FILE
+from .output import FILM_FILE, SLOW_FILM_FILE
 
 _PICTURE = "contours_{:06d}.png"
 
@@ -41,6 +41,8 @@ class FilmSettings:
         Of the film.
     slowness
         Seconds of film for a second of the simulation: 1 is real time.
+    slow_motion
+        Seconds of a second film, made of the same pictures, for a second of the simulation; no such film for None.
     first_frame, last_frame
         Which frames; all that were recorded for None.
     legend
@@ -52,6 +54,7 @@ class FilmSettings:
     kind: FilmKind = FilmKind.FILM
     pictures_per_second: float = 25.0
     slowness: float = 1.0
+    slow_motion: float | None = None
     first_frame: int | None = None
     last_frame: int | None = None
     legend: bool = True
@@ -102,11 +105,13 @@ class FilmRendering:
             raise ContourError(f"scene {scene.name!r} has no recording to show: record one, or load its results")
         self._scene, self._folder = scene, folder
         self._contours, self._film = contour_settings, film_settings
-        self._frames = _frames_of(series, film_settings)
+        self._films = _frames_of_films(series, film_settings)
+        self._frames = sorted(set().union(*self._films.values()))
         self._series = series
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            for old in (*folder.glob("contours_[0-9][0-9][0-9][0-9][0-9][0-9].png"), folder / FILM_FILE):
+            pictures = folder.glob("contours_[0-9][0-9][0-9][0-9][0-9][0-9].png")
+            for old in (*pictures, folder / FILM_FILE, folder / SLOW_FILM_FILE):
                 old.unlink(missing_ok=True)
         except OSError as error:
             raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
@@ -114,7 +119,7 @@ class FilmRendering:
     @property
     def picture_count(self) -> int:
         """How many pictures are to be rendered."""
-        return len(set(self._frames))
+        return len(self._frames)
 
     def pictures(self) -> Iterator[Path]:
         """Render one picture after the other; the scene is put back when the last is done, or none is wanted any more.
@@ -130,7 +135,7 @@ class FilmRendering:
             _simulation_at_rest(scene),
             set_up_for_pictures(scene, self._film.rendered),
         ):
-            for frame in sorted(set(self._frames)):
+            for frame in self._frames:
                 path = self._path(frame)
                 scene.frame_set(frame)
                 scene.render.filepath = str(path)
@@ -145,22 +150,22 @@ class FilmRendering:
                 yield path
 
     def finish(self) -> list[Path]:
-        """Make the film, if one is wanted, and tell which files were written."""
-        paths = [self._path(frame) for frame in self._frames]
+        """Make the films, if any are wanted, and tell which files were written."""
+        pictures = [self._path(frame) for frame in self._frames]
         if self._film.kind == FilmKind.PICTURES:
-            return sorted(set(paths))
-        film = self._folder / FILM_FILE
-        encode_film(paths, film, self._film.pictures_per_second)
-        for path in set(paths):
-            path.unlink()
-        return [film]
+            return pictures
+        for film, frames in self._films.items():
+            encode_film([self._path(frame) for frame in frames], self._folder / film, self._film.pictures_per_second)
+        for picture in pictures:
+            picture.unlink()
+        return [self._folder / film for film in self._films]
 
     def _path(self, frame: int) -> Path:
         return self._folder.resolve() / _PICTURE.format(frame)
 
 
-def _frames_of(series: ContourSeries, settings: FilmSettings) -> list[int]:
-    """The frame of every picture of the film."""
+def _frames_of_films(series: ContourSeries, settings: FilmSettings) -> dict[str, list[int]]:
+    """The frame of every picture of each film; those of a series of pictures count as a film's."""
     frames, times = np.array(series.frames), series.times_s
     first = frames[0] if settings.first_frame is None else settings.first_frame
     last = frames[-1] if settings.last_frame is None else settings.last_frame
@@ -168,9 +173,12 @@ def _frames_of(series: ContourSeries, settings: FilmSettings) -> list[int]:
     if not len(wanted):
         raise OutputError(f"film: of the recorded frames {frames[0]} to {frames[-1]} none is within {first} to {last}")
     if settings.kind == FilmKind.PICTURES:
-        return frames[wanted].tolist()
-    rows = film_rows(times[wanted], settings.pictures_per_second, settings.slowness)
-    return frames[wanted][rows].tolist()
+        return {FILM_FILE: frames[wanted].tolist()}
+    films = {FILM_FILE: settings.slowness}
+    if settings.slow_motion is not None:
+        films[SLOW_FILM_FILE] = settings.slow_motion
+    rows = {film: film_rows(times[wanted], settings.pictures_per_second, slow) for film, slow in films.items()}
+    return {film: frames[wanted][each].tolist() for film, each in rows.items()}
 
 
 @contextmanager

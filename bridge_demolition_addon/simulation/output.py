@@ -13,7 +13,7 @@ from ..report.force_plot import plot_forces
 SCENARIO_FILE = "scenario_as_run.toml"
 """The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
 
-FILM_FILE = "contours.mp4"
+FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 
 REPORT_FILES = ("report.html", "report.pdf", "exclusion_zone.dxf", "exclusion_zone.geojson")
 """What a report of an earlier run left, which would be wrong for a new one; its tables are cleared away as well."""
@@ -31,6 +31,7 @@ RESULT_FILES = (
     "frames/impact.png",
     "frames/after.png",
     FILM_FILE,
+    SLOW_FILM_FILE,
     SCENARIO_FILE,
     *REPORT_FILES,
 )

@@ -33,6 +33,9 @@ from .run_summary import Subject, rest_watch, run_summary
 
 PICTURES = ("before", "impact", "after")
 
+SLOW_MOTION = 5.0
+"""Seconds of the slower film for a second of the simulation."""
+
 
 class Progress(Protocol):
     """Whoever wants to know how far a run is."""
@@ -65,7 +68,8 @@ def run_scenario(
     progress
         Told about every stage and frame.
     film
-        Whether to render a film of the contours, which takes a second or more for every frame without a graphics card.
+        Whether to render a film of the contours, in real time and in slow motion, which takes a second or more for
+        every frame without a graphics card.
 
     Returns
     -------
@@ -120,7 +124,7 @@ def run_scenario(
 
 
 def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> None:
-    film = FilmRendering(scene, folder, ContourSettings(), FilmSettings())
+    film = FilmRendering(scene, folder, ContourSettings(), FilmSettings(slow_motion=SLOW_MOTION))
     for done, _ in enumerate(film.pictures(), start=1):
         progress.part(done, film.picture_count, "frames rendered")
     film.finish()

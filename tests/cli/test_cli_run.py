@@ -71,9 +71,10 @@ def test_a_film_is_made_when_it_is_wanted(scenario_path, tmp_path):
     output = tmp_path / "results"
     status, printed, _ = outcome(bda("run", scenario_path, "--output", output, "--no-pictures", "--film"))
     assert status == 0
-    assert str(output / "contours.mp4") in printed.splitlines()
-    # An MP4 file begins with a box of type ftyp (ISO/IEC 14496-12).
-    assert (output / "contours.mp4").read_bytes()[4:8] == b"ftyp"
+    for film in ("contours.mp4", "contours_slow_motion.mp4"):
+        assert str(output / film) in printed.splitlines()
+        # An MP4 file begins with a box of type ftyp (ISO/IEC 14496-12).
+        assert (output / film).read_bytes()[4:8] == b"ftyp"
     assert [path.name for path in output.glob("*.png")] == ["force_over_time.png"]
 
 

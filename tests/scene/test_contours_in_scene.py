@@ -266,6 +266,20 @@ def test_a_film_has_its_frames_and_colours(hanging, tmp_path):
     assert len(bpy.data.images) <= images + 1  # Blender's own Render Result
 
 
+def test_slow_motion_is_a_film_of_the_same_pictures(hanging, tmp_path):
+    import bpy
+
+    from bridge_demolition_addon.simulation.film import FilmRendering
+
+    settings = small_film(pictures_per_second=24.0, slow_motion=5.0)
+    rendering = FilmRendering(hanging.scene, tmp_path / "film", FRAME_BY_FRAME, settings)
+    assert rendering.picture_count == len(list(rendering.pictures())) == 7
+    films = rendering.finish()
+    assert [film.name for film in films] == ["contours.mp4", "contours_slow_motion.mp4"]
+    lengths = [bpy.data.movieclips.load(str(film)).frame_duration for film in films]
+    assert lengths == [7, 31]  # the first picture, and once or five times for each of six frames
+
+
 def test_a_film_that_cannot_be_made_is_refused(hanging, tmp_path, blender):
     from bridge_demolition_addon.scene.film import PictureSettings
     from bridge_demolition_addon.simulation import contours
