@@ -113,6 +113,7 @@ def in_own_process(folder, *parts):
             **os.environ,
             "PYTHONPATH": os.pathsep.join(map(str, (here.parent, here.parents[1]))),
             "FOLDER": str(folder),
+            "MALLOC_PERTURB_": "165",  # glibc overwrites what is freed: who uses it then crashes at once, not at times
         },
         capture_output=True,
         text=True,
@@ -162,6 +163,18 @@ def test_deleting_again_where_connections_were_left_over(tmp_path):
         bpy.data.objects.remove(row[5])
     """
     in_own_process(tmp_path, WATCHED, again, AFTERWARDS.replace("UPDATE", "bpy.context.view_layer.update()"))
+
+
+@pytest.mark.parametrize("deletion", DELETIONS.values(), ids=DELETIONS)
+def test_deleting_at_the_start_frame_what_was_simulated(tmp_path, deletion):
+    back_at_the_start = f"""
+        scene.frame_set(1)
+        {deletion}
+        bpy.context.view_layer.update()
+        play(1, 20)
+        assert not standstill.stands_still(scene)
+    """
+    in_own_process(tmp_path, WATCHED, back_at_the_start)
 
 
 def test_recording_takes_over_from_the_watch(tmp_path):
