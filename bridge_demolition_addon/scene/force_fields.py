@@ -63,6 +63,15 @@ def force_objects(scene: bpy.types.Scene) -> dict[bpy.types.Object, bpy.types.Ob
     return {each[_BODY]: each for each in _all(scene) if each[_BODY] is not None}
 
 
+def has_other_fields(scene: bpy.types.Scene) -> bool:
+    """Whether anything else in a scene may push bodies about: a field of the user's own, or particles, which may be."""
+    ours = set(_all(scene))
+    return any(
+        (each.field and each.field.type != "NONE" and each not in ours) or each.particle_systems
+        for each in scene.objects
+    )
+
+
 def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
     """The force objects of bodies, in their order.
 

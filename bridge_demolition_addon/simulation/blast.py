@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import bpy
 import numpy as np
 
+from ..bullet.ignored_fields import heed_fields, ignore_fields
 from ..bullet.world import BulletWorld
 from ..core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ..core.blast.hulls import convex_hulls
 from ..core.blast.isolation import Reaches, isolating_reaches
-from ..core.errors import SimulationError
+from ..core.errors import LayoutError, SimulationError
 from ..scene.bodies import hull_points
 from ..scene.charges import charges_of
 from ..scene.explosion import Apply, explosion_of
-from ..scene.force_fields import ForceFields
+from ..scene.force_fields import ForceFields, has_other_fields
 from ..scene.inventory import Inventory
 
 
@@ -38,6 +40,7 @@ class FieldBlast:
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], explosion: Explosion):
         self.left = 0
+        self._scene = scene
         self._fields = ForceFields(scene, bodies)
         self._explosion = explosion
         self._loads = no_loads()
@@ -47,12 +50,24 @@ class FieldBlast:
         self._centres: np.ndarray | None = None
 
     def before_frame(self, start_s: float, frame_s: float, centres: np.ndarray, rotations: np.ndarray) -> None:
-        """Aim and load the fields for a frame that begins at a time and is that long."""
+        """Aim and load the fields for a frame that begins at a time and is that long.
+
+        Raises
+        ------
+        LayoutError
+            Blender cannot be told to heed the fields again.
+        """
         self._fields.rest()
+        heed_fields(self._scene)
         self._loads, self._pushed = no_loads(), np.zeros(0, int)
-        if frame_s <= 0.0 or self._explosion.is_quiet(start_s, start_s + frame_s):
-            return
-        self._loads = self._explosion.loads(start_s, start_s + frame_s, centres, rotations)
+        if frame_s > 0.0 and not self._explosion.is_quiet(start_s, start_s + frame_s):
+            self._loads = self._explosion.loads(start_s, start_s + frame_s, centres, rotations)
+        if len(self._loads):
+            self._push(frame_s, centres)
+        else:
+            self._spare_blender_the_fields()
+
+    def _push(self, frame_s: float, centres: np.ndarray) -> None:
         impulses = self._loads.vectors(len(centres))
         sizes = np.linalg.norm(impulses, axis=1)
         self._pushed = np.flatnonzero(sizes > 0.0)
@@ -82,6 +97,14 @@ class FieldBlast:
     def rest(self) -> None:
         """Push nothing any more."""
         self._fields.rest()
+        with suppress(LayoutError):  # until Blender makes its evaluated copy anew
+            heed_fields(self._scene)
+
+    def _spare_blender_the_fields(self) -> None:
+        """Let it pass over them in the coming frame, where all are ours."""
+        if not has_other_fields(self._scene):
+            with suppress(LayoutError):  # it only takes longer
+                ignore_fields(self._scene)
 
 
 class DirectBlast:

@@ -296,6 +296,39 @@ def test_slowed_time_keeps_the_impulse(blender, tmp_path, apply):
     assert (results.blast_impulses_ns[:, 0, 0] > 0.0).sum() in (4, 5)
 
 
+def limits_of(scene):
+    return scene.view_layers[0].depsgraph.scene_eval.rigidbody_world.effector_weights
+
+
+def test_fields_are_ignored_while_none_pushes_and_heeded_afterwards(blender, tmp_path):
+    blocks = weightless(frames_per_second=1000, substeps_per_frame=1)
+    blocks.block((5.0, 0.0, 0.0), MASS_KG)
+    set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields")
+    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    ignored = []
+    for frame in range(1, 40):
+        blocks.scene.frame_set(frame)
+        ignored.append(limits_of(blocks.scene).collection is not None)
+    handlers.stop()
+    assert recording.error is None
+    pushes = np.array([frame["blast_impulses_ns"].any() for frame in recording.frames[1:]])
+    np.testing.assert_array_equal(ignored[2:], ~pushes)
+    assert pushes.any() and not pushes.all()
+    assert limits_of(blocks.scene).collection is None
+
+
+def test_fields_of_the_users_own_push_on(blender, tmp_path):
+    blocks = weightless(frames_per_second=24, substeps_per_frame=10)
+    blocks.block((5.0, 0.0, 0.0), MASS_KG)
+    set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields", start_s=10.0)
+    blender.ops.object.effector_add(type="FORCE", location=(0, 0, -2))
+    wind = blender.context.object.field
+    wind.shape, wind.strength, wind.falloff_power = "PLANE", 24.0 * MASS_KG, 0.0
+    results = blocks.play(tmp_path, 20)
+    # 1 N on every kg; Blender reckons in single precision.
+    assert results.velocities_m_s[-1, 0] == pytest.approx([0.0, 0.0, results.times_s[-1]], rel=1e-4, abs=1e-6)
+
+
 def test_building_force_objects_again_updates_and_does_not_double(blender, tmp_path):
     blocks = weightless()
     bodies = [blocks.block((x, 0, 0), MASS_KG) for x in (5.0, 8.0)]

@@ -1,0 +1,67 @@
+"""Having Blender pass over the force fields of a scene in frames in which none of them pushes.
+
+In every sub-step Blender holds every field against every body, even fields without strength: with a thousand of each,
+a frame takes three times as long. It asks for the fields of the collection that the rigid-body world is limited to,
+where it is limited to one, and knows of none in the scene's own root collection, which can be chosen for no such limit.
+
+So a pointer to that collection is written, into the evaluated copy of the scene only: set through Python, the limit
+would belong to the user's scene, and would have all of Blender's relations built anew.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core.errors import LayoutError
+from .memory import read, read_pointer, write_pointers
+
+_INFLUENCES = (
+    *("all", "force", "vortex", "magnetic", "wind", "curve_guide", "texture", "harmonic"),
+    *("charge", "lennardjones", "boid", "turbulence", "drag", "smokeflow", "gravity"),
+)
+"""Of the kinds of fields and of gravity: floats behind the pointer to the collection, by which it is known."""
+
+
+def ignore_fields(scene: bpy.types.Scene) -> None:
+    """Let no field act in the coming frames, until `heed_fields` or the next update of the scene's evaluated copy.
+
+    A world that is limited to a collection by its user is left alone.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+    for evaluated in _evaluated_scenes(scene):
+        if evaluated.rigidbody_world.effector_weights.collection is None:
+            _limit(evaluated, evaluated.collection.as_pointer())
+
+
+def heed_fields(scene: bpy.types.Scene) -> None:
+    """Let fields act again.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+    for evaluated in _evaluated_scenes(scene):
+        if evaluated.rigidbody_world.effector_weights.collection == evaluated.collection:
+            _limit(evaluated, 0)
+
+
+def _limit(scene: bpy.types.Scene, collection: int) -> None:
+    weights = scene.rigidbody_world.effector_weights
+    address = weights.as_pointer()  # the structure begins with the pointer
+    limited_to = weights.collection.as_pointer() if weights.collection else 0
+    raw = read(address + 8, 4 * len(_INFLUENCES)) or b""
+    shown = np.array([getattr(weights, name) for name in _INFLUENCES], np.float32)
+    if read_pointer(address) != limited_to or raw != shown.tobytes():
+        raise LayoutError("the limit of the rigid-body world's force fields is not where it is expected")
+    write_pointers(address, collection)
+
+
+def _evaluated_scenes(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
+    graphs = [layer.depsgraph for layer in scene.view_layers if layer.depsgraph]
+    return [graph.scene_eval for graph in graphs if graph.scene_eval and graph.scene_eval.rigidbody_world]
