@@ -5,16 +5,19 @@ import math
 from collections.abc import Iterator, Sequence
 
 from ..core.bridge import deck_top
-from ..core.cutting import CutMembers, cut_members
 from ..core.gravity import STANDARD_GRAVITY_M_S2
+from ..core.joint import Joint
 from ..core.member import Member, mean_density
 from ..core.members import prepared_members
+from ..core.model import Model
 from ..core.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ..core.runnable import runnable_model
 from ..core.scenario import (
     Ball,
     BallCable,
     Bridge,
     Change,
+    ConnectionBetween,
     ConnectionSettings,
     Removal,
     SawCut,
@@ -28,8 +31,8 @@ from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender holds every one against every body."""
 
-MOST_SHARDS_COMPARED = 2000
-"""Comparing so many shards with their neighbours takes some seconds."""
+MOST_SHARDS_CUT = 2000
+"""Cutting so many shards and comparing them with their neighbours takes some seconds."""
 
 MOST_PAIRS_NAMED = 5
 
@@ -60,8 +63,9 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     if prepared.notes:
         yield from _section("Repaired", (note.split(": ", 1) for note in prepared.notes))
     yield from _section("Time", _time_facts(scenario))
-    yield from _section("Shards and connections", _connection_facts(scenario))
-    yield from _section("Overlap at the start", _overlap_facts(scenario, prepared.members))
+    model = runnable_model(scenario, prepared.members) if scenario.fracture.shards <= MOST_SHARDS_CUT else None
+    yield from _section("Shards and connections", _connection_facts(scenario, model))
+    yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
     if scenario.changes or scenario.jackhammers:
@@ -97,21 +101,20 @@ def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
     return f"{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
 
 
-def _overlap_facts(scenario: Scenario, members: Sequence[Member]) -> Iterator[tuple[str, str]]:
+def _overlap_facts(model: Model | None) -> Iterator[tuple[str, str]]:
     """Whether shards lie in each other, which would throw them apart when the simulation begins."""
-    if scenario.fracture.shards > MOST_SHARDS_COMPARED:
-        yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_COMPARED}"
+    if model is None:
+        yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_CUT}"
         return
-    cut = cut_members(scenario, members)
-    yield from _pairs_found("overlapping shards", overlaps(cut.shards), cut, members)
+    yield from _pairs_found("overlapping shards", overlaps(model.shards), model)
     # What Blender lets collide. Hulls of connected shards overlap unharmed until their connection breaks.
-    yield from _pairs_found("overlapping hulls", overlaps(hulls(cut.shards)), cut, members)
+    yield from _pairs_found("overlapping hulls", overlaps(hulls(model.shards)), model)
 
 
-def _pairs_found(name: str, found: Overlaps, cut: CutMembers, members: Sequence[Member]) -> Iterator[tuple[str, str]]:
+def _pairs_found(name: str, found: Overlaps, model: Model) -> Iterator[tuple[str, str]]:
     yield name, f"{len(found) or 'no'} pairs, by more than {SHARD_OVERLAP_TOLERANCE:g} of the smaller one"
     for (first, second), volume in list(zip(found.pairs, found.volumes, strict=True))[:MOST_PAIRS_NAMED]:
-        named = (f"{members[cut.member_of_shard[shard]].name}, shard {shard}" for shard in (first, second))
+        named = (f"{model.members[model.member_of_shard[shard]].name}, shard {shard}" for shard in (first, second))
         yield "", f"{volume:.3g} m³ of {' and '.join(named)}"
 
 
@@ -124,10 +127,12 @@ def _time_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
     yield "sub-step", f"{time.step.substep_s:.6g} s, {time.substeps_per_frame} in a frame"
 
 
-def _connection_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+def _connection_facts(scenario: Scenario, model: Model | None) -> Iterator[tuple[str, str]]:
     connections = scenario.connections
-    yield "shards", f"{scenario.fracture.shards}"
-    yield "connections", f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
+    yield "shards", f"{len(model.shards) if model else scenario.fracture.shards}"
+    count = f"{len(model.connections.pairs)}, " if model else ""
+    kind = f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
+    yield "connections", f"{count}{kind}"
     if connections.material is not None:
         yield "strength of", connections.material
         yield from _strength_facts(MATERIALS[connections.material])
@@ -140,8 +145,19 @@ def _connection_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
 
 def _rule_facts(connections: ConnectionSettings) -> Iterator[tuple[str, str]]:
     for rule, joint in zip(connections.between, connections.joints[1:], strict=True):
-        free = f", free: {', '.join(joint.free)}" if joint.free else ""
-        yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else joint.type + free}"
+        yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else _joint_text(rule, joint)}"
+
+
+def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:
+    """What a connection of a rule holds, and what breaks it where that is not as elsewhere."""
+    words = [joint.type]
+    if joint.free:
+        words.append(f"free: {', '.join(joint.free)}")
+    if rule.material is not None:
+        words.append(f"strength of {rule.material}")
+    elif rule.breaking_force_newton is not None:
+        words.append(f"breaking force {rule.breaking_force_newton / 1000.0:.2f} kN")
+    return ", ".join(words)
 
 
 def _strength_facts(strength: Strength) -> Iterator[tuple[str, str]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge_demolition_addon.cli.check import scenario_facts
+from bridge_demolition_addon.cli.check import MOST_SHARDS_CUT, scenario_facts
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
@@ -54,7 +54,7 @@ def test_facts_of_the_i235_span(capsys):
         "frames": "120 of 0.0416667 s",
         "sub-step": "0.00416667 s, 10 in a frame",
         "shards": "200",
-        "connections": "HINGE, nearest vertices within 1 m, at most 50 per shard",
+        "connections": "1431, HINGE, nearest vertices within 1 m, at most 50 per shard",
         "breaking force": "98066.5 N = 98.07 kN",
         "breaking impulse": "408.6 N·s in a sub-step",  # 98 066.5 N / 240 Hz
         "overlapping shards": "no pairs, by more than 1e-06 of the smaller one",
@@ -89,7 +89,29 @@ def test_without_ball_and_caps():
 )
 def test_methods_of_connecting(method, radius, text):
     connections = replace(I235.connections, method=method, search_radius_m=radius)
-    assert facts(replace(I235, connections=connections))["connections"] == f"HINGE, {text}, at most 50 per shard"
+    count, told = facts(replace(I235, connections=connections))["connections"].split(", ", 1)
+    assert int(count) > 200
+    assert told == f"HINGE, {text}, at most 50 per shard"
+
+
+def test_the_shards_are_those_that_there_will_be():
+    twice = replace(I235.fracture, shards=40, recursion_share=1.0, recursion_shards=2)
+    assert facts(replace(I235, fracture=twice))["shards"] == "80"
+
+
+def test_very_many_shards_are_not_cut_to_check_them():
+    many = facts(replace(I235, fracture=replace(I235.fracture, shards=MOST_SHARDS_CUT + 1)))
+    assert many["shards"] == f"{MOST_SHARDS_CUT + 1}"
+    assert many["connections"].startswith("HINGE")
+    assert many["overlapping shards"].startswith("not compared")
+
+
+def test_a_step_that_concerns_no_member_is_refused_as_by_run(tmp_path, capsys):
+    path = tmp_path / "bridge.toml"
+    step = '\n[[weakenings]]\ntime_s = 2.0\nmembers = ["pear"]\nfactor = 0.5\n'
+    path.write_text(EXAMPLE.read_text(encoding="utf-8") + step, encoding="utf-8")
+    assert main(["check", str(path)]) == 2
+    assert 'weakenings.members names "pear"' in capsys.readouterr().err
 
 
 def test_checking_needs_no_blender():

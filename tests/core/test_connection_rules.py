@@ -197,6 +197,12 @@ def test_the_example_of_the_documentation_can_be_read_and_built():
 def test_bda_check_lists_the_rules():
     from bridge_demolition_addon.cli.check import scenario_facts
 
-    rules = (between("deck", "pier cap", type="GENERIC", free=("move x",)), between("pier 1", "ground", none=True))
+    rules = (
+        between("deck", "pier cap", type="GENERIC", free=("move x",), breaking_force_n=2e6),
+        between("pier", "ground", none=True),
+    )
     found = [" ".join(line.split()) for line in scenario_facts(with_rules(*rules)) if "between" in line]
-    assert found == ["between deck and pier cap: GENERIC, free: move x", "between pier 1 and ground: none"]
+    assert found == [
+        "between deck and pier cap: GENERIC, free: move x, breaking force 2000.00 kN",
+        "between pier and ground: none",
+    ]
