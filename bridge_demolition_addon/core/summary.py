@@ -9,6 +9,7 @@ import numpy as np
 from .impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .motion import first_hit, throw
 from .results import Results
+from .taken_away import without_taken_away
 
 _RESTING_WEIGHTS = 3.0
 """A ball that rests or rolls is pressed with about its weight; a hit presses with more than this many times as much."""
@@ -26,6 +27,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
     contact_time_s
         How long hits of the ball last; by default as long as elastic ones.
     """
+    left, _ = without_taken_away(results)
     return {
         "frames": len(results.frames),
         "simulated_s": float(results.times_s[-1]),
@@ -35,9 +37,9 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "impact": _moment(results, impact_step(results, gravity_m_s2)),
         "reading": str(results.reading),
         "hits_of_the_ball": _hits(results, gravity_m_s2, contact_time_s),
-        "largest_resultant": _largest_force(results, results.body_peaks_n),
-        "largest_force_sum": _largest_force(results, results.body_peak_sums_n),
-        "largest_throw": _largest_throw(results),
+        "largest_resultant": _largest_force(left, left.body_peaks_n),
+        "largest_force_sum": _largest_force(left, left.body_peak_sums_n),
+        "largest_throw": _largest_throw(left),
         "blast": _blast(results),
     }
 

@@ -35,6 +35,13 @@ def test_summary_of_the_chain():
     assert summary["largest_throw"] == {"throw_m": 5.0, "body": "lower"}
 
 
+def test_a_shard_that_was_taken_away_is_not_thrown():
+    chain = hanging_chain()
+    places = chain.places_m.copy()
+    places[-1, chain.body_names.tolist().index("lower"), 2] -= 1000.0
+    assert summarise(replace(chain, places_m=places), GRAVITY)["largest_throw"]["body"] == "upper"
+
+
 def test_breaking_over_time():
     connections = summarise(hanging_chain(), GRAVITY)["connections"]
     over_time = connections.pop("over_time")
