@@ -51,8 +51,10 @@ def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             rows = [(number, row) for number, row in enumerate(csv.reader(file), start=1) if any(map(str.strip, row))]
-    except (OSError, UnicodeDecodeError) as error:
-        raise ScenarioError(f'fracture.{key} is "{path}": cannot be read: {error}') from error
+    except OSError as error:
+        raise ScenarioError(f'fracture.{key} is "{path}": cannot be read ({error.strerror})') from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f'fracture.{key} is "{path}": is no text file in UTF-8') from error
     found = [_row(path, number, row, columns) for number, row in rows]
     return np.array([row for row in found if row is not None], dtype=float).reshape(-1, columns)
 
@@ -67,7 +69,8 @@ def _row(path: Path, number: int, row: list[str], columns: int) -> list[float] |
         numbers = []
     if len(numbers) != columns:
         raise ScenarioError(
-            f"{path}, row {number}: expected {_AMOUNTS[columns]} numbers (m), found {', '.join(row)}"
+            f"{path}, row {number}: expected {_AMOUNTS[columns]} numbers (m) with commas between them, "
+            f"found {', '.join(row)}"
         ) from None
     if not np.isfinite(numbers).all():
         raise ScenarioError(

@@ -167,7 +167,7 @@ def _closed(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str], nam
     if not holes:
         return triangles
     lids = [_lid(vertices, np.array(hole), name) for hole in holes]
-    repairs.append(f"closed {len(holes)} holes")
+    repairs.append(f"closed {len(holes)} hole{'s' if len(holes) > 1 else ''}")
     return np.concatenate([triangles, *lids])
 
 

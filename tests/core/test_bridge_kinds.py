@@ -285,7 +285,7 @@ def test_check_reports_masses_of_every_kind():
         ({"abutments": ABUTMENTS, "span_lengths_m": [14]}, "bridge.piers is given: expected none"),
         (
             {"abutments": ABUTMENTS, "span_lengths_m": [14], "piers": None, "pier_caps": None},
-            "bridge.abutments.height_m is None: expected a number (m) with one span",
+            "bridge.abutments.height_m is missing: expected a number (m) with one span",
         ),
         (
             {"abutments": replace(ABUTMENTS, length_m=23)},

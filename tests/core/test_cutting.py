@@ -136,9 +136,10 @@ def test_one_shard_of_a_merged_bridge():
 @pytest.mark.parametrize(
     "content, text",
     [
-        ("x,y,z\n1,2\n", "row 2: expected three numbers (m), found 1,2"),
-        ("1,2,3\na,b,c\n", "row 2: expected three numbers (m), found a, b, c"),
+        ("x,y,z\n1,2\n", "row 2: expected three numbers (m) with commas between them, found 1,2"),
+        ("1,2,3\na,b,c\n", "row 2: expected three numbers (m) with commas between them, found a, b, c"),
         ("1,2,nan\n", "row 1: expected three finite numbers"),
+        ("x;y;z\n5;0;4\n", "row 2: expected three numbers (m) with commas between them, found 5;0;4"),
     ],
 )
 def test_files_that_hold_no_points_are_refused(tmp_path, content, text):
@@ -152,6 +153,13 @@ def test_files_that_hold_no_points_are_refused(tmp_path, content, text):
 def test_a_missing_file_of_points_is_refused(tmp_path):
     with pytest.raises(ScenarioError, match=r"fracture.points_file is .*cannot be read"):
         points_from_file(tmp_path / "none.csv")
+
+
+def test_a_file_of_points_that_is_no_text_is_refused(tmp_path):
+    path = tmp_path / "points.csv"
+    path.write_bytes(b"\xff\xfe\x00x")
+    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*: is no text file in UTF-8"):
+        points_from_file(path)
 
 
 def test_gaps_leave_masses_and_connections_as_they_were():

@@ -74,7 +74,7 @@ def test_plane_holes_are_closed_even_where_they_are_concave(axis, place, turn):
     mesh = without_faces(L_SHAPE, lost)
     mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, [1, 2, 3]))
     done = repaired_solid(mesh, "it")
-    assert done.repairs == ("closed 1 holes",)
+    assert done.repairs == ("closed 1 hole",)
     assert done.solid.volume == pytest.approx(7, rel=ROUNDING)
 
 

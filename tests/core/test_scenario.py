@@ -143,7 +143,7 @@ def test_frames_cover_the_duration():
         (BALL, {"mass_kg": float("nan")}, "ball.mass_kg is nan: expected a number above 0 (kg)"),
         (BALL, {"mass_kg": float("inf")}, "ball.mass_kg is inf: expected a number above 0 (kg)"),
         (BALL, {"mass_kg": True}, "ball.mass_kg is true: expected a number above 0 (kg)"),
-        (BALL, {"mass_kg": None}, "ball.mass_kg is None: expected a number above 0 (kg)"),
+        (BALL, {"mass_kg": None}, "ball.mass_kg is missing: expected a number above 0 (kg)"),
         (BALL, {"mass_kg": 1e39}, "ball.mass_kg is 1e+39: expected a number that single precision can hold"),
         (BALL, {"mass_kg": 1e-39}, "ball.mass_kg is 1e-39: expected a number that single precision can hold"),
         (
@@ -175,7 +175,7 @@ def test_frames_cover_the_duration():
         (SCENARIO, {"title": "a\nb"}, r'scenario.title is "a\nb": expected a text on one line, not blank'),
         (SCENARIO, {"title": 3}, "scenario.title is 3: expected a text on one line, not blank"),
         (SCENARIO, {"seed": -1}, "scenario.seed is -1: expected a whole number from 0 to 2147483647"),
-        (SCENARIO, {"time": None}, "time is None: expected a table"),
+        (SCENARIO, {"time": None}, "time is missing: expected a table"),
         (SCENARIO.fracture, {"shards": 0}, "fracture.shards is 0: expected a whole number from 1 to 1000000"),
         (SCENARIO.time, {"duration_s": 0}, "time.duration_s is 0: expected a number above 0 (s)"),
         (SCENARIO.time, {"time_scale": 101}, "time.time_scale is 101: expected a number above 0 and up to 100"),

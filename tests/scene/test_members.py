@@ -104,7 +104,7 @@ def test_a_hole_is_closed_and_that_is_said(add, blender):
     blender.context.scene.collection.objects.link(body)
     blender.context.view_layer.update()
     prepared = members_of_objects([body], 2400.0)
-    assert prepared.notes == ("open: closed 1 holes",)
+    assert prepared.notes == ("open: closed 1 hole",)
     assert prepared.members[0].volume_m3 == pytest.approx(1, rel=SINGLE)
 
 

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
-from .key import ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key
+from .key import ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 
 LARGEST_SKEW_DEG = 75.0
 
@@ -108,7 +108,7 @@ class Bridge(Table):
                 )
         if self.abutments and between_abutments != (self.abutments.height_m is not None):
             wanted = "a number (m) with one span" if between_abutments else "none with piers, which give it"
-            raise ScenarioError(f"bridge.abutments.height_m is {self.abutments.height_m}: expected {wanted}")
+            raise ScenarioError(f"bridge.abutments.height_m is {shown(self.abutments.height_m)}: expected {wanted}")
 
     def _check_superstructure(self) -> None:
         if self.box_girder and self.box_girder.width_m > self.deck.width_m * (1.0 + ROUNDING):

@@ -9,7 +9,7 @@ from ..joint import TYPES, Joint
 from ..strength import MATERIALS, Strength
 from .connection_between import ConnectionBetween
 from .joint import JointSettings
-from .key import LARGEST_INTEGER, check_exactly_one, key
+from .key import LARGEST_INTEGER, check_exactly_one, key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,8 +122,8 @@ class ConnectionSettings(JointSettings):
             )
         if (self.ductile_share > 0.0) != (self.ductile_elongation_m is not None):
             raise ScenarioError(
-                f"connections.ductile_elongation_m is {self.ductile_elongation_m}: expected a number above 0 (m) with "
-                f"a connections.ductile_share above 0, and none with {self.ductile_share}"
+                f"connections.ductile_elongation_m is {shown(self.ductile_elongation_m)}: expected a number above 0 (m) "
+                f"with a connections.ductile_share above 0, and none with {self.ductile_share}"
             )
         if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
             raise ScenarioError(

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from numbers import Integral, Real
 from types import NoneType
@@ -154,8 +154,10 @@ def expected(item: Field) -> str:
     if held is bool:
         return "true or false"
     if held is str:
-        return "one of " + ", ".join(map(json.dumps, rule.choices)) if rule.choices else "a text on one line, not blank"
+        return f"one of {_listed(rule.choices)}" if rule.choices else "a text on one line, not blank"
     noun, _ = _nouns(held)
+    if rule.choices:
+        noun = f"{noun}, each one of {_listed(rule.choices)}"
     unit = f"({rule.unit})" if rule.unit else ""
     return " ".join(part for part in (noun, rule.limits, unit) if part)
 
@@ -199,6 +201,8 @@ def check_exactly_one(table: Table, *names: str) -> None:
 
 def shown(value: Any) -> str:
     """A value found in a scenario as a short text on one line."""
+    if value is None:
+        return "missing"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Integral) and abs(value) > 2**63:
@@ -210,6 +214,10 @@ def shown(value: Any) -> str:
     if isinstance(value, dict):
         return "a table"
     return _shortened(" ".join(str(value).split()))
+
+
+def _listed(choices: Sequence[str]) -> str:
+    return ", ".join(map(json.dumps, choices))
 
 
 def _type_held(item: Field) -> Any:
