@@ -95,7 +95,9 @@ def _distance_of_overpressure(overpressure_pa: float, burst: Burst, model: Blast
     z = _farthest(overpressure_pa, _peak_overpressure, burst, model)
     if z is None:
         most = _on_grid(_peak_overpressure, burst, model).max()
-        raise BlastError(f"overpressure is {overpressure_pa:g}: expected up to {most:.4g} (Pa), that of TNT in contact")
+        raise BlastError(
+            f"overpressure is {overpressure_pa / 1e3:g} kPa: expected up to {most / 1e3:.4g}, that of TNT in contact"
+        )
     return z
 
 
