@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 from manifold3d import CrossSection
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import FigureBase
 
@@ -18,8 +20,9 @@ from .histories import DASHES, SHADES
 from .plans import draw_area, plain
 
 _CELLS = 240
+_NAME_LETTERS = 28
 _ROOM = 1.05
-_WIDEST_PA = 2.07e3
+WIDEST_PA = 2.07e3
 """The map reaches to the ring of this threshold; those of less pressure would leave nothing to see of the rest."""
 
 
@@ -36,7 +39,7 @@ def overpressure_map(
     model: BlastModel,
 ) -> None:
     """Largest overpressure of any one charge on the ground, with the rings of damage."""
-    thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= _WIDEST_PA]
+    thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= WIDEST_PA]
     radii = ring_radii(charges, 0.0, thresholds, model)
     places = np.array([charge.place_m[:2] for charge in charges])
     low = _ROOM * -radii.max() + places.min(axis=0)
@@ -59,10 +62,17 @@ def overpressure_map(
     for neighbour in neighbours:
         if (np.array(neighbour.place_m[:2]) >= low).all() and (np.array(neighbour.place_m[:2]) <= high).all():
             axes.plot(*neighbour.place_m[:2], "k^", markersize=5)
-            axes.annotate(plain(neighbour.name), neighbour.place_m[:2], (4, 4), textcoords="offset points", fontsize=7)
+            _name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
     axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
     figure.colorbar(image, ax=axes, label="peak overpressure of one charge (kPa)", shrink=0.9)
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+
+
+def _name_neighbour(axes: Axes, neighbour: Neighbour, *, to_the_left: bool) -> None:
+    """Write a neighbour's name beside it, towards the middle of the map, over several lines where it is long."""
+    name = fill(plain(neighbour.name), _NAME_LETTERS)
+    offset, side = ((-4, 4), "right") if to_the_left else ((4, 4), "left")
+    axes.annotate(name, neighbour.place_m[:2], offset, textcoords="offset points", ha=side, fontsize=7)
 
 
 def neighbour_pressures(figure: FigureBase, loads: Sequence[tuple[str, PlaceLoads]]) -> None:

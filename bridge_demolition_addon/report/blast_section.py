@@ -13,7 +13,7 @@ from ..core.blast.models import BlastModel
 from ..core.blast.neighbours import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
 from ..core.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
 from ..core.scenario import Scenario
-from .blast_maps import neighbour_pressures, overpressure_map
+from .blast_maps import WIDEST_PA, neighbour_pressures, overpressure_map
 from .document import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 
@@ -31,7 +31,8 @@ def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
         Picture(
             partial(overpressure_map, charges=charges, bridge=bridge, neighbours=scenario.neighbours, model=model),
             "Peak overpressure on the ground, the largest that any one charge gives by itself; where waves meet, it "
-            "can be more. Free field: nothing hides the ground, and no wall sends anything back.",
+            f"can be more. Rings up to that of {WIDEST_PA / 1e3:g} kPa; those of less are in the table. Free field: "
+            "nothing hides the ground, and no wall sends anything back.",
             140.0,
         )
     )

@@ -26,7 +26,20 @@ NAMED_THROWS = 5
 
 _ROOM = 0.04
 _LABEL_SHARE = 0.03
-"""Where a zone has its name: in its upper left corner, so much of its sides away from them."""
+"""How far a zone's name is from its sides, as a share of these."""
+
+_SIDES = {"left": 0.0, "bottom": 0.0, "center": 0.5, "right": 1.0, "top": 1.0}
+_NAME_PLACES = tuple((across, upwards) for across in ("left", "right") for upwards in ("top", "bottom", "center"))
+"""Places in a zone in the order in which its name tries them."""
+
+_NAME_POINTS = 7.0
+_LETTER_SHARE, _LINE_SHARE = 0.6, 1.5
+"""Mean width of a letter, and height of a line with its white box, over the size of the letters."""
+
+_AXES_SHARES = (0.85, 0.75)
+"""About how much of a map's width and height are left beside its labels, ticks and legend."""
+
+_MM_PER_POINT = 25.4 / 72.0
 
 _MAPS_ABREAST = 2
 _MAP_TITLE_MM, _MAP_LEGEND_MM, _HIGHEST_MAPS_MM = 20.0, 10.0, 220.0
@@ -71,6 +84,7 @@ def debris_map(
         box = {"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "black", "linewidth": 0.6}
         axes.annotate(str(number), last, ha="center", va="center", fontsize=6, bbox=box)
     _fit(axes, figure)
+    _name_zones(axes, figure, zones)
 
 
 def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> None:
@@ -98,6 +112,7 @@ def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone]
     draw_area(axes, zone.debris, **style, label="predicted debris")
     draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
     _fit(axes, figure)
+    _name_zones(axes, figure, zones)
     _dimension(axes, zone)
 
 
@@ -150,15 +165,46 @@ def draw_area(axes: Axes, area: CrossSection, label: str | None = None, **style:
 
 
 def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
-    """Draw zones of the site, each with its name in it."""
+    """Draw zones of the site."""
     for zone in zones:
         corners = np.array(zone.corners_m)
         path = Outline(np.vstack([corners, corners[:1]]), closed=True)
         axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
-        box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-        low, high = corners.min(axis=0), corners.max(axis=0)
-        place = low + (high - low) * (_LABEL_SHARE, 1.0 - _LABEL_SHARE)
-        axes.annotate(plain(zone.name), place, ha="left", va="top", fontsize=7, bbox=box, zorder=5)
+
+
+def _name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
+    """Write each zone's name where no other name is, if there is such a place at its sides."""
+    letter_m = _NAME_POINTS * _MM_PER_POINT * _metres_per_mm(axes, figure)
+    style = {"fontsize": _NAME_POINTS, "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}, "zorder": 5}
+    taken: list[np.ndarray] = []
+    for zone in zones:
+        size = letter_m * np.array([_LETTER_SHARE * len(zone.name), _LINE_SHARE])
+        choices = [(*place, *_name_box(zone, *place, size)) for place in _NAME_PLACES]
+        free = (each for each in choices if not any(_overlap(each[3], other) for other in taken))
+        across, upwards, anchor, box = next(free, choices[0])
+        taken.append(box)
+        axes.annotate(plain(zone.name), anchor, ha=across, va=upwards, **style)
+
+
+def _name_box(zone: Zone, across: str, upwards: str, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where a name of a size is anchored in its zone, and (2, 2) lowest and highest corner of the name."""
+    corners = np.array(zone.corners_m)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    sides = np.array([_SIDES[across], _SIDES[upwards]])
+    anchor = low + (high - low) * (_LABEL_SHARE + (1.0 - 2.0 * _LABEL_SHARE) * sides)
+    lowest = anchor - size * sides
+    return anchor, np.array([lowest, lowest + size])
+
+
+def _overlap(first: np.ndarray, second: np.ndarray) -> bool:
+    return bool((first[0] < second[1]).all() and (second[0] < first[1]).all())
+
+
+def _metres_per_mm(axes: Axes, figure: FigureBase) -> float:
+    """About how many metres of a map are a millimetre of its drawing."""
+    shown = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)
+    drawn_mm = 25.4 / figure.dpi * np.array([figure.bbox.width, figure.bbox.height]) * _AXES_SHARES
+    return float((shown / drawn_mm).max())
 
 
 def plain(text: str) -> str:
