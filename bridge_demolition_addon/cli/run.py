@@ -12,6 +12,7 @@ from ..core.errors import GeometryError, OutputError, ScenarioError, SimulationE
 from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
+from ..core.summary import first_hit_s
 from ..simulation.output import RESULT_FILES, check_folder, remove_report
 from .progress import Progress, progress_on
 
@@ -177,7 +178,7 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         place = f"on {force['body']} at {force['time_s']:.3f} s"
         yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {place}"
     if impact := summary["impact"]:
-        yield "impact of the ball", f"{impact['time_s']:.3f} s, frame {impact['frame']}"
+        yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
     if summary["came_to_rest_s"] is not None:
         yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s"
     if throw := summary["largest_throw"]:

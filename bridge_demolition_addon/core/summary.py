@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,18 @@ def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
             hit = first_hit(results.velocities_m_s[released:, ball], results.times_s[released:], gravity_m_s2)
             return None if hit is None else int(released) + hit
     return None
+
+
+def first_hit_s(summary: Mapping[str, Any]) -> float | None:
+    """When the falling ball first hit, by a run's summary: to a sub-step where hits were recorded, or else to a frame.
+
+    What hits the ball while it is still held is none of its hits.
+    """
+    impact = summary.get("impact")
+    if not impact:
+        return None
+    begun = (hit["time_s"] for hit in summary.get("hits_of_the_ball", ()) if hit["time_s"] < impact["time_s"])
+    return float(max(begun, default=impact["time_s"]))
 
 
 def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:

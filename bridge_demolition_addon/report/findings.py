@@ -31,7 +31,7 @@ def findings(run: Run) -> list[Finding]:
     broken = int((~results.intact[-1]).sum())
     count = results.intact.shape[1]
     found = [
-        _finding(IMPACT, "s", run.impact_s, ".3f"),
+        _finding(IMPACT, "s", run.hit_s, ".3f"),
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
         _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", "not at rest at the end"),

@@ -14,6 +14,7 @@ from ..core.errors import OutputError, ScenarioError
 from ..core.results import Results, load_results
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
+from ..core.summary import first_hit_s
 from ..core.taken_away import without_taken_away
 
 RESULTS = "results.npz"
@@ -76,9 +77,14 @@ class Run:
 
     @property
     def impact_s(self) -> float | None:
-        """When the ball hit; None where it did not, or nobody knows."""
+        """End of the frame in which the ball hit; None where it did not, or nobody knows."""
         impact = self.summary.get("impact") if self.summary else None
         return float(impact["time_s"]) if impact else None
+
+    @property
+    def hit_s(self) -> float | None:
+        """When the ball hit, to a sub-step where its hits were recorded; None as for `impact_s`."""
+        return first_hit_s(self.summary) if self.summary else None
 
 
 def read_run(folder: Path) -> Run:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sample_results import GRAVITY, G, hanging_chain, without_connections
 
-from bridge_demolition_addon.core.summary import impact_step, summarise
+from bridge_demolition_addon.core.summary import first_hit_s, impact_step, summarise
 
 BODY_SERIES = (
     "places_m",
@@ -40,6 +40,16 @@ def test_a_shard_that_was_taken_away_is_not_thrown():
     places = chain.places_m.copy()
     places[-1, chain.body_names.tolist().index("lower"), 2] -= 1000.0
     assert summarise(replace(chain, places_m=places), GRAVITY)["largest_throw"]["body"] == "upper"
+
+
+@pytest.mark.parametrize(
+    "hits, hit_s",
+    [([1.508, 2.188], 1.508), ([0.3, 1.508], 1.508), ([], 1.542), ([2.188], 1.542)],
+)
+def test_the_first_hit_is_told_to_a_sub_step(hits, hit_s):
+    summary = {"impact": {"frame": 39, "time_s": 1.542}, "hits_of_the_ball": [{"time_s": time_s} for time_s in hits]}
+    assert first_hit_s(summary) == hit_s
+    assert first_hit_s(summary | {"impact": None}) is None
 
 
 def test_breaking_over_time():
