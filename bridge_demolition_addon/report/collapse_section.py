@@ -43,8 +43,9 @@ def collapse_section(run: Run) -> Section:
         ),
         Picture(
             partial(energy_history, energy=energy, impact_s=run.impact_s),
-            "Energy of shards and ball. Dissipated is what is missing of the energy at the beginning: by impacts, "
-            "friction, damping and breaking. It goes down where something else than gravity does work.",
+            "Energy of shards and ball, the potential one above its least in this run. Dissipated is what is missing "
+            "of the energy at the beginning: by impacts, friction, damping and breaking. It goes down where something "
+            "else than gravity does work.",
         ),
         _energy_table(energy),
     ]

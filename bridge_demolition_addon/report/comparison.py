@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 from itertools import takewhile
 
-from ..core.collapse import collapse_progress
+from ..core.collapse import collapse_progress, rest_of
 from ..core.debris import debris_of
 from ..core.scenario import Ball
 from .document import Block, Column, DataTable, Document, Paragraph, Picture, Section
@@ -31,6 +31,9 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
     ]
     if shared := shared_beginning(runs):
         notices.append(Paragraph(f"The names of all folders begin with {shared}, which is left out here."))
+    if moving := [name for name, run in whole if rest_of(run.results).moving_at_end]:
+        told = "Shards still move at the end of {}: their throws, footprints and piles are not final."
+        notices.append(Paragraph(told.format(", ".join(moving)), is_notice=True))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
@@ -65,7 +68,8 @@ def _differences(run: Run) -> str:
     if ball:
         words.append(f"ball of {ball.mass_kg / 1e3:g} t {_way_of(ball)}")
     if charges and run.scenario.blast.explosion:
-        words.append(f"{len(charges)} charges, {sum(charge.mass_kg for charge in charges):g} kg")
+        count = "1 charge" if len(charges) == 1 else f"{len(charges)} charges"
+        words.append(f"{count}, {sum(charge.mass_kg for charge in charges):g} kg")
     return "; ".join(words) or "no ball and no charges"
 
 

@@ -47,8 +47,8 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
     """The exclusion zone, or why there is none."""
     if zone is None:
         told = (
-            "The scenario gives no exclusion zone. Add the table [exclusion] with the buffer to it, and run it again "
-            "to have the zone drawn here."
+            "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to scenario_as_run.toml in "
+            "the folder of the run, and make the report again to have the zone drawn here."
         )
         return Section("Exclusion zone", (Paragraph(told, is_notice=True),))
     settings = run.scenario.exclusion

@@ -14,6 +14,11 @@ from .document import Block, Column, DataTable, Paragraph, Picture, Section
 from .histories import breaking_history, contact_force_history, load_history, logged_load_history
 from .run_folder import LoggedForces, Run
 
+_BEYOND_THE_FORCE = (
+    "The force of a connection is the resultant of its three directions. Each direction by itself is held up to the "
+    "breaking force, so that the resultant can be up to √3 times as large."
+)
+
 
 def force_section(run: Run) -> Section:
     """Loads, hits and breaking of a run that has results."""
@@ -36,6 +41,8 @@ def force_section(run: Run) -> Section:
             _loaded_bodies(results),
             _loaded_connections(results),
         ]
+        if run.scenario and run.scenario.connections.breaking_force_newton is not None:
+            blocks.append(Paragraph(_BEYOND_THE_FORCE))
     else:
         blocks.append(Paragraph("Forces were not recorded in this run.", is_notice=True))
     blocks += _hit_blocks(run)

@@ -71,7 +71,8 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
         style = _style(number)
         axes.plot(times_s, span.heights_m, **style, label=f"{span.name}: centre of mass")
         axes.plot(times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=f"{span.name}: lowest shard")
-    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    highest = max((float(span.heights_m.max()) for span in spans), default=0.0)
+    axes.set_ylim(min(0.0, axes.get_ylim()[0]), 1.05 * highest if highest > 0.0 else None)
     _finish(figure, axes, impact_s, columns=2)
 
 

@@ -143,6 +143,11 @@ def test_tables_hold_what_the_results_say(whole):
     assert float(hit["impulse_kNs"]) == pytest.approx(50.0)
 
 
+def test_loads_beyond_the_one_breaking_force_are_explained(whole):
+    _, page, _ = whole
+    assert any("√3 times as large" in text for text in page.texts)
+
+
 def test_site_plans_lie_beside_it(whole):
     _, _, written = whole
     assert {path.name for path in written} >= {"exclusion_zone.dxf", "exclusion_zone.geojson", "exclusion_corners.csv"}
@@ -154,7 +159,7 @@ def test_without_charges_and_ball_there_is_no_word_of_them(tmp_path):
     page, written = made(keep_run(tmp_path / "run", results, replace(I235, ball=None, exclusion=None)))
     assert "Blast" not in page.texts and "There is no ball in this run." in page.texts
     assert not any(path.name == "charges.csv" for path in written)
-    assert any("gives no exclusion zone" in text for text in page.notices)
+    assert any("gives no exclusion zone. Add the table [exclusion]" in text for text in page.notices)
 
 
 def test_a_run_of_one_frame_says_so(tmp_path):
@@ -269,6 +274,7 @@ def test_runs_are_set_side_by_side(tmp_path):
     throw = rows["Largest throw"]
     assert float(throw["run (1)"]) == pytest.approx(2.0 * float(throw["run (2)"]))
     assert len(page.pictures) == 4
+    assert any(text.startswith("Shards still move at the end of run (1), run (2)") for text in page.notices)
     assert not (folders[0] / "report.html").exists()
 
 

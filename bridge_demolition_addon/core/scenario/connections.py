@@ -122,8 +122,8 @@ class ConnectionSettings(JointSettings):
             )
         if (self.ductile_share > 0.0) != (self.ductile_elongation_m is not None):
             raise ScenarioError(
-                f"connections.ductile_elongation_m is {shown(self.ductile_elongation_m)}: expected a number above 0 (m) "
-                f"with a connections.ductile_share above 0, and none with {self.ductile_share}"
+                f"connections.ductile_elongation_m is {shown(self.ductile_elongation_m)}: expected a number above 0 "
+                f"(m) with a connections.ductile_share above 0, and none with {self.ductile_share}"
             )
         if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
             raise ScenarioError(
