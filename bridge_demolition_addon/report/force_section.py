@@ -29,12 +29,12 @@ def force_section(run: Run) -> Section:
         forces = contact_forces(results)
         blocks += [
             Picture(
-                partial(contact_force_history, forces=forces, impact_s=run.impact_s),
+                partial(contact_force_history, forces=forces, impact_s=run.hit_s),
                 "Contact forces, each the mean over a frame. Contacts that press a body from two sides cancel "
                 "within it, so that the total is a lower bound. Foundations that hold are not contacts.",
             ),
             Picture(
-                partial(load_history, results=results, impact_s=run.impact_s),
+                partial(load_history, results=results, impact_s=run.hit_s),
                 "Largest load on a shard by its connections and contacts together. Peaks of impacts grow as the step "
                 "of the physics shrinks.",
             ),
@@ -194,7 +194,7 @@ def _breaking_blocks(run: Run) -> list[Block]:
     ]
     return [
         Picture(
-            partial(breaking_history, times_s=results.times_s, kinds=kinds, impact_s=run.impact_s),
+            partial(breaking_history, times_s=results.times_s, kinds=kinds, impact_s=run.hit_s),
             "Connections broken, by the members that they joined.",
             100.0,
         ),

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..core.errors import OutputError
 from ..core.results import Results
+from ..core.summary import first_hit_s
 from ..report.force_plot import plot_forces
 
 SCENARIO_FILE = "scenario_as_run.toml"
@@ -110,5 +111,4 @@ def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> Non
     """Write arrays, summary and force chart of a recording beside its logs."""
     results.save(folder / "results.npz")
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    impact = summary["impact"]
-    plot_forces(results, folder / "force_over_time.png", summary["title"], impact and impact["time_s"])
+    plot_forces(results, folder / "force_over_time.png", summary["title"], first_hit_s(summary))

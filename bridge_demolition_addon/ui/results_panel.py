@@ -9,6 +9,7 @@ from bpy.props import IntProperty, StringProperty
 
 from ..core.blast.models import BlastModel
 from ..core.errors import DemolitionError, OutputError
+from ..core.summary import first_hit_s
 from ..simulation import handlers
 from . import last_recording
 from .looking import look_at_selected, select_only
@@ -92,10 +93,9 @@ class BDA_OT_draw_charts(Refusing, bpy.types.Operator):
         last = last_recording.last()
         folder = last.folder / _CHARTS
         model = BlastModel(context.scene.bda.scenario.blast.model)
-        impact, title = last.summary["impact"], last.summary["title"]
         try:
             paths = write_charts(folder, ChartSettings(model=model))
-            plot_forces(last.results, folder / "force_over_time.png", title, impact and impact["time_s"])
+            plot_forces(last.results, folder / "force_over_time.png", last.summary["title"], first_hit_s(last.summary))
         except DemolitionError as error:
             return refused(self, error)
         except OSError as error:
