@@ -143,7 +143,7 @@ def test_a_run_of_a_scenario_is_told_of_as_on_the_command_line(extension, tmp_pa
     extension.ops.bda.run()
     summary = json.loads((tmp_path / "results" / "summary.json").read_text(encoding="utf-8"))
     assert summary["seed"] == 8
-    assert summary["charges"]["mass_kg"] == 160.0
+    assert summary["charges"]["mass_kg"] == 58.0
     assert summary["charges"]["largest_mass_at_once_kg"] == 120.0
     assert summary["settled"]["time_s"] == pytest.approx(0.2, abs=1 / 24)
 
