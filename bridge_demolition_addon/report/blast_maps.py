@@ -42,8 +42,9 @@ def overpressure_map(
     thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= WIDEST_PA]
     radii = ring_radii(charges, 0.0, thresholds, model)
     places = np.array([charge.place_m[:2] for charge in charges])
-    low = _ROOM * -radii.max() + places.min(axis=0)
-    high = _ROOM * radii.max() + places.max(axis=0)
+    left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground
+    low = np.minimum(places.min(axis=0) - _ROOM * radii.max(), (left, back))
+    high = np.maximum(places.max(axis=0) + _ROOM * radii.max(), (right, front))
     xs, ys = np.linspace(low[0], high[0], _CELLS), np.linspace(low[1], high[1], _CELLS)
     grid = np.stack([*np.meshgrid(xs, ys), np.zeros((_CELLS, _CELLS))], axis=-1)
     peaks_kpa = peak_overpressures(grid.reshape(-1, 3), charges, model).reshape(_CELLS, _CELLS) / 1e3

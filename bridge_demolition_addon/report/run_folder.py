@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.image import imread
 
 from ..core.errors import OutputError, ScenarioError
 from ..core.results import Results, load_results
@@ -105,7 +106,6 @@ def read_run(folder: Path) -> Run:
     if summary and not summary.get("completed", True):
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
     logged = _logged_forces(folder, shortcomings) if results is None else None
-    pictures = {name: folder / "frames" / f"{name}.png" for name in PICTURES}
     return Run(
         folder=folder,
         scenario=_scenario(folder, shortcomings),
@@ -113,7 +113,7 @@ def read_run(folder: Path) -> Run:
         results=results,
         logged_forces=logged,
         logged_breaks=_logged_breaks(folder) if results is None else None,
-        pictures={name: path for name, path in pictures.items() if path.is_file()},
+        pictures=_pictures(folder, shortcomings),
         shortcomings=tuple(shortcomings),
     )
 
@@ -173,6 +173,22 @@ def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
     except ScenarioError as error:
         shortcomings.append(f"The scenario of the run cannot be read: {_reason(error, path)}.")
         return None
+
+
+def _pictures(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
+    """Those of the rendered pictures that are there and whole."""
+    found = {}
+    for name in PICTURES:
+        path = folder / "frames" / f"{name}.png"
+        if not path.exists():
+            continue
+        try:
+            imread(path)
+        except (OSError, SyntaxError, ValueError):  # the reader's own ways to say that it is no picture
+            shortcomings.append(f"frames/{path.name} is no whole picture, and is left out.")
+        else:
+            found[name] = path
+    return found
 
 
 def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None:

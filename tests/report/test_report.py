@@ -11,13 +11,19 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from manifold3d import CrossSection
+from matplotlib.figure import Figure
+from matplotlib.image import imsave
 from moving_boxes import moving_boxes
 from run_folders import I235, TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.blast.charges import Charge
+from bridge_demolition_addon.core.blast.models import BlastModel
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results import Results
 from bridge_demolition_addon.core.scenario import BallCable, BallHit
+from bridge_demolition_addon.report.blast_maps import overpressure_map
 from bridge_demolition_addon.report.cover import cover_section
 from bridge_demolition_addon.report.document import Paragraph
 from bridge_demolition_addon.report.run_folder import read_run
@@ -162,6 +168,18 @@ def test_without_charges_and_ball_there_is_no_word_of_them(tmp_path):
     assert any("gives no exclusion zone. Add the table [exclusion]" in text for text in page.notices)
 
 
+@pytest.mark.parametrize("place", [(4.0, 2.0, 30.0), (900.0, 0.0, 30.0)])
+def test_the_map_of_a_charge_whose_rings_do_not_reach_the_ground_shows_the_bridge(place):
+    figure = Figure()
+    bridge = CrossSection.square((9.0, 4.0))
+    overpressure_map(
+        figure, [Charge(name="high", place_m=place, mass_kg=0.001)], bridge, (), BlastModel.KINGERY_BULMASH
+    )
+    figure.canvas.draw()
+    left, right = figure.axes[0].get_xlim()
+    assert left <= 0.0 and right >= max(9.0, place[0])
+
+
 def test_a_run_of_one_frame_says_so(tmp_path):
     results = flying_shards()
     series = {
@@ -230,6 +248,26 @@ def test_what_cannot_be_read_is_said(tmp_path, name, content, said):
     assert shortcoming in notices_on_the_cover(run)
     assert (run.summary is None) is (name == "summary.json")
     assert (run.scenario is None) is (name != "summary.json")
+
+
+@pytest.mark.parametrize("damage", ["emptied", "cut short", "no picture", "a folder"])
+def test_a_damaged_picture_is_said_and_left_out(tmp_path, damage):
+    folder = keep_run(tmp_path / "run", flying_shards())
+    before, after = (folder / "frames" / f"{name}.png" for name in ("before", "after"))
+    before.parent.mkdir(exist_ok=True)
+    for path in (before, after):
+        imsave(path, np.zeros((90, 160, 3)))
+    whole = before.read_bytes()
+    before.unlink()
+    if damage == "a folder":
+        before.mkdir()
+    else:
+        before.write_bytes({"emptied": b"", "cut short": whole[:-30], "no picture": b"GIF"}[damage])
+    run = read_run(folder)
+    assert list(run.pictures) == ["after"]
+    assert run.shortcomings == ("frames/before.png is no whole picture, and is left out.",)
+    write_report([folder], None, progress=Silence())
+    assert (folder / "report.pdf").stat().st_size > 0
 
 
 def test_damaged_results_are_said_and_left_out(tmp_path):
