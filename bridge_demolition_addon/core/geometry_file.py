@@ -15,10 +15,14 @@ from .member import Member
 from .repair import repaired_solid
 from .scenario import Geometry
 from .scenario.geometry import MESH_FILES
+from .scenario.key import SHORTEST_LENGTH_M
 from .solids import mesh_of, union
 
 _BELOW_GROUND_M = 1e-3
 """How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
+
+_FARTHEST_M = 1e4
+"""How far from the origin a member may reach: Blender's single precision keeps places there to a millimetre."""
 
 _FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Turns coordinates with y up and z towards the viewer into ours, with z up."""
@@ -40,7 +44,9 @@ def geometry_members(tables: Sequence[Geometry]) -> tuple[tuple[Member, ...], tu
         same_name = list(group)
         solids = []
         for table in same_name:
-            done = repaired_solid(placed_mesh(table), name)
+            mesh = placed_mesh(table)
+            _check_extent(mesh, name)
+            done = repaired_solid(mesh, name)
             _check_above_ground(done.solid, name)
             solids.append(done.solid)
             notes += [f"{name}: {repair}" for repair in done.repairs]
@@ -83,6 +89,20 @@ def _file_mesh(path: Path) -> trimesh.Trimesh:
     if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
         raise GeometryError(f"{path}: has no faces; export a closed surface.")
     return mesh
+
+
+def _check_extent(mesh: trimesh.Trimesh, name: str) -> None:
+    farthest, thinnest = float(np.abs(mesh.bounds).max()), float(mesh.extents.min())
+    if farthest > _FARTHEST_M:
+        raise GeometryError(
+            f"{name}: reaches {farthest:.4g} m from the origin; bring it within {_FARTHEST_M:g} m by "
+            "geometry.place_m, or by geometry.scale if the file is not in metres."
+        )
+    if 0.0 < thinnest < SHORTEST_LENGTH_M:
+        raise GeometryError(
+            f"{name}: is {thinnest:.4g} m thick; expected at least {SHORTEST_LENGTH_M:g} m, so set geometry.scale if "
+            "the file is not in metres, or give it a thickness."
+        )
 
 
 def _check_above_ground(solid: trimesh.Trimesh, name: str) -> None:

@@ -115,6 +115,20 @@ def test_what_reaches_into_the_ground_is_refused(file_of):
         geometry_members([member_of(file_of(), place_m=[0, 0, -0.5])])
 
 
+@pytest.mark.parametrize(
+    "values, text",
+    [
+        ({"place_m": [448_000.0, 4_606_000.0, 280.0]}, r"part: reaches 4.606e\+06 m from the origin; bring it within"),
+        ({"place_m": [1e12, 0.0, 0.0]}, r"part: reaches 1e\+12 m from the origin"),
+        ({"scale": 1e4}, r"part: reaches 4e\+04 m from the origin"),
+        ({"scale": 1e-4}, r"part: is 0.0001 m thick; expected at least 0.001 m"),
+    ],
+)
+def test_what_single_precision_cannot_place_is_refused(file_of, values, text):
+    with pytest.raises(GeometryError, match=text):
+        geometry_members([member_of(file_of(), **values)])
+
+
 def scenario_of(*tables, **values):
     return replace(I235, bridge=None, ball=None, geometry=tables, **values)
 
