@@ -161,6 +161,14 @@ WRONG_FILES = {
         with_value("connections.type", '"WELD"'),
         ['connections.type is "WELD"', 'expected one of "FIXED", "POINT", "HINGE"'],
     ),
+    "stretched out of all proportion": (
+        with_value("fracture.stretch", "[1.0, 1e-30, 1.0]"),
+        ["fracture.stretch[1] is 1e-30", "expected a list of 3 numbers from 0.01 to 100"],
+    ),
+    "charge as heavy as the earth": (
+        RIGHT + "\n[[charges]]\nplace_m = [0.0, 0.0, 1.0]\nmass_kg = 6e24\n",
+        ["charges.mass_kg is 6e+24", "expected a number from 0 to 1000000 (kg)"],
+    ),
     "blank title": (with_value("scenario.title", '" "'), ['scenario.title is " "', "expected a text on one line"]),
     "title of two lines": (
         with_value("scenario.title", r'"a\nb"'),

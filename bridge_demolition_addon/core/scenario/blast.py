@@ -24,7 +24,7 @@ class ChargeSettings(Table):
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
     place_m: tuple[float, float, float] = key("Where it is: along the road, across it, and above the ground.", unit="m")
-    mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0)
+    mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0, at_most=1_000_000)
     explosive: str = key("What it is made of.", default="TNT", choices=tuple(EXPLOSIVES))
     delay_ms: float = key(
         "Time from `blast.start_s` to its detonation.", default=0.0, unit="ms", at_least=0, at_most=1e6

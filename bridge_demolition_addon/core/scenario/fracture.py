@@ -7,6 +7,9 @@ from ..errors import ScenarioError
 from .key import Table, check_exactly_one, key
 
 _EVEN = (1.0, 1.0, 1.0)
+_LEAST_STRETCH, _MOST_STRETCH = 0.01, 100.0
+"""Beyond them cells become so thin that nothing of a member is left between two cuts."""
+
 _STRETCH = (
     "How long shards are along the road, across it and upwards, relative to each other: [3, 1, 1] where reinforcement "
     "along the road keeps cracks apart."
@@ -32,7 +35,10 @@ class MemberFracture(Table):
         "Part of all shards, `fracture.shards`, that such members get together.", default=None, above=0, at_most=1
     )
     stretch: tuple[float, float, float] | None = key(
-        f"{_STRETCH} By default that of all members.", default=None, above=0
+        f"{_STRETCH} By default that of all members.",
+        default=None,
+        at_least=_LEAST_STRETCH,
+        at_most=_MOST_STRETCH,
     )
 
     def _check_together(self) -> None:
@@ -83,7 +89,7 @@ class FractureSettings(Table):
         at_least=0,
         at_most=1,
     )
-    stretch: tuple[float, float, float] = key(_STRETCH, default=_EVEN, above=0)
+    stretch: tuple[float, float, float] = key(_STRETCH, default=_EVEN, at_least=_LEAST_STRETCH, at_most=_MOST_STRETCH)
     margin_m: float = key(
         "Gap between the shards of a member. Masses stay those without it.",
         default=0.0,
