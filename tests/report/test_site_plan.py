@@ -52,7 +52,8 @@ def test_dxf_has_closed_lines_in_metres(tmp_path):
 def test_a_degree_is_as_long_as_tables_say(latitude, north_m, east_m):
     site = Site(latitude_deg=latitude, longitude_deg=10.0, bearing_deg=90.0)
     (east, north) = degrees(np.array([[100.0, 0.0], [0.0, 100.0]]), site)
-    assert east == pytest.approx((10.0 + 100.0 / east_m, latitude), abs=1e-8)
+    # 100 m to the east it is 1.4 mm nearer to the pole at 60°.
+    assert east == pytest.approx((10.0 + 100.0 / east_m, latitude), abs=1.5e-8)
     assert north == pytest.approx((10.0, latitude + 100.0 / north_m), abs=1e-8)
 
 
@@ -65,6 +66,48 @@ def test_bearings_run_clockwise_from_north(bearing, x_goes, y_goes):
     for point, name in (((100.0, 0.0), x_goes), ((0.0, 100.0), y_goes)):
         (place,) = degrees(np.array([point]), site)
         np.testing.assert_allclose(place / np.abs(place).max(), directions[name], atol=1e-9)
+
+
+def spherical_offset(latitude, east_m, north_m):
+    """Longitude and latitude of a point on the tangent plane of a sphere, in degrees from those of the origin."""
+    radius = 6_371_000.0
+    phi = np.radians(latitude)
+    x, z = np.array([np.cos(phi), np.sin(phi)]) * radius + np.array([-np.sin(phi), np.cos(phi)]) * north_m
+    return np.degrees(np.arctan2(east_m, x)), np.degrees(np.arctan2(z, np.hypot(x, east_m))) - latitude
+
+
+@pytest.mark.parametrize("latitude", [0.0, 60.0, 85.0, 89.0, -89.0])
+def test_meridians_meet_towards_the_poles(latitude):
+    east, north = 800.0, 600.0
+    (place,) = degrees(np.array([[east, north]]), Site(latitude_deg=latitude, longitude_deg=0.0))
+    # A sphere is not the ellipsoid: lengths of its degrees differ by up to 1 %, what is bent does not.
+    assert place - (0.0, latitude) == pytest.approx(spherical_offset(latitude, east, north), rel=0.01)
+    straight, _ = degrees(np.array([[1000.0, 0.0], [0.0, 0.0]]), Site(latitude_deg=latitude, longitude_deg=0.0))
+    # To the side of a meridian the way east bends towards the pole: by d² tan(latitude) / 2 r.
+    bend_m = (abs(latitude) - abs(straight[1])) * 111_694.0
+    assert bend_m == pytest.approx(
+        1000.0**2 * np.tan(np.radians(abs(latitude))) / (2 * 6_390_000.0), abs=0.02, rel=0.01
+    )
+
+
+@pytest.mark.parametrize("longitude", [179.9999, 180.0, -180.0, -179.9999])
+@pytest.mark.parametrize("bearing", [90.0, 30.0])
+@pytest.mark.parametrize("latitude", [-16.8, 66.0])
+def test_areas_are_cut_at_the_date_line(tmp_path, longitude, bearing, latitude):
+    area = CrossSection.square((200.0, 100.0), True)
+    site = Site(latitude_deg=latitude, longitude_deg=longitude, bearing_deg=bearing)
+    write_geojson(tmp_path / "plan.geojson", {"zone": area}, site)
+    (feature,) = json.loads((tmp_path / "plan.geojson").read_text(encoding="utf-8"))["features"]
+    rings = [np.array(ring) for (ring,) in feature["geometry"]["coordinates"]]
+    assert len(rings) == 2
+    covered = 0.0
+    for ring in rings:
+        assert np.ptp(ring[:, 0]) < 0.01
+        assert np.abs(ring[:, 0]).max() == 180.0
+        x, y = (ring * np.array([111_320.0 * np.cos(np.radians(latitude)), 111_320.0])).T
+        covered += np.sum(x[:-1] * (y[1:] - y[0]) - x[1:] * (y[:-1] - y[0])) / 2.0
+    assert covered == pytest.approx(200.0 * 100.0, rel=0.01)  # anticlockwise, both, and nothing lost
+    assert {np.sign(ring[:, 0].mean()) for ring in rings} == {-1.0, 1.0}
 
 
 def test_geojson_has_closed_rings_and_holes(tmp_path):
