@@ -18,7 +18,7 @@ from ..core.errors import LayoutError, SimulationError
 from ..scene.bodies import hull_points
 from ..scene.charges import charges_of
 from ..scene.explosion import Apply, explosion_of
-from ..scene.force_fields import ForceFields, has_other_fields
+from ..scene.force_fields import ForceFields, fields_of, has_other_fields
 from ..scene.inventory import Inventory
 
 
@@ -225,6 +225,18 @@ class Blast:
         """Push nothing any more."""
         if self._fields:
             self._fields.rest()
+
+
+def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
+    """See whether charges and force objects of a scene are as they should be, before anything is simulated.
+
+    Raises
+    ------
+    BlastError, SimulationError
+        A charge is not as it should be, or an active body lacks the force object that is to push it.
+    """
+    if goes_off(scene) and explosion_of(scene).apply is Apply.FIELDS:
+        fields_of(scene, [body for body in bodies if body.rigid_body.type == "ACTIVE"])
 
 
 def goes_off(scene: bpy.types.Scene) -> bool:

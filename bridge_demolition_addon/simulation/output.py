@@ -60,6 +60,15 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
     return folder
 
 
+def withdraw_folder(folder: Path) -> None:
+    """Take back a folder that was prepared for a run which came to nothing; what is not of a run stays in it."""
+    for name in RESULT_FILES:
+        (folder / name).unlink(missing_ok=True)
+    for empty in (folder / PICTURE_FOLDER, folder):
+        if empty.is_dir() and not any(empty.iterdir()):
+            empty.rmdir()
+
+
 def check_folder(folder: Path, *, overwrite: bool) -> None:
     """See that a folder for results is new or may be overwritten, without changing anything.
 

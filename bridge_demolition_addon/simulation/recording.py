@@ -22,7 +22,7 @@ from ..scene.inventory import Inventory, take_inventory
 from ..scene.lifts import lift_from, lifts_of
 from ..scene.slow_motion import time_is_animated, time_step_at
 from ..scene.thresholds import rewrite_thresholds
-from .blast import Blast, goes_off
+from .blast import Blast, check_blast, goes_off
 from .events import Events
 from .logs import LogFiles, Logs
 from .members import Members
@@ -38,10 +38,15 @@ def check_recordable(scene: bpy.types.Scene) -> None:
     Raises
     ------
     SimulationError
-        It has no rigid-body world, other units than metres, or connections without a body.
+        It has no rigid-body world or one in which nothing moves, other units than metres, or connections without a
+        body.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+    if not scene.rigidbody_world.enabled:
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
+    if scene.rigidbody_world.time_scale == 0.0:
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} has a speed of 0: set it to 1 first")
     unit_scale = scene.unit_settings.scale_length
     if unit_scale != 1.0:
         raise SimulationError(
@@ -63,11 +68,16 @@ class Recording:
     scene
         Scene with a rigid-body world.
     folder
-        Existing folder for the logs.
+        Folder for the logs, which has to exist once it is recorded.
     every_substep
         Whether loads are taken down after every sub-step, or only after the last one of each frame.
     log_files
         Logs that do not go to the folder; all do by default.
+
+    Raises
+    ------
+    BlastError, SimulationError
+        The scene, a charge or the force objects are not as they should be.
 
     Attributes
     ----------
@@ -96,6 +106,7 @@ class Recording:
         self._log_files = log_files or LogFiles()
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
+        check_blast(scene, self._bodies)
         self._lifted = [body for body in self._bodies if lifts_of(body)]
         self._members = Members(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)

@@ -9,13 +9,13 @@ from weakref import WeakKeyDictionary
 import bpy
 import numpy as np
 
-from ..core.errors import DemolitionError, OutputError, ScenarioError
+from ..core.errors import DemolitionError, OutputError, ScenarioError, SimulationError
 from ..core.rest import Rest
 from ..core.scenario import RecordingSettings, Scenario
 from ..core.scenario.file import scenario_from_text, scenario_text
 from ..simulation import handlers
 from ..simulation.logs import LogFiles
-from ..simulation.output import SCENARIO_FILE, checked_log, keep_results, prepared_folder
+from ..simulation.output import SCENARIO_FILE, checked_log, keep_results, prepared_folder, withdraw_folder
 from ..simulation.playing import start_over
 from ..simulation.recording import Recording, check_recordable
 from ..simulation.run_summary import Subject, rest_watch, run_summary
@@ -144,8 +144,9 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     )
     if forces is not None and forces == debris:
         raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
-    folder = prepared_folder(absolute(settings.output_directory), overwrite=settings.overwrite)
+    folder = absolute(settings.output_directory)
     recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
+    prepared_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
     if scenario:
         (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
     _subjects[recording] = Subject.of(scene, settings.title or scene.name, scenario)
@@ -165,9 +166,13 @@ def keep_recording(recording: Recording, *, completed: bool = True) -> None:
     Raises
     ------
     SimulationError
-        Nothing was recorded.
+        Nothing was recorded. Then the folder is gone as well, if nothing else is in it: the next try finds it free.
     """
-    results = recording.results()
+    try:
+        results = recording.results()
+    except SimulationError:
+        withdraw_folder(recording.folder)
+        raise
     summary = run_summary(recording, results, _subjects[recording], completed=completed)
     keep_results(recording.folder, results, summary)
     last_recording.keep(recording.folder, results, summary)

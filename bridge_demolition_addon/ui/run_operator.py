@@ -5,6 +5,7 @@ import bpy
 from ..core.errors import DemolitionError
 from ..scene.world import keep_played_frames
 from ..simulation import handlers
+from ..simulation.output import withdraw_folder
 from ..simulation.playing import Playing
 from ..simulation.safe_render import frames_are_known
 from . import redraw, running
@@ -80,11 +81,18 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> bool:
         try:
             recording = new_recording(context.scene)
+        except DemolitionError as error:
+            return self._not_begun(error)
+        try:
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except DemolitionError as error:
-            self.report({"ERROR"}, str(error))
-            return False
+            withdraw_folder(recording.folder)
+            return self._not_begun(error)
         return True
+
+    def _not_begun(self, error: DemolitionError) -> bool:
+        self.report({"ERROR"}, str(error))
+        return False
 
     def _show(self, context: bpy.types.Context) -> None:
         playing = self._playing

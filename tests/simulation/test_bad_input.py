@@ -265,6 +265,15 @@ def test_other_scene_plays_untouched(blender, pair, tmp_path):
     assert_handlers_gone(blender)
 
 
+@pytest.mark.parametrize(
+    "name, value, text", [("enabled", False, "is switched off: switch it on"), ("time_scale", 0.0, "a speed of 0")]
+)
+def test_a_world_in_which_nothing_moves(blender, pair, tmp_path, name, value, text):
+    setattr(pair.scene.rigidbody_world, name, value)
+    with pytest.raises(SimulationError, match=text):
+        Recording(pair.scene, tmp_path)
+
+
 def test_scene_without_a_world(blender, pair, tmp_path):
     with pytest.raises(SimulationError, match="'Other' has no rigid-body world"):
         Recording(blender.data.scenes.new("Other"), tmp_path)

@@ -9,7 +9,7 @@ from sample_results import GRAVITY, hanging_chain
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results import load_results
 from bridge_demolition_addon.core.summary import summarise
-from bridge_demolition_addon.simulation.output import RESULT_FILES, keep_results, prepared_folder
+from bridge_demolition_addon.simulation.output import RESULT_FILES, keep_results, prepared_folder, withdraw_folder
 
 
 def files_in(folder):
@@ -41,6 +41,16 @@ def test_overwriting_clears_results_and_nothing_else(tmp_path):
         (tmp_path / name).write_text("old")
     prepared_folder(tmp_path, overwrite=True)
     assert files_in(tmp_path) == sorted(others)
+
+
+def test_a_folder_is_withdrawn_but_for_what_is_not_of_a_run(tmp_path):
+    for name in ("alone", "shared"):
+        prepared_folder(tmp_path / name, overwrite=False)
+        (tmp_path / name / "force_log.csv").write_text("", encoding="utf-8")
+    (tmp_path / "shared" / "notes.txt").write_text("mine", encoding="utf-8")
+    for name in ("alone", "shared", "never there"):
+        withdraw_folder(tmp_path / name)
+    assert [path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*")] == ["shared", "shared/notes.txt"]
 
 
 @pytest.mark.parametrize("overwrite", [False, True])

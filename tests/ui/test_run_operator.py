@@ -24,9 +24,13 @@ def extension(blender):
 
 
 @pytest.fixture
-def scene(extension, tmp_path):
+def blocks(extension):
+    return Blocks()
+
+
+@pytest.fixture
+def scene(blocks, tmp_path):
     """A block that falls beside another that is held."""
-    blocks = Blocks()
     ground = blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
     blocks.block((3, 0, 5), 100.0)
     blocks.connect("FIXED", (0, 0, 0.5), ground, blocks.block((0, 0, 1.5), 100.0))
@@ -90,6 +94,50 @@ def test_run_refuses(extension, scene, tmp_path):
     scene.frame_end = 1
     assert "nothing to play" in refusal(extension.ops.bda.run)
     assert scene.frame_current == 1
+
+
+def explode(extension, scene):
+    """A charge beside the blocks, and a force object for each of them."""
+    extension.ops.bda.add_source_point()
+    scene.bda.scenario.blast.explosion = True
+    scene.bda.scenario.blast.start_s = 0.1
+    extension.ops.bda.build_force_objects()
+    return next(each for each in extension.data.objects if "bda_mass_kg" in each)
+
+
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_a_body_added_after_the_force_objects_is_refused_and_nothing_is_lost(
+    extension, blocks, scene, tmp_path, overwrite
+):
+    explode(extension, scene)
+    folder = tmp_path / "results"
+    if overwrite:
+        assert extension.ops.bda.run() == {"FINISHED"}
+        scene.bda.overwrite = True
+    before = sorted(folder.rglob("*"))
+    blocks.block((-3, 0, 5), 50.0)
+    assert "has no force object: build the force objects again" in refusal(extension.ops.bda.run)
+    assert sorted(folder.rglob("*")) == before
+    extension.ops.bda.build_force_objects()
+    assert extension.ops.bda.run() == {"FINISHED"}
+
+
+@pytest.mark.parametrize("wrong", ["no volume", "no frames", "charge"])
+def test_a_run_that_comes_to_nothing_leaves_its_folder_free(extension, scene, tmp_path, wrong):
+    charge = explode(extension, scene)
+    body = scene.rigidbody_world.collection.objects["Block 1"]
+    if wrong == "no volume":
+        body.scale.x = 0.0
+    elif wrong == "no frames":
+        scene.frame_end = 1
+    else:
+        charge["bda_explosive"] = "jelly"
+    assert {"no volume": "no volume", "no frames": "nothing to play", "charge": "Charge 1: explosive is 'jelly'"}[
+        wrong
+    ] in refusal(extension.ops.bda.run)
+    assert not (tmp_path / "results").exists()
+    body.scale.x, scene.frame_end, charge["bda_explosive"] = 1.0, FRAMES, "TNT"
+    assert extension.ops.bda.run() == {"FINISHED"}
 
 
 def test_everything_refuses_without_a_world(extension):

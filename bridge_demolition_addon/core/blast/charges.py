@@ -104,8 +104,11 @@ class Charge:
         self._keep("mass_kg", _at_least_zero(self.mass_kg, f"{self.name}: mass", "kg"))
         self._keep("delay_s", _at_least_zero(self.delay_s, f"{self.name}: delay", "s"))
         self._keep("place_m", _place(self.place_m, self.name))
-        self._keep("explosive", explosive_named(self.explosive).name)
-        self._keep("burst", Burst(self.burst))
+        try:
+            self._keep("explosive", explosive_named(self.explosive).name)
+            self._keep("burst", Burst(self.burst))
+        except BlastError as error:
+            raise BlastError(f"{self.name}: {error}") from error
 
     @property
     def tnt_kg(self) -> float:
