@@ -15,14 +15,11 @@ from .member import Member
 from .repair import repaired_solid
 from .scenario import Geometry
 from .scenario.geometry import MESH_FILES
-from .scenario.key import SHORTEST_LENGTH_M
+from .scenario.key import FARTHEST_M, SHORTEST_LENGTH_M
 from .solids import mesh_of, union
 
 _BELOW_GROUND_M = 1e-3
 """How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
-
-_FARTHEST_M = 1e4
-"""How far from the origin a member may reach: Blender's single precision keeps places there to a millimetre."""
 
 _FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Turns coordinates with y up and z towards the viewer into ours, with z up."""
@@ -93,9 +90,9 @@ def _file_mesh(path: Path) -> trimesh.Trimesh:
 
 def _check_extent(mesh: trimesh.Trimesh, name: str) -> None:
     farthest, thinnest = float(np.abs(mesh.bounds).max()), float(mesh.extents.min())
-    if farthest > _FARTHEST_M:
+    if farthest > FARTHEST_M:
         raise GeometryError(
-            f"{name}: reaches {farthest:.4g} m from the origin; bring it within {_FARTHEST_M:g} m by "
+            f"{name}: reaches {farthest:.4g} m from the origin; bring it within {FARTHEST_M:g} m by "
             "geometry.place_m, or by geometry.scale if the file is not in metres."
         )
     if 0.0 < thinnest < SHORTEST_LENGTH_M:

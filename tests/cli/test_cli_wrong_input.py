@@ -169,6 +169,10 @@ WRONG_FILES = {
         RIGHT + "\n[[charges]]\nplace_m = [0.0, 0.0, 1.0]\nmass_kg = 6e24\n",
         ["charges.mass_kg is 6e+24", "expected a number from 0 to 1000000 (kg)"],
     ),
+    "bridge longer than single precision reaches": (
+        with_value("bridge.span_lengths_m", "[13000.0]"),
+        ["bridge.span_lengths_m add up to 13000", "expected at most 10000 (m)"],
+    ),
     "blank title": (with_value("scenario.title", '" "'), ['scenario.title is " "', "expected a text on one line"]),
     "title of two lines": (
         with_value("scenario.title", r'"a\nb"'),

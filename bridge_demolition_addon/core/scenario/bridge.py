@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
-from .key import ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
+from .key import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 
 LARGEST_SKEW_DEG = 75.0
 
@@ -86,6 +86,10 @@ class Bridge(Table):
 
     def _check_together(self) -> None:
         check_exactly_one(self, "density_kg_m3", "mass_kg")
+        if self.spans_m > FARTHEST_M:
+            raise ScenarioError(
+                f"bridge.span_lengths_m add up to {self.spans_m:g}: expected at most {FARTHEST_M:g} (m)"
+            )
         self._check_parts()
         self._check_superstructure()
         self._check_room_along()

@@ -23,6 +23,9 @@ LARGEST_NUMBER = float(np.finfo(np.float32).max)
 SHORTEST_LENGTH_M = 0.001
 """Least size of anything solid: Bullet cannot tell contacts apart on bodies that are smaller still."""
 
+FARTHEST_M = 10_000.0
+"""How far from the origin anything solid may reach: Blender's single precision keeps places there to a millimetre."""
+
 ROUNDING = 1e-9
 """Relative slack where lengths are compared that a user would add up in decimals."""
 
