@@ -14,7 +14,6 @@ import numpy as np
 from ..core.contours import ContourSeries, ContourSettings
 from ..core.errors import ContourError, OutputError
 from ..core.film import film_rows
-from ..report.contour_legend import add_legend, legend_width
 from ..scene.film import PictureSettings, encode_film, set_up_for_pictures
 from . import contours
 from .output import FILM_FILE, SLOW_FILM_FILE
@@ -63,8 +62,11 @@ class FilmSettings:
     @property
     def rendered(self) -> PictureSettings:
         """The part of a picture that is rendered: all but the colour bar."""
-        beside = legend_width(self.picture.height_px) if self.legend else 0
-        return replace(self.picture, width_px=self.picture.width_px - beside)
+        if not self.legend:
+            return self.picture
+        from ..report.contour_legend import legend_width  # matplotlib, which switching the add-on on need not wait for
+
+        return replace(self.picture, width_px=self.picture.width_px - legend_width(self.picture.height_px))
 
 
 def render_film(
@@ -129,6 +131,8 @@ class FilmRendering:
         OutputError
             A picture could not be rendered.
         """
+        from ..report.contour_legend import add_legend  # matplotlib, which switching the add-on on need not wait for
+
         scene = self._scene
         with (
             _contours_shown(scene, self._contours),

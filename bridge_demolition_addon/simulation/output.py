@@ -9,7 +9,6 @@ from typing import Any
 from ..core.errors import OutputError
 from ..core.results import Results
 from ..core.summary import first_hit_s
-from ..report.force_plot import plot_forces
 
 SCENARIO_FILE = "scenario_as_run.toml"
 """The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
@@ -118,6 +117,9 @@ def checked_log(path: Path, *, overwrite: bool) -> Path:
 
 def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:
     """Write arrays, summary and force chart of a recording beside its logs."""
+    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on need wait for.
+    from ..report.force_plot import plot_forces
+
     results.save(folder / "results.npz")
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     plot_forces(results, folder / "force_over_time.png", summary["title"], first_hit_s(summary))
