@@ -11,26 +11,24 @@ from ..scene.symbols import has_symbols, hide_symbols, symbols_are_hidden
 from ..simulation import contours, handlers
 from ..simulation.film import FilmKind, FilmRendering, FilmSettings
 from . import contour_view
-from .refusal import absolute, refused
+from .refusal import Refusing, absolute, refused
 
 _TICK_S = 0.01
 
 
-class BDA_OT_load_results(bpy.types.Operator):
+class BDA_OT_load_results(Refusing, bpy.types.Operator):
     """Show contours of an earlier recording of this scene, kept in a file results.npz"""
 
     bl_idname = "bda.load_results"
     bl_label = "Load Results"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if handlers.current():
-            cls.poll_message_set("A recording runs: unregister the handler first")
-            return False
+            return "A recording runs: unregister the handler first"
         if not context.scene.bda.results_path:
-            cls.poll_message_set("Choose a file results.npz first")
-            return False
-        return True
+            return "Choose a file results.npz first"
+        return None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
@@ -44,7 +42,7 @@ class BDA_OT_load_results(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_render_contours(bpy.types.Operator):
+class BDA_OT_render_contours(Refusing, bpy.types.Operator):
     """Render the recorded frames with their contours, as a film or as pictures, to the folder; Esc stops"""
 
     bl_idname = "bda.render_contours"
@@ -56,17 +54,14 @@ class BDA_OT_render_contours(bpy.types.Operator):
     _done = 0
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if handlers.current():
-            cls.poll_message_set("A recording runs: unregister the handler first")
-            return False
+            return "A recording runs: unregister the handler first"
         if not context.scene.bda.film_directory:
-            cls.poll_message_set("Choose a folder for the film first")
-            return False
+            return "Choose a folder for the film first"
         if contours.series_of(context.scene) is None:
-            cls.poll_message_set("Nothing was recorded in this scene: record it, or load its results")
-            return False
-        return True
+            return "Nothing was recorded in this scene: record it, or load its results"
+        return None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
@@ -124,7 +119,7 @@ class BDA_OT_render_contours(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_toggle_symbols(bpy.types.Operator):
+class BDA_OT_toggle_symbols(Refusing, bpy.types.Operator):
     """Hide the empties of all connections and force objects, or show them; they work all the same"""
 
     bl_idname = "bda.toggle_symbols"
@@ -132,11 +127,10 @@ class BDA_OT_toggle_symbols(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if not has_symbols(context.view_layer, context.scene):
-            cls.poll_message_set("This scene has neither connections nor force objects")
-            return False
-        return True
+            return "This scene has neither connections nor force objects"
+        return None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, layer = context.scene, context.view_layer

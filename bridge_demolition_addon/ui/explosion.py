@@ -62,7 +62,7 @@ class BDA_OT_add_source_point(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_delete_source_point(bpy.types.Operator):
+class BDA_OT_delete_source_point(Refusing, bpy.types.Operator):
     """Delete the charge that is chosen in the list"""
 
     bl_idname = "bda.delete_source_point"
@@ -70,11 +70,8 @@ class BDA_OT_delete_source_point(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if shown_charge(context.scene) is None:
-            cls.poll_message_set("Choose a charge in the list first")
-            return False
-        return True
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return "Choose a charge in the list first" if shown_charge(context.scene) is None else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.bda

@@ -15,14 +15,14 @@ from ..core.errors import DemolitionError, GeometryError, OutputError
 from ..core.points_file import paint_text
 from ..scene.members import members_of_objects
 from ..scene.painting import painted_points
-from .refusal import absolute, refused
+from .refusal import Refusing, absolute, refused
 from .sidebar import RELATIVE_PATHS
 
 _CONCRETE_KG_M3 = 2400.0
 _MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
 
 
-class BDA_OT_add_selected_members(bpy.types.Operator):
+class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
     """Add the selected meshes to the scenario as members, each in a file of a folder, and hide them"""
 
     bl_idname = "bda.add_selected_members"
@@ -38,14 +38,12 @@ class BDA_OT_add_selected_members(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit or paint mode first")
-            return False
+            return "Leave the edit or paint mode first"
         if not any(each.type == "MESH" for each in context.selected_objects):
-            cls.poll_message_set("Select the meshes that are to be members first")
-            return False
-        return True
+            return "Select the meshes that are to be members first"
+        return None
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         context.window_manager.fileselect_add(self)
@@ -71,7 +69,7 @@ class BDA_OT_add_selected_members(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_use_paint(bpy.types.Operator):
+class BDA_OT_use_paint(Refusing, bpy.types.Operator):
     """Cut the bridge finer where the active mesh is painted: its active vertex group is written to a file"""
 
     bl_idname = "bda.use_paint"
@@ -87,12 +85,11 @@ class BDA_OT_use_paint(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         body = context.active_object
         if body is None or body.type != "MESH" or not body.vertex_groups:
-            cls.poll_message_set("Choose a mesh with a vertex group first, such as one that was painted with weights")
-            return False
-        return True
+            return "Choose a mesh with a vertex group first, such as one that was painted with weights"
+        return None
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self.filepath = f"{_file_name(context.active_object.name)} painted{_PAINT_SUFFIX}"

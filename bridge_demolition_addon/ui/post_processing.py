@@ -5,13 +5,13 @@ from bpy.props import BoolProperty, StringProperty
 
 from ..core.errors import OutputError
 from ..simulation import handlers
-from .refusal import absolute, refused
+from .refusal import Refusing, absolute, refused
 from .sidebar import RELATIVE_PATHS, SidebarPanel
 
 _SUFFIX = ".csv"
 
 
-class _LogPathOperator:
+class _LogPathOperator(Refusing):
     """Base of the operators that ask for a log's file; each names the setting and the file's usual name."""
 
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
@@ -27,11 +27,10 @@ class _LogPathOperator:
     usual_name: str
 
     @classmethod
-    def poll(cls, _context: bpy.types.Context) -> bool:
+    def why_not(cls, _context: bpy.types.Context) -> str | None:
         if handlers.current():
-            cls.poll_message_set("The handler is registered: unregister it before its logs are sent elsewhere")
-            return False
-        return True
+            return "The handler is registered: unregister it before its logs are sent elsewhere"
+        return None
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self.filepath = getattr(context.scene.bda, self.setting) or self.usual_name

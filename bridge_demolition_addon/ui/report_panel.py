@@ -4,25 +4,23 @@ import bpy
 
 from ..core.errors import DemolitionError
 from ..simulation import handlers
-from .refusal import absolute, refused
+from .refusal import Refusing, absolute, refused
 from .sidebar import SidebarPanel
 
 
-class BDA_OT_make_report(bpy.types.Operator):
+class BDA_OT_make_report(Refusing, bpy.types.Operator):
     """Make a report, as a page and as a PDF, from the results in the folder"""
 
     bl_idname = "bda.make_report"
     bl_label = "Make Report"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if not context.scene.bda.output_directory:
-            cls.poll_message_set("Choose the folder with the results first")
-            return False
+            return "Choose the folder with the results first"
         if handlers.current():
-            cls.poll_message_set("The recording still goes on: unregister the handler first")
-            return False
-        return True
+            return "The recording still goes on: unregister the handler first"
+        return None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.

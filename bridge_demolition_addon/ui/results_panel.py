@@ -23,7 +23,7 @@ _N_PER_KN = 1000.0
 _SURROUNDINGS = 3.0
 
 
-class BDA_OT_go_to_body(bpy.types.Operator):
+class BDA_OT_go_to_body(Refusing, bpy.types.Operator):
     """Go to that frame, select the body and look at it"""
 
     bl_idname = "bda.go_to_body"
@@ -34,14 +34,12 @@ class BDA_OT_go_to_body(bpy.types.Operator):
     frame: IntProperty(name="Frame", description="Frame to go to", min=0)
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if handlers.current():
-            cls.poll_message_set("The handler is registered: unregister it before you look at another frame")
-            return False
+            return "The handler is registered: unregister it before you look at another frame"
         if context.mode != "OBJECT":
-            cls.poll_message_set("Go to object mode first")
-            return False
-        return True
+            return "Go to object mode first"
+        return None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         body = context.view_layer.objects.get(self.body)

@@ -10,7 +10,7 @@ from ..simulation.playing import Playing
 from ..simulation.safe_render import frames_are_known
 from . import redraw, running
 from .frame_change import keep_recording, new_recording, rest_to_stop_at, why_not_recorded
-from .refusal import Refusing
+from .refusal import Refusing, no_world
 
 _TICK_S = 0.001
 """Between two frames: Blender takes in mouse and keyboard, and draws."""
@@ -122,28 +122,24 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_bake(bpy.types.Operator):
+class BDA_OT_bake(Refusing, bpy.types.Operator):
     """Keep the frames simulated so far as a bake: saved with the file, and played back instead of simulated"""
 
     bl_idname = "bda.bake"
     bl_label = "Bake"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         world = context.scene.rigidbody_world
-        if not world:
-            cls.poll_message_set("This scene has no rigid-body world: build a scenario first")
-            return False
+        if reason := no_world(context):
+            return reason
         if world.point_cache.is_baked:
-            cls.poll_message_set("The simulation is baked already")
-            return False
+            return "The simulation is baked already"
         if handlers.current():
-            cls.poll_message_set("A recording runs: unregister its handler first")
-            return False
+            return "A recording runs: unregister its handler first"
         if not frames_are_known(context.scene):
-            cls.poll_message_set("Nothing has been simulated since the last change: run or play it first")
-            return False
-        return True
+            return "Nothing has been simulated since the last change: run or play it first"
+        return None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         keep_played_frames(context.scene)
@@ -151,19 +147,16 @@ class BDA_OT_bake(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_delete_bake(bpy.types.Operator):
+class BDA_OT_delete_bake(Refusing, bpy.types.Operator):
     """Delete the bake, so that the scene is simulated again"""
 
     bl_idname = "bda.delete_bake"
     bl_label = "Delete Bake"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         world = context.scene.rigidbody_world
-        if not world or not world.point_cache.is_baked:
-            cls.poll_message_set("There is no bake")
-            return False
-        return True
+        return None if world and world.point_cache.is_baked else "There is no bake"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         cache = context.scene.rigidbody_world.point_cache

@@ -12,7 +12,7 @@ from ..core.scenario.file import read_scenario, scenario_text
 from ..scene.bodies import Kind, bodies_of, kind_of
 from ..scene.demolition import build_demolition
 from .looking import look_at_selected, select_only
-from .refusal import absolute, refused
+from .refusal import Refusing, absolute, refused
 from .scenario_properties import PRESETS, default_scenario
 from .scenario_values import scenario_of, show_scenario
 from .sidebar import RELATIVE_PATHS
@@ -20,7 +20,7 @@ from .sidebar import RELATIVE_PATHS
 _SUFFIX = ".toml"
 
 
-class BDA_OT_load_scenario(bpy.types.Operator):
+class BDA_OT_load_scenario(Refusing, bpy.types.Operator):
     """Show the scenario file's values in the panels, and its charges in the scene; nothing is built yet"""
 
     bl_idname = "bda.load_scenario"
@@ -28,11 +28,8 @@ class BDA_OT_load_scenario(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.bda.scenario_path:
-            cls.poll_message_set("Choose a scenario file first")
-            return False
-        return True
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return None if context.scene.bda.scenario_path else "Choose a scenario file first"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
@@ -105,7 +102,7 @@ class BDA_OT_load_preset(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_build_scenario(bpy.types.Operator):
+class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
     """Build the bridge that the panels show, its shards, connections, ground and ball in this scene"""
 
     bl_idname = "bda.build_scenario"
@@ -113,13 +110,10 @@ class BDA_OT_build_scenario(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def why_not(cls, context: bpy.types.Context) -> str | None:
         if context.scene.rigidbody_world:
-            cls.poll_message_set(
-                "This scene has a rigid-body world already: remove its demolition first, or use a new scene"
-            )
-            return False
-        return True
+            return "This scene has a rigid-body world already: remove its demolition first, or use a new scene"
+        return None
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Build it, and let the view show the bridge: its ground is too large for Blender's View All."""
