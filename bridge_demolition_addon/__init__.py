@@ -17,7 +17,6 @@ def unregister() -> None:
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
     from .simulation import safe_render, safe_undo, watch
-    from .ui import classes, contour_operators, contour_panel, contour_view, overlay, properties, run_operator
+    from .ui import classes, contour_view, overlay, properties
 
-    sidebar = (properties, contour_view, classes, run_operator, contour_operators, contour_panel, overlay)
-    return (*sidebar, safe_undo, safe_render, watch)
+    return (properties, contour_view, classes, overlay, safe_undo, safe_render, watch)

@@ -18,7 +18,7 @@ import bridge_demolition_addon
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.scene.charges import create_charges
 from bridge_demolition_addon.ui.classes import classes
-from bridge_demolition_addon.ui.scenario_panels import SidebarPanel
+from bridge_demolition_addon.ui.sidebar import SidebarPanel
 
 SHARDS = (100, 1000)
 CHARGES = 100
@@ -71,7 +71,10 @@ def milliseconds(panels: list[type], scene: bpy.types.Scene) -> float:
     """Median time to draw all panels once, ms."""
     system = SimpleNamespace(ui_scale=1.0)
     context = SimpleNamespace(
-        scene=scene, region=SimpleNamespace(width=280), preferences=SimpleNamespace(system=system)
+        scene=scene,
+        view_layer=scene.view_layers[0],
+        region=SimpleNamespace(width=280),
+        preferences=SimpleNamespace(system=system),
     )
     drawn = [without_blender(each)(Layout(context)) for each in panels]
     times = []

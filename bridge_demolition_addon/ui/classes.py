@@ -8,6 +8,8 @@ import bpy
 
 from ..simulation import handlers
 from . import (
+    contour_operators,
+    contour_panel,
     explosion,
     frame_change,
     last_recording,
@@ -17,6 +19,8 @@ from . import (
     removal_operators,
     report_panel,
     results_panel,
+    run_operator,
+    running,
     scenario_operators,
     scenario_panels,
     table_lists,
@@ -30,11 +34,14 @@ def classes() -> tuple[type, ...]:
         *scenario_operators.CLASSES,
         *removal_operators.CLASSES,
         *own_objects.CLASSES,
+        *run_operator.CLASSES,
+        *contour_operators.CLASSES,
         *table_lists.CLASSES,
         *scenario_panels.panels(),
         *explosion.CLASSES,
         *frame_change.CLASSES,
         *post_processing.CLASSES,
+        *contour_panel.CLASSES,
         *results_panel.CLASSES,
         *report_panel.CLASSES,
         *scenario_panels.inner_panels(),
@@ -48,7 +55,8 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End a recording that runs, and take all of them away."""
+    """End a run or recording that goes on, and take all of them away."""
+    running.end(bpy.context)
     handlers.stop()
     redraw.unregister()
     last_recording.forget()

@@ -141,18 +141,6 @@ class BDA_OT_toggle_symbols(Refusing, bpy.types.Operator):
 CLASSES = (BDA_OT_load_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)
 
 
-def register() -> None:
-    """Make the operators known to Blender."""
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister() -> None:
-    """Take the operators away."""
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
-
-
 def _film_settings(scene: bpy.types.Scene) -> FilmSettings:
     settings = scene.bda
     return FilmSettings(

@@ -85,15 +85,3 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
 
 
 CLASSES = (BDA_PT_contours, BDA_PT_overlay, BDA_PT_film)
-
-
-def register() -> None:
-    """Show the panels."""
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister() -> None:
-    """Take the panels away."""
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)

@@ -169,19 +169,6 @@ class BDA_OT_delete_bake(Refusing, bpy.types.Operator):
 CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
 
 
-def register() -> None:
-    """Make the operators known to Blender."""
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister() -> None:
-    """Take the operators away, and what a run that goes on shows."""
-    running.end(bpy.context)
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
-
-
 def progress_text(playing: Playing) -> str:
     """How far a run is, for the status bar."""
     left = round(playing.remaining_s)

@@ -38,8 +38,7 @@ def steps(person: Person) -> Steps:
 
 def open_panels(seconds: dict[str, list[float]]) -> None:
     """Have all panels open from the beginning, and take their times."""
-    classes = (*module("ui.classes").classes(), *module("ui.contour_panel").CLASSES)
-    found = [each for each in classes if issubclass(each, bpy.types.Panel)]
+    found = [each for each in module("ui.classes").classes() if issubclass(each, bpy.types.Panel)]
     for each in reversed(found):
         bpy.utils.unregister_class(each)
     for each in found:
