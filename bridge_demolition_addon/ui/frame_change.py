@@ -45,7 +45,7 @@ class BDA_OT_register_handler(Refusing, bpy.types.Operator):
         try:
             recording = new_recording(context.scene)
             handlers.start(recording)
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:
             return refused(self, error)
         start_over(context.scene)
         redraw.follow_recording()
@@ -66,17 +66,7 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
         return "Run is at work: Esc stops it" if running.goes_on() else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        recording = handlers.stop()
-        try:
-            keep_recording(recording)
-        except DemolitionError as error:
-            return refused(self, recording.error or error)
-        if recording.error:
-            self.report({"WARNING"}, f"The recording ended early: {recording.error}")
-        if recording.distrust:
-            self.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
-        self.report({"INFO"}, f"Results are in {recording.folder}")
-        return {"FINISHED"}
+        return end_with_results(self, handlers.stop())
 
 
 class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
@@ -131,7 +121,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
 
     Raises
     ------
-    DemolitionError
+    DemolitionError, OSError
         A value, the folder or a file for a log cannot be used, or the scene cannot be recorded.
     """
     settings = scene.bda
@@ -153,21 +143,35 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     return recording
 
 
-def keep_recording(recording: Recording, *, completed: bool = True) -> None:
-    """Write what a recording has, and keep its summary for the panel of results.
+def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:
+    """Write what a recording that has ended has, keep it for the panel of results, and tell what came of it.
+
+    Where nothing was recorded the folder is gone as well, if nothing else is in it: the next try finds it free.
 
     Parameters
     ----------
+    operator
+        What ended it, which this is the result of.
     recording
-        A recording that has ended.
-    completed
-        Whether it went on for as long as it was meant to.
-
-    Raises
-    ------
-    SimulationError
-        Nothing was recorded. Then the folder is gone as well, if nothing else is in it: the next try finds it free.
+        The recording.
+    stopped
+        In a sentence, that the user has stopped it before its time; empty where that is not so.
     """
+    try:
+        _keep_recording(recording, completed=not (recording.error or stopped))
+    except (DemolitionError, OSError) as error:  # a full disk, for one
+        return refused(operator, recording.error or error)
+    if recording.error:
+        operator.report({"WARNING"}, f"The recording ended early: {recording.error}")
+    elif stopped:
+        operator.report({"WARNING"}, stopped)
+    if recording.distrust:
+        operator.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
+    operator.report({"INFO"}, f"Results are in {recording.folder}")
+    return {"FINISHED"}
+
+
+def _keep_recording(recording: Recording, *, completed: bool) -> None:
     try:
         results = recording.results()
     except SimulationError:

@@ -9,7 +9,7 @@ from ..simulation.output import withdraw_folder
 from ..simulation.playing import Playing
 from ..simulation.safe_render import frames_are_known
 from . import redraw, running
-from .frame_change import keep_recording, new_recording, rest_to_stop_at, why_not_recorded
+from .frame_change import end_with_results, new_recording, rest_to_stop_at, why_not_recorded
 from .refusal import Refusing, no_world
 
 _TICK_S = 0.001
@@ -81,16 +81,16 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> bool:
         try:
             recording = new_recording(context.scene)
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:
             return self._not_begun(error)
         try:
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:
             withdraw_folder(recording.folder)
             return self._not_begun(error)
         return True
 
-    def _not_begun(self, error: DemolitionError) -> bool:
+    def _not_begun(self, error: Exception) -> bool:
         self.report({"ERROR"}, str(error))
         return False
 
@@ -105,21 +105,9 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
 
     def _end(self) -> set[str]:
         playing = self._playing
-        recording = playing.recording
         playing.end()
-        try:
-            keep_recording(recording, completed=playing.finished and not recording.error)
-        except (DemolitionError, OSError) as error:
-            self.report({"ERROR"}, str(recording.error or error))
-            return {"CANCELLED"}
-        if recording.error:
-            self.report({"WARNING"}, f"The recording ended early: {recording.error}")
-        elif not playing.finished:
-            self.report({"WARNING"}, f"Stopped after {playing.done} of {playing.total} frames")
-        if recording.distrust:
-            self.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
-        self.report({"INFO"}, f"Results are in {recording.folder}")
-        return {"FINISHED"}
+        stopped = "" if playing.finished else f"Stopped after {playing.done} of {playing.total} frames"
+        return end_with_results(self, playing.recording, stopped=stopped)
 
 
 class BDA_OT_bake(Refusing, bpy.types.Operator):

@@ -56,6 +56,28 @@ def test_logs_go_where_they_were_sent(built, settings, tmp_path):
     assert not (tmp_path / "results" / "debris_log.csv").exists()
 
 
+def test_a_recording_that_a_deletion_ends_was_not_completed(built, tmp_path):
+    built.ops.bda.register_handler()
+    play(built)
+    built.data.objects.remove(built.context.scene.rigidbody_world.constraints.objects[0])
+    built.context.scene.frame_set(FRAMES + 1)
+    built.ops.bda.unregister_handler()
+    summary = json.loads((tmp_path / "results" / "summary.json").read_text())
+    assert summary["completed"] is False
+    assert summary["frames"] == FRAMES - 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps a folder as long as files in it are open")
+def test_a_folder_that_went_away_while_recording_is_told_of(built, tmp_path):
+    built.ops.bda.register_handler()
+    play(built)
+    (tmp_path / "results").rename(tmp_path / "elsewhere")
+    with pytest.raises(RuntimeError) as caught:
+        built.ops.bda.unregister_handler()
+    assert "No such file" in str(caught.value) and "Traceback" not in str(caught.value)
+    assert handlers.current() is None
+
+
 @pytest.mark.parametrize("setting", ["force_log_path", "debris_log_path"])
 def test_a_log_that_cannot_be_written_is_refused_before_anything_is_made(built, settings, tmp_path, setting):
     there = tmp_path / "there.csv"
