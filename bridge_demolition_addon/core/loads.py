@@ -20,8 +20,8 @@ class ContactForces:
     total_n
         (k,) over all pairs of bodies in contact, as far as recorded: half the sum of the resultants of the contacts on
         every body. Contacts that press a body from two sides cancel in its resultant, so that it is a lower bound.
-    largest_n, largest_body
-        (k,) largest of these resultants on a shard, and (k,) which shard; -1 where there is none.
+    largest_n
+        (k,) largest of these resultants on a shard.
     ground_n
         (k,) upward force of the ground by contacts; foundations that still hold are connections and not in it.
     """
@@ -29,7 +29,6 @@ class ContactForces:
     times_s: np.ndarray
     total_n: np.ndarray
     largest_n: np.ndarray
-    largest_body: np.ndarray
     ground_n: np.ndarray
 
 
@@ -41,13 +40,10 @@ def contact_forces(results: Results) -> ContactForces:
     forces = np.divide(impulses, durations[:, None, None], out=np.zeros_like(impulses), where=known[:, None, None])
     magnitudes = np.linalg.norm(forces, axis=2)
     shards, ground = results.of_kind("shard"), results.of_kind("ground")
-    on_shards = magnitudes[:, shards]
-    some = len(shards) > 0
     return ContactForces(
         times_s=results.times_s,
         total_n=magnitudes.sum(axis=1) / 2.0,
-        largest_n=on_shards.max(axis=1, initial=0.0),
-        largest_body=shards[np.nan_to_num(on_shards).argmax(axis=1)] if some else np.full(len(durations), -1),
+        largest_n=magnitudes[:, shards].max(axis=1, initial=0.0),
         ground_n=-forces[:, ground, 2].sum(axis=1),
     )
 

@@ -7,7 +7,6 @@ connection, such as the reinforcement across a crack, until it has opened too fa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -135,22 +134,6 @@ class Ductility:
             raise ScenarioError(f"strength_share of a ductility is {self.strength_share}: expected 0 to 1")
         if not np.all(elongation >= 0.0):
             raise ScenarioError(f"elongation_m of a ductility is {self.elongation_m}: expected 0 or more")
-
-
-def strengths_of(materials: Sequence[Strength], rows: np.ndarray) -> Strength:
-    """The strength of each connection, where rows (m,) says which of the materials it is made of."""
-    return Strength(*(np.array([getattr(each, item.name) for each in materials])[rows] for item in fields(Strength)))
-
-
-def weaker(one: Strength, other: Strength) -> Strength:
-    """The lower of two strengths in every respect: what a joint between two materials carries."""
-    return Strength(*(np.minimum(getattr(one, item.name), getattr(other, item.name)) for item in fields(Strength)))
-
-
-def square_sections(areas: np.ndarray) -> Sections:
-    """Sections of which only the area (m,) is known, m²: squares with two sides level, W = A^1.5 / 6."""
-    areas = np.asarray(areas, dtype=float)
-    return rectangular_sections(areas, areas[:, None, None] ** 2 / 12.0 * np.eye(2))
 
 
 def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Sections:

@@ -12,7 +12,6 @@ from bridge_demolition_addon.core.blast.pulses import (
     Loading,
     blast_pulses,
     impulse_between,
-    loaded_between,
     pressure_at,
 )
 from bridge_demolition_addon.core.blast.wave import Burst
@@ -76,7 +75,7 @@ def test_nothing_before_the_arrival_and_after_the_phase():
     first, last = found.arrivals_s.min(), found.ends_s.max()
     for start, end in ((-10.0, 0.0), (0.0, first), (last, last + 1.0), (1e3, 2e3)):
         assert impulse_between(found, start, end).tolist() == np.zeros((2, 3)).tolist()
-        assert not loaded_between(found, start, end).any()
+        assert not found.load_between(start, end).any()
     assert pressure_at(found, first - 1e-9).sum() == pressure_at(found, last).sum() == 0.0
 
 
@@ -85,9 +84,9 @@ def test_bodies_are_loaded_while_a_pulse_passes():
     for body in range(2):
         for charge in range(3):
             middle = found.arrivals_s[body, charge] + found.durations_s[body, charge] / 2.0
-            assert loaded_between(found, middle, middle + 1e-9)[body]
+            assert found.load_between(middle, middle + 1e-9)[body, charge]
             assert impulse_between(found, middle, middle + 1e-9)[body, charge] > 0.0
-    assert loaded_between(found, 0.0, 1.0).tolist() == [True, True]
+    assert found.load_between(0.0, 1.0).tolist() == np.ones((2, 3), bool).tolist()
 
 
 def test_the_times_may_be_an_array():
@@ -102,13 +101,13 @@ def test_a_charge_of_nothing_does_nothing():
     assert impulse_between(found, -1.0, 10.0)[:, [0, 2]].tolist() == np.zeros((2, 2)).tolist()
     for name in ("arrivals_s", "durations_s", "decays"):
         assert np.isfinite(getattr(found, name)).all()
-    assert not loaded_between(blast_pulses(STAND_OFFS, np.zeros(3), DELAYS, BURSTS), -1.0, 10.0).any()
+    assert not blast_pulses(STAND_OFFS, np.zeros(3), DELAYS, BURSTS).load_between(-1.0, 10.0).any()
 
 
 def test_no_charges_and_no_bodies():
     without = blast_pulses(np.zeros((4, 0)), [], [], [])
     assert impulse_between(without, 0.0, 1.0).shape == (4, 0)
-    assert loaded_between(without, 0.0, 1.0).tolist() == [False] * 4
+    assert without.load_between(0.0, 1.0).shape == (4, 0)
     assert blast_pulses(np.zeros((0, 1)), [1.0], [0.0], ["air"]).peaks_pa.shape == (0, 1)
 
 

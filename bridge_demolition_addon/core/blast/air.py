@@ -26,9 +26,3 @@ def reflected_overpressure(overpressure_pa: np.ndarray) -> np.ndarray:
     """
     peak = np.asarray(overpressure_pa, float)
     return 2.0 * peak * (7.0 * AMBIENT_PRESSURE_PA + 4.0 * peak) / (7.0 * AMBIENT_PRESSURE_PA + peak)
-
-
-def dynamic_pressure(overpressure_pa: np.ndarray) -> np.ndarray:
-    """Pressure of the wind behind a front, Pa: 5 p₀² / 2 (7 Pₐ + p₀)."""
-    peak = np.asarray(overpressure_pa, float)
-    return 2.5 * peak**2 / (7.0 * AMBIENT_PRESSURE_PA + peak)

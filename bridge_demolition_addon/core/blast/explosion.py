@@ -118,7 +118,7 @@ class Explosion:
         """
         self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
         pulses = self._pulses
-        during = (pulses.peaks_pa > 0.0) & (pulses.arrivals_s < end_s) & (start_s < pulses.ends_s)
+        during = pulses.load_between(start_s, end_s)
         bodies, charges = np.nonzero(during)
         if not len(bodies):
             return no_loads()
@@ -143,8 +143,7 @@ class Explosion:
         """Whether it is known, before looking at the bodies, that nothing is loaded between two times."""
         if (~self._detonated & (self._detonations_s < end_s)).any():
             return False
-        pulses = self._pulses
-        return not ((pulses.peaks_pa > 0.0) & (pulses.arrivals_s < end_s) & (start_s < pulses.ends_s)).any()
+        return not self._pulses.load_between(start_s, end_s).any()
 
     def _detonate(self, columns: np.ndarray, centres: np.ndarray, rotations: np.ndarray) -> None:
         """Fix lines, pulses and shares of some charges (k,) as the bodies are now."""

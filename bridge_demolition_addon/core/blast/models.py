@@ -33,7 +33,8 @@ def blast_wave(
     Parameters
     ----------
     stand_off_m
-        Distances from the charges, m; nearer than `wave.smallest_stand_off` counts as that.
+        Distances from the charges, m; nearer than a charge's surface (`wave.SMALLEST_SCALED_DISTANCE`) counts as
+        that.
     tnt_kg
         Charges, kg of TNT; a charge of 0 has a wave of zeros.
     burst

@@ -55,6 +55,10 @@ class Pulses:
         """(n, c) impulse per area of each whole pulse, Pa·s."""
         return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
+    def load_between(self, start_s: float, end_s: float) -> np.ndarray:
+        """(n, c) whether each pulse loads its body at some time between two."""
+        return (self.peaks_pa > 0.0) & (self.arrivals_s < end_s) & (start_s < self.ends_s)
+
 
 def blast_pulses(
     stand_offs_m: np.ndarray,
@@ -71,7 +75,7 @@ def blast_pulses(
     Parameters
     ----------
     stand_offs_m
-        (n, c) distances of the bodies from the charges, m; nearer than `wave.smallest_stand_off` counts as that.
+        (n, c) distances of the bodies from the charges, m; nearer than its surface counts as that.
     tnt_kg, delays_s, bursts
         (c,) mass of each charge in kg of TNT, its delay in s, and where it detonates.
     model
@@ -135,12 +139,6 @@ def pressure_at(pulses: Pulses, time_s: np.ndarray) -> np.ndarray:
     Instead of one time there can be an array of them that broadcasts with (n, c).
     """
     return friedlander.pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
-
-
-def loaded_between(pulses: Pulses, start_s: float, end_s: float) -> np.ndarray:
-    """Which bodies (n,) any pulse loads between two times."""
-    during = (pulses.peaks_pa > 0.0) & (pulses.arrivals_s < end_s) & (start_s < pulses.ends_s)
-    return during.any(axis=1)
 
 
 def _check_shapes(stand_offs: np.ndarray, masses: np.ndarray, delays: np.ndarray, bursts: Sequence[Burst]) -> None:

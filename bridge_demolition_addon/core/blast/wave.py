@@ -93,11 +93,6 @@ def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
     return np.divide(stand_off, cube_root, out=np.full(shape, np.inf), where=cube_root > 0.0)
 
 
-def smallest_stand_off(tnt_kg: np.ndarray) -> np.ndarray:
-    """The stand-off that bodies nearer than it are taken to have, m: the surface of the charge."""
-    return SMALLEST_SCALED_DISTANCE * np.cbrt(checked(tnt_kg, "charge", "kg of TNT"))
-
-
 def checked(values: np.ndarray, name: str, unit: str) -> np.ndarray:
     """Values as floats.
 
