@@ -83,6 +83,6 @@ def _parser() -> Parser:
     return parser
 
 
-def _failed(error: DemolitionError, status: int) -> int:
+def _failed(error: DemolitionError | OSError, status: int) -> int:
     print(f"bda: error: {' '.join(str(error).split())}", file=sys.stderr)
     return status

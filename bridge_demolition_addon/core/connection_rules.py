@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .bridge import Member
 from .errors import ScenarioError
+from .member import Member
 from .scenario.connection_between import GROUND_NAME, ConnectionBetween
 
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .proximity import ranges
 from .section_forces import SectionForces, section_forces
-from .shared_faces import ranges
 
 SAME_WAY = 0.3
 """Cosine above which two faces of a shard look the same way. The faces of a shard lie at all angles about it; those

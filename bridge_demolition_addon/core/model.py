@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -87,7 +87,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     held = held_shards(scenario.supports, members, shards, cut.member_of_shard)
     # The ground, at index -1, is held as well.
     moves = ~np.append(held, True)[connections.pairs].all(axis=1)
-    connections = Connections(*(getattr(connections, item.name)[moves] for item in fields(Connections)))
+    connections = connections.only(moves)
     return Model(
         members=members,
         shards=shards_with_gaps(cut, members, scenario.fracture.margin_m),

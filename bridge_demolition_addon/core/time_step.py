@@ -44,4 +44,9 @@ class TimeStep:
 
     def frames(self, duration_s: float) -> int:
         """Whole frames that cover a simulated duration."""
-        return math.ceil(duration_s / self.frame_s - FRAME_NOISE)
+        return frames_over(self.frame_s, duration_s)
+
+
+def frames_over(frame_s: float, duration_s: float) -> int:
+    """Whole frames of a length that cover a duration."""
+    return math.ceil(duration_s / frame_s - FRAME_NOISE)

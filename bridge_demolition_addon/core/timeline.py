@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .time_step import FRAME_NOISE
+from .time_step import FRAME_NOISE, frames_over
 
 SLOWING = 0.8
 """Length of a frame over the one before it on the way into slow motion: forces rise to 1.6 times for some sub-steps."""
@@ -66,10 +66,10 @@ class Timeline:
             if each.start_s >= duration_s:
                 break
             lengths.append(_frames_slowing_down(frame_s, each.frame_s, each.start_s - time))
-            count = max(1, _frames_over(each.frame_s, each.duration_s))
+            count = max(1, frames_over(each.frame_s, each.duration_s))
             lengths.append(np.full(count, each.frame_s))
             time = each.start_s + count * each.frame_s
-        lengths.append(np.full(max(0, _frames_over(frame_s, duration_s - time)), frame_s))
+        lengths.append(np.full(max(0, frames_over(frame_s, duration_s - time)), frame_s))
         return cls(np.concatenate(lengths))
 
     def __len__(self) -> int:
@@ -86,17 +86,13 @@ class Timeline:
         return int(np.searchsorted(self.ends_s + noise, time_s)) + (1 if time_s > 0.0 else 0)
 
 
-def _frames_over(frame_s: float, duration_s: float) -> int:
-    return math.ceil(duration_s / frame_s - FRAME_NOISE)
-
-
 def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float) -> np.ndarray:
     """Frames that together are exactly a duration, at first of one length, at last shorter and shorter."""
     steps = max(0, math.ceil(math.log(slow_frame_s / frame_s, SLOWING)) - 1)
     slowing = frame_s * SLOWING ** np.arange(1, steps + 1)
     slowing = slowing[np.cumsum(slowing[::-1])[::-1] <= duration_s]  # as many as there is time for
     room_s = duration_s - slowing.sum()
-    count = max(0, _frames_over(frame_s, room_s))
+    count = max(0, frames_over(frame_s, room_s))
     return np.concatenate((np.full(count, room_s / max(1, count)), slowing))
 
 

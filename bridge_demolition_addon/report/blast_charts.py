@@ -17,7 +17,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..core.blast.air import AMBIENT_PRESSURE_PA
 from ..core.blast.charges import Charge, ChargeArrays
-from ..core.blast.damage import THRESHOLDS, ring_radii
+from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.design import smallest_charge_for_overpressure
 from ..core.blast.models import BlastModel, blast_wave
 from ..core.blast.projection import lines_of_blast
@@ -150,7 +150,7 @@ def _overpressure_over_scaled_distance(settings: ChartSettings) -> Figure:
     axes.loglog(
         distances, wave.reflected_overpressure_pa / settings.pressure_unit_pa, "--", color="black", label="reflected"
     )
-    for threshold in _distinct_thresholds():
+    for threshold in distinct_thresholds():
         level = threshold.overpressure_pa / settings.pressure_unit_pa
         axes.axhline(level, color="0.5", linewidth=0.6, linestyle=":")
         axes.text(0.105, level, threshold.damage, fontsize=7, va="bottom")
@@ -239,7 +239,7 @@ def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str
     Once with all rings, and once near the charges.
     """
     figure = _blank_figure(11.0, 7.0)
-    thresholds = _distinct_thresholds()
+    thresholds = distinct_thresholds()
     radii = ring_radii(charges, charges[0].place_m[2], thresholds, settings.model)
     places = np.array([charge.place_m[:2] for charge in charges])
     for axes, nearest in zip(figure.subplots(1, 2), (0.0, NEAR_RINGS_PA), strict=True):
@@ -360,11 +360,6 @@ def _circles(places: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndar
     x = places[:, :1] + radii[:, None] * np.cos(angles)
     y = places[:, 1:] + radii[:, None] * np.sin(angles)
     return x.ravel(), y.ravel()
-
-
-def _distinct_thresholds() -> list:
-    """The thresholds, without those of the same overpressure as one before."""
-    return list({threshold.overpressure_pa: threshold for threshold in reversed(THRESHOLDS)}.values())[::-1]
 
 
 def _bridge_cube_root(settings: ChartSettings) -> float:

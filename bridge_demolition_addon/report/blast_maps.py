@@ -12,7 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import FigureBase
 
 from ..core.blast.charges import Charge
-from ..core.blast.damage import THRESHOLDS, Threshold, ring_radii
+from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.models import BlastModel
 from ..core.blast.neighbours import PlaceLoads, peak_overpressures
 from ..core.scenario import Neighbour
@@ -24,11 +24,6 @@ _NAME_LETTERS = 28
 _ROOM = 1.05
 WIDEST_PA = 2.07e3
 """The map reaches to the ring of this threshold; those of less pressure would leave nothing to see of the rest."""
-
-
-def distinct_thresholds() -> list[Threshold]:
-    """The thresholds, without those of the same overpressure as one before."""
-    return list({threshold.overpressure_pa: threshold for threshold in reversed(THRESHOLDS)}.values())[::-1]
 
 
 def overpressure_map(

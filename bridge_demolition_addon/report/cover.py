@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.collapse import rest_of
 from ..core.results import Results
-from .document import Block, Column, DataTable, Listing, Paragraph, Photo, Section, facts
+from .document import Block, Listing, Paragraph, Photo, Section, facts
 from .findings import IMPACT, findings
 from .run_folder import Run
 
@@ -46,8 +46,6 @@ LIMITS = (
     "Nothing here has been calibrated against a measured demolition.",
 )
 
-_FACT_COLUMNS = (Column("", "fact"), Column("", "value"))
-
 
 def cover_section(run: Run, version: str) -> Section:
     """What was run, and whether all of it is there."""
@@ -55,7 +53,7 @@ def cover_section(run: Run, version: str) -> Section:
     blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
     if run.results is not None:
         blocks += [Paragraph(text, is_notice=True) for text in _doubts(run)]
-        blocks.append(DataTable("findings", "Main findings", _FACT_COLUMNS, list(_findings(run))))
+        blocks.append(facts("Main findings", list(_findings(run)), "findings"))
     blocks += [Photo(path, _caption(run, name)) for name, path in run.pictures.items()]
     return Section("The run", tuple(blocks))
 

@@ -11,6 +11,8 @@ from typing import Any
 
 from matplotlib.figure import FigureBase
 
+MM_PER_INCH = 25.4
+
 PAGE_WIDTH_MM = 170.0
 """Width between the margins of a page."""
 

@@ -12,9 +12,18 @@ import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from .document import PAGE_WIDTH_MM, Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
-
-MM_PER_INCH = 25.4
+from .document import (
+    MM_PER_INCH,
+    PAGE_WIDTH_MM,
+    Block,
+    DataTable,
+    Document,
+    Listing,
+    Paragraph,
+    Photo,
+    Picture,
+    Section,
+)
 
 _SHORT_TABLE_ROWS = 16
 """Tables of no more rows are not broken over pages."""

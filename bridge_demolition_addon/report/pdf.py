@@ -13,9 +13,8 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.image import imread
 from matplotlib.textpath import TextToPath
 
-from .document import PAGE_WIDTH_MM, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
+from .document import MM_PER_INCH, PAGE_WIDTH_MM, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 
-MM_PER_INCH = 25.4
 POINTS_PER_INCH = 72.0
 MM_PER_POINT = MM_PER_INCH / POINTS_PER_INCH
 

@@ -8,6 +8,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Protocol
 
+from manifold3d import CrossSection
+
 from ..core.errors import OutputError
 from ..core.plan import footprint
 from ..core.scenario.file import scenario_text
@@ -125,7 +127,7 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
     return [*_written(document, target, progress, only_as_table), *plans]
 
 
-def _outline(run: Run):
+def _outline(run: Run) -> CrossSection:
     return footprint(run.results, run.results.of_kind("shard"), 0)
 
 

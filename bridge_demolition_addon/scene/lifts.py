@@ -13,6 +13,7 @@ from ..core.lifting import lift_path
 from ..core.scenario import Ball
 from ..core.timeline import Timeline
 from .animation import key_values
+from .world import START_FRAME
 
 _LIFTS = "bda_lifts"
 
@@ -36,8 +37,8 @@ def create_hits(
     radius = settings.diameter_m / 2.0
     held = tuple(ball.location)
     release_frame = first_step_frame + timeline.frames_until(settings.release_time_s)
-    key_values(ball, "location", [1, release_frame], [held, held])
-    key_values(ball, "rotation_euler", [1], [ball.rotation_euler], constant=True)
+    key_values(ball, "location", [START_FRAME, release_frame], [held, held])
+    key_values(ball, "rotation_euler", [START_FRAME], [ball.rotation_euler], constant=True)
     lying = (*settings.target_m, surfaces_m[0] + radius)
     for hit, surface in zip(settings.hits, surfaces_m[1:], strict=True):
         end = (*hit.target_m, surface + hit.drop_height_m + radius)

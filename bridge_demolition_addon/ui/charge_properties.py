@@ -5,6 +5,7 @@ import bpy
 from ..core.blast.charges import EXPLOSIVES
 from ..core.blast.wave import Burst
 from ..scene.charges import BURST, EXPLOSIVE, charge_collection, is_charge
+from .looking import select_only
 
 EXPLOSIVE_ITEMS = [
     (
@@ -34,9 +35,7 @@ def select_shown(settings: bpy.types.PropertyGroup, context: bpy.types.Context) 
     charge = shown_charge(settings.id_data)
     if charge is None or context.mode != "OBJECT" or charge.name not in context.view_layer.objects:
         return
-    for each in context.selected_objects:
-        each.select_set(False)
-    charge.select_set(True)
+    select_only(context, [charge])
     context.view_layer.objects.active = charge
 
 

@@ -9,8 +9,8 @@ from functools import cache
 import bpy
 
 from ..core.scenario import Scenario
-from ..core.scenario.key import Table, holds_many, key_fields, key_name, subtable_class
-from .scenario_properties import INDEX, USE, is_optional, label_of, shown_tables, value_type, vector_length
+from ..core.scenario.key import Table, holds_many, key_fields, key_name, subtable_class, value_type
+from .scenario_properties import INDEX, USE, is_optional, label_of, shown_tables, vector_length
 from .sidebar import SidebarPanel, letters_of
 from .table_lists import draw_list
 

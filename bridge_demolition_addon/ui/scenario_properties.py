@@ -38,6 +38,7 @@ from ..core.scenario.key import (
     key_name,
     subtable_class,
     subtable_fields,
+    value_type,
 )
 
 PRESETS = Path(__file__).parent / "presets"
@@ -64,12 +65,6 @@ _PER_SECOND = "1/s"
 
 _DECIMALS = 3
 _SMALL_WORDS = {"a", "and", "at", "by", "for", "in", "of", "on", "or", "per", "the", "to"}
-
-
-def value_type(item: Field) -> Any:
-    """Type of a key's value where it is given: ``float`` for ``float | None``."""
-    kinds = [kind for kind in get_args(item.type) if kind is not NoneType]
-    return kinds[0] if NoneType in get_args(item.type) else item.type
 
 
 def is_optional(item: Field) -> bool:

@@ -19,7 +19,7 @@ from ..core.blast.charges import Charge
 from ..core.errors import BlastError, ScenarioError
 from ..core.scenario import ChargeSettings, Scenario
 from ..core.scenario.file import toml_value
-from ..core.scenario.key import Table, expected, holds_many, key_fields, key_name, shown, subtable_class
+from ..core.scenario.key import Table, expected, holds_many, key_fields, key_name, shown, subtable_class, value_type
 from ..scene.charges import charges_of, replace_charges
 from .scenario_properties import (
     GIVEN,
@@ -27,7 +27,6 @@ from .scenario_properties import (
     is_optional,
     is_written_out,
     shown_tables,
-    value_type,
     vector_length,
 )
 

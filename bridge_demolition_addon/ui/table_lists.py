@@ -19,8 +19,10 @@ class _ListOperator:
 
     path: StringProperty(name="List", description="Where the list is, from the scene: bda.scenario.fracture.members")
 
-    def _list(self, context: bpy.types.Context):
-        """The group that holds the list, the list's name, and the list."""
+    def _list(
+        self, context: bpy.types.Context
+    ) -> tuple[bpy.types.PropertyGroup, str, bpy.types.bpy_prop_collection] | None:
+        """The group that holds the list, the list's name, and the list; None, and a message, where there is none."""
         owner, _, name = self.path.rpartition(".")
         try:
             group = context.scene.path_resolve(owner)

@@ -6,14 +6,19 @@ import pytest
 
 import bridge_demolition_addon
 from bridge_demolition_addon.core.scenario import ChargeSettings, Scenario
-from bridge_demolition_addon.core.scenario.key import holds_many, key_fields, subtable_class, subtable_fields
+from bridge_demolition_addon.core.scenario.key import (
+    holds_many,
+    key_fields,
+    subtable_class,
+    subtable_fields,
+    value_type,
+)
 from bridge_demolition_addon.ui.scenario_properties import (
     all_tables,
     group_name,
     is_optional,
     label_of,
     registered_group,
-    value_type,
 )
 
 KEYS = [(table, item) for table in all_tables() for item in key_fields(table)]

@@ -38,6 +38,11 @@ do less, so that the stand-offs are on the safe side for them. Of eardrums Richm
 20 kPa on."""
 
 
+def distinct_thresholds() -> list[Threshold]:
+    """The thresholds, without those of the same overpressure as one before."""
+    return list({threshold.overpressure_pa: threshold for threshold in reversed(THRESHOLDS)}.values())[::-1]
+
+
 def ring_radii(
     charges: Sequence[Charge],
     level_m: float = 0.0,

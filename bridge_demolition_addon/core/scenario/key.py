@@ -116,7 +116,7 @@ class Table:
 
 def subtable_class(item: Field) -> type[Table] | None:
     """Dataclass of the table or tables that a field holds, none for a field that holds a plain value."""
-    held = _type_held(item)
+    held = value_type(item)
     if get_origin(held) is tuple:
         held = get_args(held)[0]
     return held if isinstance(held, type) and issubclass(held, Table) else None
@@ -124,7 +124,13 @@ def subtable_class(item: Field) -> type[Table] | None:
 
 def holds_many(item: Field) -> bool:
     """Whether a field holds a list, of tables or of values."""
-    return get_origin(_type_held(item)) is tuple
+    return get_origin(value_type(item)) is tuple
+
+
+def value_type(item: Field) -> Any:
+    """Type of a field's value where it is given: ``float`` for ``float | None``."""
+    kinds = [kind for kind in get_args(item.type) if kind is not NoneType]
+    return kinds[0] if NoneType in get_args(item.type) else item.type
 
 
 def key_fields(table_class: type[Table]) -> Iterator[Field]:
@@ -153,7 +159,7 @@ def expected(item: Field) -> str:
     if subtable_class(item):
         return "tables" if holds_many(item) else "a table"
     rule: Key = item.metadata["key"]
-    held = _type_held(item)
+    held = value_type(item)
     if held is bool:
         return "true or false"
     if held is str:
@@ -175,7 +181,7 @@ def checked(item: Field, name: str, value: Any) -> Any:
     """
     if value is None and NoneType in get_args(item.type):
         return None
-    held = _type_held(item)
+    held = value_type(item)
     if table_class := subtable_class(item):
         return _checked_tables(item, name, value, table_class)
     if get_origin(held) is tuple:
@@ -223,12 +229,6 @@ def _listed(choices: Sequence[str]) -> str:
     return ", ".join(map(json.dumps, choices))
 
 
-def _type_held(item: Field) -> Any:
-    """Type of a field's value where it is given: ``float`` for ``float | None``."""
-    kinds = [kind for kind in get_args(item.type) if kind is not NoneType]
-    return kinds[0] if NoneType in get_args(item.type) else item.type
-
-
 def _list_length(held: Any) -> int | None:
     kinds = get_args(held)
     return None if Ellipsis in kinds else len(kinds)
@@ -271,7 +271,7 @@ def _checked_element(item: Field, name: str, kind: Any, value: Any) -> Any:
 
 
 def _checked_number(item: Field, name: str, value: Any) -> int | float:
-    whole = _type_held(item) is int
+    whole = value_type(item) is int
     if isinstance(value, bool) or not isinstance(value, Integral if whole else Real):
         raise _unexpected(item, name, value)
     try:
