@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import LayoutError, SimulationError
+from ..core.taken_away import OUT_OF_REACH_M
 from ..scene.world import scene_time_step
 from . import checks
 from .contacts import ContactReader, Contacts
@@ -33,9 +34,6 @@ from .memory import (
     write_vectors,
 )
 from .retirement import Fingerprints, retire
-
-OUT_OF_REACH_M = 1000.0
-"""How far below its place a removed body stays."""
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""

@@ -96,15 +96,13 @@ def _event(change: Change, structure: Structure) -> Event:
     factor = 0.0
     match change:
         case Removal():
-            kind = "removal"
             in_box = _in_box(change, structure.centres_m)
             bodies = np.flatnonzero(_of_members(change, structure) & in_box & structure.is_shard)
             connections = np.flatnonzero(np.isin(structure.pairs, bodies).any(axis=1))
         case SawCut():
-            kind = "saw cut"
             connections = np.flatnonzero(_selected(change, structure) & _crosses(change, structure))
         case Weakening():
-            kind, factor = "weakening", change.factor
+            factor = change.factor
             connections = np.flatnonzero(_selected(change, structure))
     if not len(bodies if isinstance(change, Removal) else connections):
         things = "shard" if isinstance(change, Removal) else "connection"
@@ -112,7 +110,7 @@ def _event(change: Change, structure: Structure) -> Event:
             f"{change.table} at {change.time_s:g} s: no {things} of the bridge is there; "
             "expected members, a box or a plane that meet some"
         )
-    return Event(change.time_s, kind, bodies, connections, factor)
+    return Event(change.time_s, change.kind, bodies, connections, factor)
 
 
 def _selected(change: Change, structure: Structure) -> np.ndarray:

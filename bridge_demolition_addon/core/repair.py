@@ -12,7 +12,18 @@ from trimesh import Trimesh
 from .crossings import first_crossing
 from .errors import GeometryError
 from .sewing import loops_of_open_edges, welded
-from .solids import bodies, checked_solid, contains, from_manifold, mesh_of, to_manifold, union, volumes_and_centres
+from .solids import (
+    OVERLAP_TOLERANCE,
+    SMALLEST_VOLUME,
+    bodies,
+    checked_solid,
+    contains,
+    from_manifold,
+    mesh_of,
+    to_manifold,
+    union,
+    volumes_and_centres,
+)
 
 WELDING_TOLERANCE = 1e-6
 """Part of the mesh's longest extent within which corners on open edges are one: single precision keeps seven digits."""
@@ -195,8 +206,7 @@ def _lid(vertices: np.ndarray, rim: np.ndarray, name: str) -> np.ndarray:
 def _check_some_volume(vertices: np.ndarray, triangles: np.ndarray, name: str) -> None:
     extent = np.ptp(vertices, axis=0).max()
     volume = volumes_and_centres([vertices], [triangles])[0][0] if len(triangles) else 0.0
-    # As in `checked_solid`: rounding alone gives a flat mesh some 1e-16 of its extent cubed.
-    if abs(volume) <= 1e-14 * extent**3:
+    if abs(volume) <= SMALLEST_VOLUME * extent**3:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
 
 
@@ -209,7 +219,7 @@ def _united(mesh: Trimesh, repairs: list[str], name: str) -> Trimesh:
     if len(separate) < 2:
         return mesh
     whole = union(separate)
-    if whole.volume >= sum(each.volume for each in separate) * (1.0 - 1e-9):
+    if whole.volume >= sum(each.volume for each in separate) * (1.0 - OVERLAP_TOLERANCE):
         return mesh
     repairs.append(f"united {len(separate)} overlapping bodies")
     return whole

@@ -11,6 +11,9 @@ from .errors import GeometryError
 OVERLAP_TOLERANCE = 1e-9
 """Part of a solid's volume that its bodies may have in common before they count as overlapping."""
 
+SMALLEST_VOLUME = 1e-14
+"""Part of the cube of its longest extent that a mesh has to enclose: rounding alone gives a flat one some 1e-16."""
+
 _PAIRS_PER_BLOCK = 200_000
 """Point-triangle pairs that `contains` looks at in one go; bounds its memory to some tens of megabytes."""
 
@@ -249,8 +252,7 @@ def _check_surface(vertices: np.ndarray, triangles: np.ndarray, name: str) -> No
 
 
 def _check_volume(vertices: np.ndarray, volume: float, name: str) -> None:
-    # Rounding alone gives a flat mesh some 1e-16 of its extent cubed.
-    if volume <= 1e-14 * np.ptp(vertices, axis=0).max() ** 3:
+    if volume <= SMALLEST_VOLUME * np.ptp(vertices, axis=0).max() ** 3:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
 
 

@@ -11,8 +11,9 @@ from .results import Results
 TAKEN_AWAY = "taken away"
 """What such a shard is called instead."""
 
-_OUT_OF_REACH_M = 500.0
-"""A shard that ends so far below its first place was put there: it was taken out of the simulation, not dropped."""
+OUT_OF_REACH_M = 1000.0
+"""How far below its place a body stays that was taken out of the simulation. What ends more than half as far below its
+first place was put there, not dropped."""
 
 
 def without_taken_away(results: Results) -> tuple[Results, int]:
@@ -22,7 +23,7 @@ def without_taken_away(results: Results) -> tuple[Results, int]:
     not for the time before.
     """
     shards = results.of_kind("shard")
-    gone = shards[results.places_m[0, shards, 2] - results.places_m[-1, shards, 2] > _OUT_OF_REACH_M]
+    gone = shards[results.places_m[0, shards, 2] - results.places_m[-1, shards, 2] > OUT_OF_REACH_M / 2.0]
     if not len(gone):
         return results, 0
     kinds, masses = results.body_kinds.astype(object), results.masses_kg.copy()

@@ -65,13 +65,18 @@ def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 def triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (v, 3), scaled as the body is, and triangles (t, 3) of a body's mesh."""
-    mesh = body.data
+    vertices, triangles = mesh_arrays(body.data)
+    return vertices * np.array(body.matrix_world.to_scale()), triangles
+
+
+def mesh_arrays(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3) of a mesh in its own axes, and triangles (t, 3)."""
     mesh.calc_loop_triangles()
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
     mesh.vertices.foreach_get("co", vertices)
     mesh.loop_triangles.foreach_get("vertices", triangles)
-    return vertices.reshape(-1, 3).astype(float) * np.array(body.matrix_world.to_scale()), triangles.reshape(-1, 3)
+    return vertices.reshape(-1, 3).astype(float), triangles.reshape(-1, 3)
 
 
 def hull_points(body: bpy.types.Object) -> np.ndarray:

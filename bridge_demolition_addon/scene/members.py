@@ -12,6 +12,7 @@ from ..core.member import Member
 from ..core.members import PreparedMembers, without_overlap
 from ..core.repair import repaired_solid
 from ..core.solids import mesh_of
+from .bodies import mesh_arrays
 
 
 def members_of_objects(
@@ -53,18 +54,12 @@ def members_of_objects(
 def _triangles_in_world(body: bpy.types.Object, graph: bpy.types.Depsgraph) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (v, 3) in m in the world's axes, and triangles (t, 3), of an object with its modifiers."""
     evaluated = body.evaluated_get(graph)
-    mesh = evaluated.to_mesh()
     try:
-        mesh.calc_loop_triangles()
-        vertices = np.empty(3 * len(mesh.vertices), np.float32)
-        triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-        mesh.vertices.foreach_get("co", vertices)
-        mesh.loop_triangles.foreach_get("vertices", triangles)
+        vertices, triangles = mesh_arrays(evaluated.to_mesh())
     finally:
         evaluated.to_mesh_clear()
     matrix = np.array(evaluated.matrix_world, dtype=float)
-    triangles = triangles.reshape(-1, 3)
     # A mirrored object shows its faces the other way round.
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         triangles = triangles[:, ::-1]
-    return vertices.reshape(-1, 3).astype(float) @ matrix[:3, :3].T + matrix[:3, 3], triangles
+    return vertices @ matrix[:3, :3].T + matrix[:3, 3], triangles

@@ -3,12 +3,10 @@
 x runs along the road from the axis of the first pier, y across it from its middle, z up from the ground.
 """
 
-from ..member import Member
 from .layout import deck_outline, deck_top, deck_underside, pier_axes, slab_underside
 from .members import bridge_density, bridge_members
 
 __all__ = [
-    "Member",
     "bridge_density",
     "bridge_members",
     "deck_outline",

@@ -41,6 +41,11 @@ class BallHit(Table):
         """Time from release to the deck in free fall, s."""
         return fall_time_s(self.drop_height_m)
 
+    @property
+    def impact_speed_m_s(self) -> float:
+        """Speed at the deck after free fall, m/s."""
+        return fall_speed_m_s(self.drop_height_m)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ball(Table):
@@ -113,7 +118,7 @@ class Ball(Table):
     @property
     def impact_speed_m_s(self) -> float:
         """Speed at the deck after free fall, m/s."""
-        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.drop_height_m)
+        return fall_speed_m_s(self.drop_height_m)
 
     def _check_together(self) -> None:
         if self.cable:
@@ -145,3 +150,8 @@ class Ball(Table):
 def fall_time_s(height_m: float) -> float:
     """Time of a free fall from a height, s."""
     return math.sqrt(2.0 * height_m / STANDARD_GRAVITY_M_S2)
+
+
+def fall_speed_m_s(height_m: float) -> float:
+    """Speed after a free fall from a height, m/s."""
+    return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * height_m)

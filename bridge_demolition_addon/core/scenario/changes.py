@@ -12,6 +12,7 @@ class Change(Table):
     """A change at a time to a part of the bridge: to some members, to what lies in a box, or to both at once."""
 
     table: ClassVar[str] = "changes"
+    kind: ClassVar[str] = "change"
 
     time_s: float = key("When it happens.", unit="s", at_least=0)
     members: tuple[str, ...] | None = key(
@@ -48,6 +49,7 @@ class Removal(Change):
     """
 
     table: ClassVar[str] = "removals"
+    kind: ClassVar[str] = "removal"
 
     def _check_together(self) -> None:
         Change._check_together(self)
@@ -62,6 +64,7 @@ class SawCut(Change):
     """
 
     table: ClassVar[str] = "saw_cuts"
+    kind: ClassVar[str] = "saw cut"
 
     point_m: tuple[float, float, float] = key("A point of the plane.", unit="m")
     normal: tuple[float, float, float] = key("Direction across the plane, of any length but 0.")
@@ -80,6 +83,7 @@ class Weakening(Change):
     """
 
     table: ClassVar[str] = "weakenings"
+    kind: ClassVar[str] = "weakening"
 
     factor: float = key("Part of the strength, or of the breaking force, that is left.", above=0, at_most=1)
 
