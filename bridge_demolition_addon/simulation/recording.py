@@ -25,11 +25,11 @@ from ..scene.thresholds import rewrite_thresholds
 from .blast import Blast, check_blast, goes_off
 from .events import Events
 from .logs import LogFiles, Logs
-from .members import Members
 from .momentum import READING as READING_OF_MOTION
 from .momentum import MomentumReader
 from .standstill import stand_still
 from .substeps import SubstepRecorder, no_ball_history
+from .world_objects import WorldObjects
 
 
 def check_recordable(scene: bpy.types.Scene) -> None:
@@ -108,7 +108,7 @@ class Recording:
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         check_blast(scene, self._bodies)
         self._lifted = [body for body in self._bodies if lifts_of(body)]
-        self._members = Members(scene)
+        self._objects = WorldObjects(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
         self._substeps: SubstepRecorder | None = None
@@ -141,10 +141,10 @@ class Recording:
         world = self.scene.rigidbody_world
         if world is None or world.collection is None:
             raise SimulationError("the rigid-body world was removed while it was recorded")
-        if not self._members.are_the_same():
-            if self._members.any_is_gone():
+        if not self._objects.are_the_same():
+            if self._objects.any_is_gone():
                 stand_still(self.scene, self._world)
-            changes = self._members.changes()
+            changes = self._objects.changes()
             raise SimulationError(f"rigid-body world changed, {changes}: go to the start frame and record anew")
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:

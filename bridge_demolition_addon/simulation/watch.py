@@ -18,8 +18,8 @@ from ..scene.bodies import bodies_of, is_marked
 from ..scene.connections import connections_of, loose_connections
 from . import handlers
 from .callbacks import Callbacks
-from .members import Members
 from .standstill import stand_still, stands_still
+from .world_objects import WorldObjects
 
 
 class Watch:
@@ -38,7 +38,7 @@ class Watch:
 
     def __init__(self, scene: bpy.types.Scene):
         self._scene = scene
-        self._members = Members(scene)
+        self._objects = WorldObjects(scene)
         bodies, loose = bodies_of(scene), set(loose_connections(scene))
         simulated = [each for each in connections_of(scene) if each not in loose]
         self._world = BulletWorld(scene, bodies, simulated)
@@ -47,7 +47,7 @@ class Watch:
     def has_what_there_is(self) -> bool:
         """Whether nothing was added to the world or taken out of it."""
         world = self._scene.rigidbody_world
-        return world is not None and world.collection is not None and self._members.are_the_same()
+        return world is not None and world.collection is not None and self._objects.are_the_same()
 
     def look(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Know the world that Blender has now."""
@@ -62,7 +62,7 @@ class Watch:
         """Let the world stand still where something is being taken out of it."""
         if self.given_up or self.has_what_there_is():
             return
-        if self._scene.rigidbody_world and self._members.any_is_gone():
+        if self._scene.rigidbody_world and self._objects.any_is_gone():
             stand_still(self._scene, self._world)
         self.release()
 

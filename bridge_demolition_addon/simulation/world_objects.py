@@ -11,7 +11,7 @@ _MOST_NAMES = 3
 """Names of objects in a message."""
 
 
-class Members:
+class WorldObjects:
     """The objects of a scene's rigid-body world as they are now.
 
     Parameters
