@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import GeometryError, OutputError, ScenarioError, SimulationError
+from ..core.run_files import RESULT_FILES
 from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
 from ..core.summary import first_hit_s
-from ..simulation.output import RESULT_FILES, check_folder, remove_report
+from ..simulation.output import check_folder, remove_report
 from .progress import Progress, progress_on
 
 COMPARISON_FOLDER = "report"

@@ -13,17 +13,19 @@ from matplotlib.image import imread
 
 from ..core.errors import OutputError, ScenarioError
 from ..core.results import Results, load_results
+from ..core.run_files import (
+    BREAKING_LOG,
+    FORCE_LOG,
+    PICTURE_FOLDER,
+    PICTURES,
+    RESULTS_FILE,
+    SCENARIO_FILE,
+    SUMMARY_FILE,
+)
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
 from ..core.summary import first_hit_s
 from ..core.taken_away import without_taken_away
-
-RESULTS = "results.npz"
-SUMMARY = "summary.json"
-SCENARIO = "scenario_as_run.toml"
-FORCE_LOG = "force_log.csv"
-BREAKING_LOG = "breaking_log.csv"
-PICTURES = ("before", "impact", "after")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -98,8 +100,8 @@ def read_run(folder: Path) -> Run:
     """
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
-    if not any((folder / name).is_file() for name in (RESULTS, FORCE_LOG)):
-        raise OutputError(f"{folder}: holds no run: expected {RESULTS} or {FORCE_LOG} in it")
+    if not any((folder / name).is_file() for name in (RESULTS_FILE, FORCE_LOG)):
+        raise OutputError(f"{folder}: holds no run: expected {RESULTS_FILE} or {FORCE_LOG} in it")
     shortcomings: list[str] = []
     results = _results(folder, shortcomings)
     summary = _summary(folder, shortcomings)
@@ -119,17 +121,19 @@ def read_run(folder: Path) -> Run:
 
 
 def _results(folder: Path, shortcomings: list[str]) -> Results | None:
-    path = folder / RESULTS
+    path = folder / RESULTS_FILE
     if not path.is_file():
         shortcomings.append(
-            f"The run was killed before it could write {RESULTS}: only its logs are here, and all that needs more "
+            f"The run was killed before it could write {RESULTS_FILE}: only its logs are here, and all that needs more "
             "than them is left out: debris, zones, exclusion zone, spans, energy, stresses."
         )
         return None
     try:
         results, taken_away = without_taken_away(load_results(path))
     except OutputError as error:
-        shortcomings.append(f"{RESULTS} cannot be read, and all that needs it is left out: {_reason(error, path)}.")
+        shortcomings.append(
+            f"{RESULTS_FILE} cannot be read, and all that needs it is left out: {_reason(error, path)}."
+        )
         return None
     if taken_away:
         shortcomings.append(
@@ -145,26 +149,28 @@ def _reason(error: Exception, path: Path) -> str:
 
 
 def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
-    path = folder / SUMMARY
+    path = folder / SUMMARY_FILE
     try:
         summary = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        shortcomings.append(f"There is no {SUMMARY}: what the run came from, and the hits of the ball, are not known.")
+        shortcomings.append(
+            f"There is no {SUMMARY_FILE}: what the run came from, and the hits of the ball, are not known."
+        )
         return None
     except (OSError, ValueError) as error:
-        shortcomings.append(f"{SUMMARY} cannot be read, and what it says is left out: {error}")
+        shortcomings.append(f"{SUMMARY_FILE} cannot be read, and what it says is left out: {error}")
         return None
     if not isinstance(summary, dict):
-        shortcomings.append(f"{SUMMARY} is not what a run writes, and is left out.")
+        shortcomings.append(f"{SUMMARY_FILE} is not what a run writes, and is left out.")
         return None
     return summary
 
 
 def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
-    path = folder / SCENARIO
+    path = folder / SCENARIO_FILE
     if not path.is_file():
         shortcomings.append(
-            f"There is no {SCENARIO}, as for a scene that was built by hand: zones, exclusion zone, charges and "
+            f"There is no {SCENARIO_FILE}, as for a scene that was built by hand: zones, exclusion zone, charges and "
             "lengths of spans are not known."
         )
         return None
@@ -179,7 +185,7 @@ def _pictures(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
     """Those of the rendered pictures that are there and whole."""
     found = {}
     for name in PICTURES:
-        path = folder / "frames" / f"{name}.png"
+        path = folder / PICTURE_FOLDER / f"{name}.png"
         if not path.exists():
             continue
         try:

@@ -12,6 +12,7 @@ from manifold3d import CrossSection
 
 from ..core.errors import OutputError
 from ..core.plan import footprint
+from ..core.run_files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..core.scenario.file import scenario_text
 from .blast_section import blast_section
 from .collapse_section import collapse_section
@@ -24,9 +25,6 @@ from .html import write_html
 from .pdf import write_pdf
 from .run_folder import Run, read_run
 from .site_plan import write_dxf, write_geojson
-
-HTML, PDF, TABLES = "report.html", "report.pdf", "tables"
-DXF, GEOJSON = "exclusion_zone.dxf", "exclusion_zone.geojson"
 
 _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (1, 2))
 """Of an extension inside Blender, and of the project's own folder."""
@@ -103,10 +101,10 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
             "designed drop": zone.drop,
             "bridge": zone.plan,
         }
-        plans.append(target / DXF)
+        plans.append(target / DXF_FILE)
         write_dxf(plans[0], layers)
         if run.scenario.site:
-            plans.append(target / GEOJSON)
+            plans.append(target / GEOJSON_FILE)
             write_geojson(plans[1], layers, run.scenario.site)
         extra.append(corner_table(zone))
     sections = [cover_section(run, add_on_version()), trust_section(run)]
@@ -140,11 +138,11 @@ def _written(document: Document, target: Path, progress: Progress, *more_tables:
         drawn += 1
         progress.part(drawn, pictures, "pictures drawn")
 
-    progress.stage(f"writing {HTML}")
-    write_html(document, target / HTML, count)
-    progress.stage(f"writing {PDF}")
-    write_pdf(document, target / PDF, lambda done, total: progress.part(done, total, "pages written"))
-    tables = target / TABLES
+    progress.stage(f"writing {REPORT_PAGE}")
+    write_html(document, target / REPORT_PAGE, count)
+    progress.stage(f"writing {REPORT_PDF}")
+    write_pdf(document, target / REPORT_PDF, lambda done, total: progress.part(done, total, "pages written"))
+    tables = target / TABLE_FOLDER
     tables.mkdir(exist_ok=True)
     written = [path for each in (document, *more_tables) for path in write_tables(each, tables)]
-    return [target / HTML, target / PDF, *written]
+    return [target / REPORT_PAGE, target / REPORT_PDF, *written]

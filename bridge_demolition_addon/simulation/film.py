@@ -14,9 +14,9 @@ import numpy as np
 from ..core.contours import ContourSeries, ContourSettings
 from ..core.errors import ContourError, OutputError
 from ..core.film import film_rows
+from ..core.run_files import FILM_FILE, SLOW_FILM_FILE
 from ..scene.film import PictureSettings, encode_film, set_up_for_pictures
 from . import contours
-from .output import FILM_FILE, SLOW_FILM_FILE
 
 _PICTURE = "contours_{:06d}.png"
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.blast.explosion import StepLoads
 from ..core.motion import throw, travel
+from ..core.run_files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
 from ..core.stress import principal_stresses
 from ..scene.inventory import Inventory
 from .substeps import Breaks
@@ -110,12 +111,12 @@ class Logs:
     ):
         names = inventory.body_names.tolist()
         self._inventory = inventory
-        self._forces = BodyLog(files.forces or folder / "force_log.csv", FORCE_COLUMNS, names)
-        self._debris = BodyLog(files.debris or folder / "debris_log.csv", DEBRIS_COLUMNS, names)
-        self._breaking = (folder / "breaking_log.csv").open("w", encoding="utf-8", newline="")
+        self._forces = BodyLog(files.forces or folder / FORCE_LOG, FORCE_COLUMNS, names)
+        self._debris = BodyLog(files.debris or folder / DEBRIS_LOG, DEBRIS_COLUMNS, names)
+        self._breaking = (folder / BREAKING_LOG).open("w", encoding="utf-8", newline="")
         self._breaking.write(_csv_text(*BREAKING_COLUMNS) + "\n")
         self._breaking.flush()
-        self._explosion = ExplosionLog(folder / "explosion_log.csv", names, charges) if charges else None
+        self._explosion = ExplosionLog(folder / EXPLOSION_LOG, names, charges) if charges else None
         self._first_places: np.ndarray | None = None
 
     def write_frame(self, frame: dict) -> None:

@@ -8,35 +8,16 @@ from typing import Any
 
 from ..core.errors import OutputError
 from ..core.results import Results
-from ..core.summary import first_hit_s
-
-SCENARIO_FILE = "scenario_as_run.toml"
-"""The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
-
-FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
-
-REPORT_FILES = ("report.html", "report.pdf", "exclusion_zone.dxf", "exclusion_zone.geojson")
-"""What a report of an earlier run left, which would be wrong for a new one; its tables are cleared away as well."""
-
-RESULT_FILES = (
-    "summary.json",
-    "force_log.csv",
-    "debris_log.csv",
-    "breaking_log.csv",
-    "explosion_log.csv",
-    "results.npz",
-    "force_over_time.png",
-    "scene.blend",
-    "frames/before.png",
-    "frames/impact.png",
-    "frames/after.png",
-    FILM_FILE,
-    SLOW_FILM_FILE,
-    SCENARIO_FILE,
-    *REPORT_FILES,
+from ..core.run_files import (
+    FORCE_CHART,
+    PICTURE_FOLDER,
+    REPORT_FILES,
+    RESULT_FILES,
+    RESULTS_FILE,
+    SUMMARY_FILE,
+    TABLE_FOLDER,
 )
-PICTURE_FOLDER = "frames"
-TABLE_FOLDER = "tables"
+from ..core.summary import first_hit_s
 
 
 def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
@@ -86,7 +67,7 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
 
 
 def remove_report(folder: Path) -> None:
-    """Remove the report that is kept in a folder, with its tables, if there is one."""
+    """Remove the report that is kept in a folder, with its tables, if there is one: of a new run it would be wrong."""
     for name in REPORT_FILES:
         (folder / name).unlink(missing_ok=True)
     for table in (folder / TABLE_FOLDER).glob("*.csv"):
@@ -120,6 +101,6 @@ def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> Non
     # Loading matplotlib takes a second, which neither other commands nor switching the add-on on need wait for.
     from ..report.force_plot import plot_forces
 
-    results.save(folder / "results.npz")
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    plot_forces(results, folder / "force_over_time.png", summary["title"], first_hit_s(summary))
+    results.save(folder / RESULTS_FILE)
+    (folder / SUMMARY_FILE).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    plot_forces(results, folder / FORCE_CHART, summary["title"], first_hit_s(summary))

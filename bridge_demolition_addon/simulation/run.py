@@ -16,6 +16,7 @@ import numpy as np
 from ..core.contours import ContourSettings
 from ..core.model import Model
 from ..core.results import Results
+from ..core.run_files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
 from ..core.runnable import runnable_model
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
@@ -26,12 +27,10 @@ from ..scene.demolition import build_demolition, first_frame_after
 from ..scene.rendering import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames
 from .film import FilmRendering, FilmSettings
-from .output import PICTURE_FOLDER, SCENARIO_FILE, keep_results, prepared_folder
+from .output import keep_results, prepared_folder
 from .playing import Playing
 from .recording import Recording
 from .run_summary import Subject, rest_watch, run_summary
-
-PICTURES = ("before", "impact", "after")
 
 SLOW_MOTION = 5.0
 """Seconds of the slower film for a second of the simulation."""
@@ -111,7 +110,7 @@ def run_scenario(
     progress.stage("writing the results")
     keep_results(folder, results, summary)
     keep_played_frames(scene)
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder.resolve() / "scene.blend"), check_existing=False, compress=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder.resolve() / BLEND_FILE), check_existing=False, compress=True)
     if interrupted:
         raise KeyboardInterrupt
     if pictures:

@@ -11,11 +11,12 @@ import numpy as np
 
 from ..core.errors import DemolitionError, OutputError, ScenarioError, SimulationError
 from ..core.rest import Rest
+from ..core.run_files import SCENARIO_FILE
 from ..core.scenario import RecordingSettings, Scenario
 from ..core.scenario.file import scenario_from_text, scenario_text
 from ..simulation import handlers
 from ..simulation.logs import LogFiles
-from ..simulation.output import SCENARIO_FILE, checked_log, keep_results, prepared_folder, withdraw_folder
+from ..simulation.output import checked_log, keep_results, prepared_folder, withdraw_folder
 from ..simulation.playing import start_over
 from ..simulation.recording import Recording, check_recordable
 from ..simulation.run_summary import Subject, rest_watch, run_summary

@@ -4,6 +4,7 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 
 from ..core.errors import OutputError
+from ..core.run_files import DEBRIS_LOG, FORCE_LOG
 from ..simulation import handlers
 from .refusal import Refusing, absolute, refused
 from .sidebar import RELATIVE_PATHS, SidebarPanel
@@ -54,7 +55,7 @@ class BDA_OT_set_debris_log(_LogPathOperator, bpy.types.Operator):
     bl_idname = "bda.set_debris_log"
     bl_label = "Set Debris Log Filepath"
     setting = "debris_log_path"
-    usual_name = "debris_log.csv"
+    usual_name = DEBRIS_LOG
 
 
 class BDA_OT_set_force_log(_LogPathOperator, bpy.types.Operator):
@@ -63,7 +64,7 @@ class BDA_OT_set_force_log(_LogPathOperator, bpy.types.Operator):
     bl_idname = "bda.set_force_log"
     bl_label = "Set Force Log Filepath"
     setting = "force_log_path"
-    usual_name = "force_log.csv"
+    usual_name = FORCE_LOG
 
 
 class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):

@@ -9,6 +9,7 @@ from bpy.props import IntProperty, StringProperty
 
 from ..core.blast.models import BlastModel
 from ..core.errors import DemolitionError, OutputError
+from ..core.run_files import FORCE_CHART
 from ..core.summary import first_hit_s
 from ..simulation import handlers
 from . import last_recording
@@ -93,7 +94,7 @@ class BDA_OT_draw_charts(Refusing, bpy.types.Operator):
         model = BlastModel(context.scene.bda.scenario.blast.model)
         try:
             paths = write_charts(folder, ChartSettings(model=model))
-            plot_forces(last.results, folder / "force_over_time.png", last.summary["title"], first_hit_s(last.summary))
+            plot_forces(last.results, folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary))
         except DemolitionError as error:
             return refused(self, error)
         except OSError as error:

@@ -8,8 +8,9 @@ from sample_results import GRAVITY, hanging_chain
 
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results import load_results
+from bridge_demolition_addon.core.run_files import RESULT_FILES
 from bridge_demolition_addon.core.summary import summarise
-from bridge_demolition_addon.simulation.output import RESULT_FILES, keep_results, prepared_folder, withdraw_folder
+from bridge_demolition_addon.simulation.output import keep_results, prepared_folder, withdraw_folder
 
 
 def files_in(folder):

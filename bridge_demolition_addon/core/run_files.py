@@ -1,0 +1,41 @@
+"""What the files in the folder of a run are called, for who writes them and who reads them."""
+
+SUMMARY_FILE = "summary.json"
+RESULTS_FILE = "results.npz"
+FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
+BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
+FORCE_CHART = "force_over_time.png"
+BLEND_FILE = "scene.blend"
+
+SCENARIO_FILE = "scenario_as_run.toml"
+"""The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
+
+PICTURE_FOLDER = "frames"
+PICTURES = ("before", "impact", "after")
+"""Pictures in that folder, PNG."""
+
+FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
+
+REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"
+DXF_FILE, GEOJSON_FILE = "exclusion_zone.dxf", "exclusion_zone.geojson"
+TABLE_FOLDER = "tables"
+
+REPORT_FILES = (REPORT_PAGE, REPORT_PDF, DXF_FILE, GEOJSON_FILE)
+"""What a report leaves, besides its tables."""
+
+RESULT_FILES = (
+    SUMMARY_FILE,
+    FORCE_LOG,
+    DEBRIS_LOG,
+    BREAKING_LOG,
+    EXPLOSION_LOG,
+    RESULTS_FILE,
+    FORCE_CHART,
+    BLEND_FILE,
+    *(f"{PICTURE_FOLDER}/{name}.png" for name in PICTURES),
+    FILM_FILE,
+    SLOW_FILM_FILE,
+    SCENARIO_FILE,
+    *REPORT_FILES,
+)
+"""All that a run and its report can leave, in the order in which they are listed."""
