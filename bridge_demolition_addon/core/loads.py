@@ -39,13 +39,17 @@ def contact_forces(results: Results) -> ContactForces:
     known = durations > 0.0
     forces = np.divide(impulses, durations[:, None, None], out=np.zeros_like(impulses), where=known[:, None, None])
     magnitudes = np.linalg.norm(forces, axis=2)
-    shards, ground = results.of_kind("shard"), results.of_kind("ground")
     return ContactForces(
         times_s=results.times_s,
         total_n=magnitudes.sum(axis=1) / 2.0,
-        largest_n=magnitudes[:, shards].max(axis=1, initial=0.0),
-        ground_n=-forces[:, ground, 2].sum(axis=1),
+        largest_n=largest_on_a_shard(results, magnitudes),
+        ground_n=-forces[:, results.of_kind("ground"), 2].sum(axis=1),
     )
+
+
+def largest_on_a_shard(results: Results, magnitudes: np.ndarray) -> np.ndarray:
+    """Largest of the magnitudes (k, n) of all bodies on any shard, (k,); 0 where there are none."""
+    return magnitudes[:, results.of_kind("shard")].max(axis=1, initial=0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from itertools import takewhile
 
 from ..core.collapse import collapse_progress, rest_of
 from ..core.debris import debris_of
+from ..core.loads import largest_on_a_shard
 from ..core.scenario import Ball
 from .document import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
@@ -99,11 +100,7 @@ def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
         if run.results.intact.shape[1]
     ]
     loads = [
-        (
-            name,
-            run.results.times_s,
-            run.results.body_peak_sums_n[:, run.results.of_kind("shard")].max(axis=1, initial=0.0) / 1e3,
-        )
+        (name, run.results.times_s, largest_on_a_shard(run.results, run.results.body_peak_sums_n) / 1e3)
         for name, run in runs
     ]
     charts = (

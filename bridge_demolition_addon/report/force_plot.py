@@ -7,6 +7,7 @@ from pathlib import Path
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ..core.loads import largest_on_a_shard
 from ..core.results import Results
 
 
@@ -28,9 +29,8 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     figure = Figure(figsize=(9.0, 5.0), dpi=120, layout="constrained")
     FigureCanvasAgg(figure)
     force_axes = figure.add_subplot()
-    shards = results.of_kind("shard")
-    sums = results.body_peak_sums_n[:, shards].max(axis=1, initial=0.0)
-    resultants = results.body_peaks_n[:, shards].max(axis=1, initial=0.0)
+    sums = largest_on_a_shard(results, results.body_peak_sums_n)
+    resultants = largest_on_a_shard(results, results.body_peaks_n)
     times = results.times_s
     lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
     lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")

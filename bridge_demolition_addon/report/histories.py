@@ -10,7 +10,7 @@ from matplotlib.figure import FigureBase
 
 from ..core.collapse import Span
 from ..core.energy import Energy
-from ..core.loads import BreakingByKind, ContactForces
+from ..core.loads import BreakingByKind, ContactForces, largest_on_a_shard
 from ..core.results import Results
 from .plans import plain
 
@@ -31,10 +31,9 @@ def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: f
 
 def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
     """Largest load on any shard over time, by connections and contacts together."""
-    shards = results.of_kind("shard")
     axes = _time_axes(figure, "largest load on a shard (kN)", results.times_s)
-    sums = results.body_peak_sums_n[:, shards].max(axis=1, initial=0.0)
-    resultants = results.body_peaks_n[:, shards].max(axis=1, initial=0.0)
+    sums = largest_on_a_shard(results, results.body_peak_sums_n)
+    resultants = largest_on_a_shard(results, results.body_peaks_n)
     axes.plot(results.times_s, sums / 1e3, **_style(0), label="sum of magnitudes")
     axes.plot(results.times_s, resultants / 1e3, **_style(1), label="resultant")
     _finish(figure, axes, impact_s)
