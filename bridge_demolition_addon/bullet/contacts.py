@@ -12,9 +12,13 @@ from .layout import Layout
 from .memory import gather_doubles, gather_integers, gather_pointers, read, read_pointer, read_value
 
 _MOST_POINTS = 4
+"""Of two bodies: Bullet keeps no more (MANIFOLD_CACHE_SIZE)."""
+
 _MOST_MANIFOLDS = 50_000_000
+"""What is more is no number of contacts: they would take 76 GB."""
 
 _LARGEST_FRICTION = 10.0
+"""What Bullet keeps the combined friction of two bodies within."""
 
 _CHECKED_POINTS = 200
 """Contact points looked at in a check; a wrong offset is wrong in the first of them."""
@@ -78,11 +82,11 @@ class ContactReader:
         self._sorted = bodies[self._order]
         self._is_checked = False
         point = layout.manifold.point
-        fields = (point.place_on_b, point.normal, point.normal_impulse, point.lateral_impulses)
+        impulses = (point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8)
         directions = (point.lateral_directions, point.lateral_directions + 32)
         self._columns = np.concatenate(
-            [np.arange(3) + start // 8 for start in fields[:2]]
-            + [np.array([fields[2], fields[3], fields[3] + 8]) // 8]
+            [np.arange(3) + start // 8 for start in (point.place_on_b, point.normal)]
+            + [np.array(impulses) // 8]
             + [np.arange(3) + start // 8 for start in directions]
         )
 
@@ -185,7 +189,7 @@ def _check_point(layout: Layout, address: int, frictions: list[float]) -> None:
 
     normal, gap = vector(point.normal), vector(point.place_on_a) - vector(point.place_on_b)
     reach = 1.0 + abs(vector(point.place_on_a)).max()
-    # Bullet multiplies the two, and keeps the product within 10.
+    # Bullet multiplies the two.
     friction = min(frictions[0] * frictions[1], _LARGEST_FRICTION)
     checks: Mapping[str, bool] = {
         "normal": abs(np.linalg.norm(normal) - 1.0) <= _UNIT,

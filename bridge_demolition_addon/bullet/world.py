@@ -323,7 +323,7 @@ class BulletWorld:
         Raises
         ------
         LayoutError
-            Memory is not as expected; nothing has been written.
+            Memory is not as expected; nothing has been written but that no loads are read any more.
         """
         dynamics = self._find_dynamics_world()
         if not dynamics or dynamics != self._dynamics or not self._is_marked(dynamics):

@@ -17,6 +17,9 @@ ONE_DELAY_S = 0.008
 
 _TIMES_PER_PULSE = 24
 
+_NEAREST_M = 1e-3
+"""At a charge itself the ground's velocity would be infinite."""
+
 
 def charges_per_delay(charges: Sequence[Charge], window_s: float = ONE_DELAY_S) -> list[tuple[Charge, ...]]:
     """Charges that shake the ground together, in order of time: each group within a window from its first charge."""
@@ -122,6 +125,5 @@ def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge], ground: 
     for group in charges_per_delay(charges):
         distance = min(float(np.linalg.norm(np.subtract(place_m, charge.place_m))) for charge in group)
         mass = sum(charge.mass_kg for charge in group)
-        nearest = max(distance, 1e-3)
-        velocities.append(float(vibration.peak_particle_velocity(nearest, mass, ground)))
+        velocities.append(float(vibration.peak_particle_velocity(max(distance, _NEAREST_M), mass, ground)))
     return max(velocities)
