@@ -69,13 +69,13 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
             for _ in self._pictures:
                 pass
             return self._finish()
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:  # a full disk, for one
             return refused(self, error)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         try:
             self._begin(context.scene)
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:
             return refused(self, error)
         manager = context.window_manager
         manager.progress_begin(0, self._rendering.picture_count)
@@ -97,7 +97,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
                 return {"RUNNING_MODAL"}
             self._end(context)
             return self._finish()
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:
             self._end(context)
             return refused(self, error)
 
