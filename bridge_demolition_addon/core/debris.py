@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,7 +69,7 @@ def debris_of(results: Results) -> Debris:
     )
 
 
-def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: np.ndarray = PERCENTS) -> np.ndarray:
+def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: Sequence[float] = PERCENTS) -> np.ndarray:
     """Smallest of the values (d,) up to which each of the percents (p,) of the mass lies, (p,)."""
     if not len(values):
         return np.full(len(percents), np.nan)

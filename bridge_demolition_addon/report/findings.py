@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.collapse import collapse_progress, rest_of
-from ..core.debris import debris_of, percentiles_by_mass
+from ..core.debris import Debris, debris_of, percentiles_by_mass
 from ..core.loads import most_loaded
 from .run_folder import Run
 
@@ -30,37 +30,31 @@ def findings(run: Run) -> list[Finding]:
     debris, rest = debris_of(results), rest_of(results)
     broken = int((~results.intact[-1]).sum())
     count = results.intact.shape[1]
+    unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
     found = [
         _finding(IMPACT, "s", run.hit_s, ".3f"),
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
-        _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", "not at rest at the end"),
+        _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", unrest),
         _finding("Debris", "t", float(debris.masses_kg.sum()) / 1e3, ".1f"),
         _finding("Footprint of the debris", "m²", debris.area.area(), ".0f"),
         _finding("Height of the pile", "m", debris.highest_m, ".2f"),
     ]
-    if len(debris.bodies):
-        farthest = debris.throws_m.argmax()
-        name = results.body_names[debris.bodies[farthest]]
-        ninety_five = float(percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,))[0])
-        reach = float(debris.reaches_m.max())
-        found += [
-            _finding("95 % of the debris's mass thrown up to", "m", ninety_five, ".2f"),
-            Finding(
-                "Largest throw", "m", float(debris.throws_m[farthest]), f"{debris.throws_m[farthest]:.2f} m, {name}"
-            ),
-            _finding("Debris beyond the bridge's outline, at most", "m", reach, ".2f"),
-        ]
-    else:
-        found += [
-            Finding(label, "m", None, "no debris")
-            for label in (
-                "95 % of the debris's mass thrown up to",
-                "Largest throw",
-                "Debris beyond the bridge's outline, at most",
-            )
-        ]
-    return [*found, _largest_load(run)]
+    return [*found, *_throws(run, debris), _largest_load(run)]
+
+
+def _throws(run: Run, debris: Debris) -> list[Finding]:
+    labels = ("95 % of the debris's mass thrown up to", "Largest throw", "Debris beyond the bridge's outline, at most")
+    if not len(debris.bodies):
+        return [Finding(label, "m", None, "no debris") for label in labels]
+    farthest = debris.throws_m.argmax()
+    largest, body = float(debris.throws_m[farthest]), run.results.body_names[debris.bodies[farthest]]
+    (most_of_it,) = percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,)).tolist()
+    return [
+        _finding(labels[0], "m", most_of_it, ".2f"),
+        Finding(labels[1], "m", largest, f"{largest:.2f} m, {body}"),
+        _finding(labels[2], "m", float(debris.reaches_m.max()), ".2f"),
+    ]
 
 
 def _largest_load(run: Run) -> Finding:

@@ -26,6 +26,7 @@ from bridge_demolition_addon.core.scenario import BallCable, BallHit
 from bridge_demolition_addon.report.blast_maps import overpressure_map
 from bridge_demolition_addon.report.cover import cover_section
 from bridge_demolition_addon.report.document import Paragraph
+from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.write import write_report
 
@@ -301,6 +302,18 @@ def test_what_is_no_run_is_refused(tmp_path, what):
     with pytest.raises(OutputError, match=message):
         made(folder)
     assert not (folder / "report.html").exists()
+
+
+@pytest.mark.parametrize("share, words", [(0.0, "nothing moved"), (1.0, "not at rest at the end")])
+def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, share, words):
+    flying = flying_shards(6, 13)
+    places, speeds = flying.places_m, flying.velocities_m_s
+    run = keep_run(
+        tmp_path / "run",
+        replace(flying, places_m=places[:1] + share * (places - places[:1]), velocities_m_s=share * speeds),
+    )
+    (rest,) = (each for each in findings(read_run(run)) if each.label == "All shards at rest from")
+    assert (rest.value, rest.text) == (None, words)
 
 
 def test_runs_are_set_side_by_side(tmp_path):
