@@ -79,7 +79,7 @@ def collapse_progress(results: Results) -> np.ndarray:
 
 
 @dataclass(frozen=True, slots=True)
-class Rest:
+class ShardRest:
     """When the shards came to rest.
 
     Attributes
@@ -97,16 +97,16 @@ class Rest:
     moving_at_end: int
 
 
-def rest_of(results: Results) -> Rest:
+def rest_of(results: Results) -> ShardRest:
     """When the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
     shards = results.of_kind("shard")
     moving = np.linalg.norm(results.velocities_m_s[:, shards], axis=2) > REST_SPEED_M_S
     at_times = np.flatnonzero(moving.any(axis=1))
     if not len(at_times):
-        return Rest(None, None, 0)
+        return ShardRest(None, None, 0)
     at_end = int(moving[-1].sum())
     at_rest = None if at_end else float(results.times_s[at_times[-1] + 1])
-    return Rest(float(results.times_s[at_times[0]]), at_rest, at_end)
+    return ShardRest(float(results.times_s[at_times[0]]), at_rest, at_end)
 
 
 def _span(results: Results, name: str, bodies: np.ndarray) -> Span:

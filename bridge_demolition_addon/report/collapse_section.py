@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from ..core.collapse import REST_SPEED_M_S, Rest, Span, collapse_progress, rest_of, spans_of
+from ..core.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
 from ..core.energy import Energy, energy_of
 from .document import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from .histories import energy_history, progress_history, span_heights
@@ -52,7 +52,7 @@ def collapse_section(run: Run) -> Section:
     return Section("Collapse", tuple(blocks))
 
 
-def _course(rest: Rest, progress: np.ndarray) -> list[tuple[str, str]]:
+def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
     began = "never" if rest.first_motion_s is None else f"{rest.first_motion_s:.3f} s"
     if rest.first_motion_s is None:
         ended = "nothing moved"

@@ -101,6 +101,10 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
             self._end(context)
             return refused(self, error)
 
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends the film itself, as it does before another file is loaded."""
+        self._end(context)
+
     def _begin(self, scene: bpy.types.Scene) -> None:
         self._rendering = FilmRendering(
             scene, absolute(scene.bda.film_directory), contour_view.settings_of(scene), _film_settings(scene)

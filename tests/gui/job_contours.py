@@ -72,6 +72,7 @@ def steps(person: Person) -> Steps:
     person.expect("the bodies show their own colours", bool((colours(person, shown=True) == own).all()))
     person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
     yield from film(person)
+    yield from load_in_the_middle_of_a_film(person)
 
 
 def inner_panels(person: Person, panels: Panels) -> Steps:
@@ -95,6 +96,25 @@ def film(person: Person) -> Steps:
     yield 1.0
     person.expect_reports("nothing but the film is reported", "37 pictures rendered")
     yield from person.picture("film_done")
+
+
+def load_in_the_middle_of_a_film(person: Person) -> Steps:
+    file = person.folder / "before_the_film.blend"
+    person.scene.bda.film_directory = str(person.folder / "cut_short")
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    with person._in_sidebar():
+        bpy.ops.bda.render_contours("INVOKE_DEFAULT")
+    rendered = (person.folder / "cut_short").glob
+    yield from person.wait_for("there are pictures", lambda: len(list(rendered("*.png"))) > 3, 60.0)
+    with bpy.context.temp_override(window=person.window):
+        bpy.ops.wm.open_mainfile(filepath=str(file))
+    yield 1.0
+    stopped_at = len(list(rendered("*.png")))
+    yield 3.0
+    person.expect("no more pictures are rendered", len(list(rendered("*.png"))), stopped_at)
+    person.expect("pictures are as large as they were", person.scene.render.resolution_x, 1920)
+    person.expect("no handler is left of the film", dict(handlers()), {})
+    yield from person.picture("loaded_in_the_middle_of_a_film")
 
 
 def look(person: Person) -> None:

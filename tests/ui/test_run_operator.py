@@ -192,7 +192,7 @@ def test_a_run_of_a_scenario_is_told_of_as_on_the_command_line(extension, tmp_pa
     summary = json.loads((tmp_path / "results" / "summary.json").read_text(encoding="utf-8"))
     assert summary["seed"] == 8
     assert summary["charges"]["mass_kg"] == 58.0
-    assert summary["charges"]["largest_mass_at_once_kg"] == 120.0
+    assert summary["charges"]["largest_mass_at_once_kg"] == 50.0
     assert summary["settled"]["time_s"] == pytest.approx(0.2, abs=1 / 24)
 
 
