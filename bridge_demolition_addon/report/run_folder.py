@@ -114,7 +114,7 @@ def read_run(folder: Path) -> Run:
         summary=summary,
         results=results,
         logged_forces=logged,
-        logged_breaks=_logged_breaks(folder) if results is None else None,
+        logged_breaks=_logged_breaks(folder, shortcomings) if results is None else None,
         pictures=_pictures(folder, shortcomings),
         shortcomings=tuple(shortcomings),
     )
@@ -229,8 +229,12 @@ def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None
     return LoggedForces(np.array(whole), sums, resultants)
 
 
-def _logged_breaks(folder: Path) -> int | None:
+def _logged_breaks(folder: Path, shortcomings: list[str]) -> int | None:
     path = folder / BREAKING_LOG
     if not path.is_file():
         return None
-    return max(0, path.read_text(encoding="utf-8", errors="replace").count("\n") - 1)
+    try:
+        return max(0, path.read_text(encoding="utf-8", errors="replace").count("\n") - 1)
+    except OSError as error:
+        shortcomings.append(f"{BREAKING_LOG} cannot be read, and what broke is left out: {error.strerror}.")
+        return None
