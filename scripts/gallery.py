@@ -34,8 +34,8 @@ HEADER = """\
 
 Every example is a [scenario file](scenario.md) to start from. `bda run examples/NAME.toml --output DIR` runs it, and
 `--report` makes a [report](report.md) of it. Pictures are of the start, of the impact (or of the blast, or of the
-largest force) and of the end. Times are those of a machine with two cores that had other work to do as well, pictures
-included: alone, a run takes about half as long. All of them together took {minutes} minutes.
+largest force) and of the end. Times are those of a machine with two cores and nothing else to do, pictures included.
+All of them together took {minutes} minutes.
 """
 
 
