@@ -28,8 +28,8 @@ BARE = Scenario(
     title='A "quoted" back\\slash, Brücke, 다리, 🌉',
     time=TimeSettings(duration_s=0.1),
     bridge=Bridge(
-        density_kg_m3=2400,
-        span_lengths_m=[13, 0.1 + 0.2, 1e22, 1e-3 + 1e-16],
+        density_kg_m3=1e22,
+        span_lengths_m=[13, 0.1 + 0.2, 1e3 / 3, 1e-3 + 1e-16],
         deck=Deck(width_m=8.5, thickness_m=0.25),
         piers=Piers(column_length_m=1e-3, column_width_m=1, height_m=1e-3),
     ),
