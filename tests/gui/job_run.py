@@ -88,11 +88,15 @@ def run_to_the_end(person: Person) -> Steps:
 
 
 def judge(person: Person, what: str, waits: np.ndarray) -> None:
-    """Note how long Blender did not look for events, or did not draw, and judge it by the time that it worked."""
-    for name, column in zip(("by the clock", "of work"), waits.T, strict=True):
+    """Note how long Blender did not look for events, or did not draw, and judge it.
+
+    By the clock a wait is longer where something else runs on the machine, and of work where Blender works in several
+    threads at once. So the shorter of the two is still no less than what it would take alone.
+    """
+    for name, column in zip(("by the clock", "of work", "by the shorter"), (*waits.T, waits.min(axis=1)), strict=True):
         middle, most, longest = np.quantile(column, (0.5, SHARE, 1.0))
         times = f"{middle:.3f} s in the middle, {most:.3f} s for {SHARE:.0%}, {longest:.3f} s at most"
-        is_judged = name == "of work"
+        is_judged = name == "by the shorter"
         trouble = "too long" if is_judged and not (most < ANSWER_S and longest < LONGEST_S) else ""
         person.note(f"{len(column)} waits between {what} while it runs, {name}: {times}", trouble)
 

@@ -27,8 +27,8 @@ class Pulse:
     def waits(self) -> dict[str, np.ndarray]:
         """Times between two looks for events, and between two drawings, s (k, 2).
 
-        In the first column is the time that passes. In the second is what Blender works meanwhile, in all its threads:
-        what it would take where nothing else runs, or less.
+        In the first column is the time that passes. In the second is what Blender works meanwhile, in all its threads
+        together.
         """
         return {
             "events": np.diff(np.array(self._beats), axis=0),
