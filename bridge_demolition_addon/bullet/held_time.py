@@ -14,6 +14,7 @@ from __future__ import annotations
 import bpy
 
 from ..core.errors import LayoutError
+from ..scene.world import evaluated_scenes
 from . import checks
 from .layout import platform_layout
 from .memory import read_value, write_float
@@ -67,8 +68,7 @@ def stop_time(scene: bpy.types.Scene) -> None:
 
 
 def _evaluated_worlds(scene: bpy.types.Scene) -> list[bpy.types.RigidBodyWorld]:
-    graphs = [layer.depsgraph for layer in scene.view_layers if layer.depsgraph]
-    return [graph.scene_eval.rigidbody_world for graph in graphs if graph.scene_eval.rigidbody_world]
+    return [evaluated.rigidbody_world for evaluated in evaluated_scenes(scene)]
 
 
 def _write_time_scale(world: bpy.types.RigidBodyWorld, time_scale: float) -> None:

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import LayoutError
+from ..scene.world import evaluated_scenes
 from .memory import read, read_pointer, write_pointers
 
 _INFLUENCES = (
@@ -33,7 +34,7 @@ def ignore_fields(scene: bpy.types.Scene) -> None:
     LayoutError
         Memory is not as expected; nothing has been written.
     """
-    for evaluated in _evaluated_scenes(scene):
+    for evaluated in evaluated_scenes(scene):
         if evaluated.rigidbody_world.effector_weights.collection is None:
             _limit(evaluated, evaluated.collection.as_pointer())
 
@@ -46,7 +47,7 @@ def heed_fields(scene: bpy.types.Scene) -> None:
     LayoutError
         Memory is not as expected; nothing has been written.
     """
-    for evaluated in _evaluated_scenes(scene):
+    for evaluated in evaluated_scenes(scene):
         if evaluated.rigidbody_world.effector_weights.collection == evaluated.collection:
             _limit(evaluated, 0)
 
@@ -60,8 +61,3 @@ def _limit(scene: bpy.types.Scene, collection: int) -> None:
     if read_pointer(address) != limited_to or raw != shown.tobytes():
         raise LayoutError("the limit of the rigid-body world's force fields is not where it is expected")
     write_pointers(address, collection)
-
-
-def _evaluated_scenes(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
-    graphs = [layer.depsgraph for layer in scene.view_layers if layer.depsgraph]
-    return [graph.scene_eval for graph in graphs if graph.scene_eval and graph.scene_eval.rigidbody_world]

@@ -71,3 +71,9 @@ def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bp
     finally:
         for each in shown:
             scene.collection.children.link(each)
+
+
+def evaluated_scenes(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
+    """Blender's evaluated copies of a scene with a rigid-body world, one for each of its view layers that has been."""
+    graphs = [layer.depsgraph for layer in scene.view_layers if layer.depsgraph]
+    return [graph.scene_eval for graph in graphs if graph.scene_eval and graph.scene_eval.rigidbody_world]

@@ -12,8 +12,8 @@ class Refusing:
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        """Why the button cannot work now, in a sentence; None where it can."""
-        raise NotImplementedError
+        """Why the button cannot work now, in a sentence; None where it can, as it does unless it says otherwise."""
+        return None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
