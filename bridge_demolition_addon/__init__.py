@@ -16,7 +16,9 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
-    from .simulation import safe_render, safe_undo, watch
-    from .ui import classes, contour_view, overlay, properties
+    from .simulation.crash_guards import safe_render, safe_undo
+    from .simulation.recording import unrecorded_watch
+    from .ui import registration, scene_settings
+    from .ui.contours import decorator, view
 
-    return (properties, contour_view, classes, overlay, safe_undo, safe_render, watch)
+    return (scene_settings, view, registration, decorator, safe_undo, safe_render, unrecorded_watch)

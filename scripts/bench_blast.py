@@ -21,16 +21,16 @@ from bench_deck import DECK
 
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion
-from bridge_demolition_addon.core.model import build_model
 from bridge_demolition_addon.core.scenario import FractureSettings
+from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.scene.blast.charges import create_charges
+from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
+from bridge_demolition_addon.scene.blast.settings import Apply, ExplosionSettings, keep_explosion
 from bridge_demolition_addon.scene.bodies import bodies_of
-from bridge_demolition_addon.scene.charges import create_charges
 from bridge_demolition_addon.scene.demolition import build_demolition
-from bridge_demolition_addon.scene.explosion import Apply, ExplosionSettings, keep_explosion
-from bridge_demolition_addon.scene.force_fields import build_force_objects
 from bridge_demolition_addon.scene.world import START_FRAME
-from bridge_demolition_addon.simulation import blast, handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.simulation.recording import blast, handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 FRAMES = 5
 """Of each kind."""

@@ -18,14 +18,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.connections import Connections
-from bridge_demolition_addon.core.fracture import Shard
-from bridge_demolition_addon.core.joint import Joint
+from bridge_demolition_addon.core.geometry.mesh import Shard
+from bridge_demolition_addon.core.geometry.solids import box
+from bridge_demolition_addon.core.mechanics.joint import Joint
 from bridge_demolition_addon.core.scenario import Ground, ShardSettings, TimeSettings
-from bridge_demolition_addon.core.solids import box
+from bridge_demolition_addon.core.structure.connections import Connections
 from bridge_demolition_addon.scene.bodies import create_ground, create_shards
-from bridge_demolition_addon.scene.connections import create_connections
-from bridge_demolition_addon.scene.joints import set_joints
+from bridge_demolition_addon.scene.connections.constraints import create_connections
+from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.world import create_world, off_scene
 
 SIZES = ((500, 2_250), (3_000, 13_500), (10_000, 45_000))

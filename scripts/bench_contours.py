@@ -18,8 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import bench_recording as bench
 import bpy
 
-from bridge_demolition_addon.core.contours import ContourSettings, Quantity
-from bridge_demolition_addon.simulation import contours
+from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity
+from bridge_demolition_addon.simulation.display import contours
 
 ROUNDS = 3
 

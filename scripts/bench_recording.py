@@ -23,11 +23,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from bench_deck import DECK
 
-from bridge_demolition_addon.core.model import build_model
+from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.world import START_FRAME
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 FRAMES = 10
 ROUNDS = 3

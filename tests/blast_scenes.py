@@ -8,10 +8,10 @@ from blocks import Blocks
 
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.explosion import BlastOptions
+from bridge_demolition_addon.scene.blast.charges import create_charges
+from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
+from bridge_demolition_addon.scene.blast.settings import Apply, ExplosionSettings, keep_explosion
 from bridge_demolition_addon.scene.bodies import bodies_of
-from bridge_demolition_addon.scene.charges import create_charges
-from bridge_demolition_addon.scene.explosion import Apply, ExplosionSettings, keep_explosion
-from bridge_demolition_addon.scene.force_fields import build_force_objects
 
 IMPULSE_AT_5_PA_S = 40.62
 """Incident impulse of 1 kg of TNT in free air at Z = 5 m/kg^(1/3); Kingery and Bulmash (1984), as ConWep prints it."""

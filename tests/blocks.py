@@ -6,12 +6,12 @@ from pathlib import Path
 
 import bpy
 
-from bridge_demolition_addon.core.results import Results
+from bridge_demolition_addon.core.geometry.solids import box
+from bridge_demolition_addon.core.results.arrays import Results
 from bridge_demolition_addon.core.scenario import TimeSettings
-from bridge_demolition_addon.core.solids import box
 from bridge_demolition_addon.scene.world import create_world
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 MOST_FRAMES = 10_000
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results import Results, load_results
+from bridge_demolition_addon.core.results.arrays import Results, load_results
 from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario
 

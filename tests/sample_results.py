@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from bridge_demolition_addon.core.frame_loads import FrameLoads, SubstepLoads
-from bridge_demolition_addon.core.results import Results
+from bridge_demolition_addon.core.mechanics.frame_loads import FrameLoads, SubstepLoads
+from bridge_demolition_addon.core.results.arrays import Results
 
 G = 9.80665
 GRAVITY = np.array([0.0, 0.0, -G])

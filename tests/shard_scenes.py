@@ -5,16 +5,16 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from bridge_demolition_addon.core.connections import connect, neighbours_by_face
-from bridge_demolition_addon.core.face_sections import second_moments
-from bridge_demolition_addon.core.fracture import fracture
-from bridge_demolition_addon.core.joint import Joint
+from bridge_demolition_addon.core.fracture.shards import fracture
+from bridge_demolition_addon.core.geometry.solids import box
+from bridge_demolition_addon.core.mechanics.joint import Joint
 from bridge_demolition_addon.core.scenario import ShardSettings, TimeSettings
-from bridge_demolition_addon.core.solids import box
+from bridge_demolition_addon.core.structure.connections import connect, neighbours_by_face
+from bridge_demolition_addon.core.structure.face_sections import second_moments
 from bridge_demolition_addon.scene.bodies import create_shards
-from bridge_demolition_addon.scene.breaking import Breaking, keep_breaking
-from bridge_demolition_addon.scene.connections import create_connections
-from bridge_demolition_addon.scene.joints import set_joints
+from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+from bridge_demolition_addon.scene.connections.constraints import create_connections
+from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.world import create_world, off_scene
 
 DENSITY_KG_M3 = 2400.0

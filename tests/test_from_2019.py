@@ -62,7 +62,7 @@ def value_of(text):
 def scenario_tables():
     """Every table of a scenario by its name, and whether there may be many of it."""
     from bridge_demolition_addon.core.scenario import Scenario
-    from bridge_demolition_addon.core.scenario.key import holds_many, subtable_class, subtable_fields
+    from bridge_demolition_addon.core.scenario.schema import holds_many, subtable_class, subtable_fields
 
     def gather(table_class, many):
         yield table_class.table, (table_class, many)
@@ -74,7 +74,7 @@ def scenario_tables():
 
 def scenario_keys():
     """The table of every key, and its field there."""
-    from bridge_demolition_addon.core.scenario.key import key_fields
+    from bridge_demolition_addon.core.scenario.schema import key_fields
 
     tables = scenario_tables().items()
     return {
@@ -118,7 +118,7 @@ def test_every_name_of_the_appendix_is_there():
 
 
 def test_every_key_is_one_and_its_link_leads_to_its_table():
-    from bridge_demolition_addon.core.scenario.key import checked
+    from bridge_demolition_addon.core.scenario.schema import checked
 
     keys, named = scenario_keys(), [each.partition(" = ") for each in named_keys(TEXT)]
     assert len(named) > 50
@@ -140,7 +140,7 @@ def test_every_table_is_one_and_has_its_brackets():
 
 
 def test_every_column_of_our_logs_is_there_and_no_other():
-    from bridge_demolition_addon.simulation import logs
+    from bridge_demolition_addon.simulation.recording import logs
 
     columns = {
         "force_log.csv": logs.FORCE_COLUMNS,
@@ -211,8 +211,8 @@ def test_every_option_of_a_command_is_one(capsys):
 
 
 def test_a_force_object_is_as_the_table_says(addon):
-    from bridge_demolition_addon.core.blast.isolation import LONGEST_M, SHARE_OF_WAY, WIDEST_M
-    from bridge_demolition_addon.scene.force_fields import build_force_objects, force_objects
+    from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, SHARE_OF_WAY, WIDEST_M
+    from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects
     from tests.blocks import Blocks
 
     blocks = Blocks()

@@ -15,11 +15,11 @@ import bpy
 import numpy as np
 
 from ..core.errors import LayoutError, SimulationError
-from ..core.taken_away import OUT_OF_REACH_M
+from ..core.results.removed_shards import OUT_OF_REACH_M
 from ..scene.world import scene_time_step
 from . import checks
+from .collision_pairs import IgnoredCollisions
 from .contacts import ContactReader, Contacts
-from .ignored_collisions import IgnoredCollisions
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout, platform_layout
 from .memory import (
     gather_doubles,
@@ -33,7 +33,7 @@ from .memory import (
     write_pointers,
     write_vectors,
 )
-from .retirement import Fingerprints, retire
+from .teardown import Fingerprints, retire
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""

@@ -4,13 +4,13 @@ import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..core.blast.charges import EXPLOSIVES, Explosive, explosive_named
-from ..core.blast.damage import THRESHOLDS
-from ..core.blast.design import (
+from ..core.blast.charge_sizing import (
     smallest_charge_for_impulse,
     smallest_charge_for_overpressure,
     stand_off_for_overpressure,
 )
+from ..core.blast.charges import EXPLOSIVES, Explosive, explosive_named
+from ..core.blast.damage import THRESHOLDS
 from ..core.blast.models import blast_wave
 from ..core.blast.vibration import (
     DAMAGE_LIMIT_M_S,

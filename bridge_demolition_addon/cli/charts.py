@@ -29,7 +29,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def charts(arguments: argparse.Namespace) -> None:
     """Draw the charts and say where they are."""
     # Loading matplotlib takes a second, which the other commands need not wait.
-    from ..report.blast_charts import ChartSettings, write_charts
+    from ..charts.blast_design import ChartSettings, write_charts
 
     settings = ChartSettings(
         model=BlastModel(arguments.model),

@@ -4,12 +4,11 @@ import argparse
 from collections.abc import Iterator, Sequence
 
 from ..core.bridge import deck_top
-from ..core.joint import Joint
-from ..core.member import Member, mean_density
-from ..core.members import prepared_members
-from ..core.model import Model
-from ..core.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
-from ..core.runnable import runnable_model
+from ..core.bridge.member import Member, mean_density
+from ..core.bridge.preparation import prepared_members
+from ..core.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ..core.mechanics.joint import Joint
+from ..core.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 from ..core.scenario import (
     Ball,
     BallCable,
@@ -21,7 +20,8 @@ from ..core.scenario import (
     TimeSettings,
 )
 from ..core.scenario.file import read_scenario
-from ..core.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
+from ..core.sequence.checked_model import runnable_model
+from ..core.structure.model import Model
 
 MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender holds every one against every body."""

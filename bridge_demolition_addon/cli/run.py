@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import GeometryError, OutputError, ScenarioError, SimulationError
-from ..core.run_files import RESULT_FILES
-from ..core.runnable import runnable_model
+from ..core.results.files import RESULT_FILES
+from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
-from ..core.summary import first_hit_s
-from ..simulation.output import check_folder, remove_report
+from ..core.sequence.checked_model import runnable_model
+from ..simulation.results_folder import check_folder, remove_report
 from .progress import Progress, progress_on
 
 COMPARISON_FOLDER = "report"

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from functools import partial
 from itertools import takewhile
 
-from ..core.collapse import collapse_progress, rest_of
-from ..core.debris import debris_of
-from ..core.loads import largest_on_a_shard
+from ..charts.histories import compared_histories
+from ..charts.plan_maps import debris_maps, debris_maps_height_mm
+from ..core.results.collapse import collapse_progress, rest_of
+from ..core.results.debris import debris_of
+from ..core.results.force_history import largest_on_a_shard
 from ..core.scenario import Ball
-from .document import Block, Column, DataTable, Document, Paragraph, Picture, Section
+from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
-from .histories import compared_histories
-from .plans import debris_maps, debris_maps_height_mm
 from .run_folder import Run
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.collapse import collapse_progress, rest_of
-from ..core.debris import Debris, debris_of, percentiles_by_mass
-from ..core.loads import most_loaded
+from ..core.results.collapse import collapse_progress, rest_of
+from ..core.results.debris import Debris, debris_of, percentiles_by_mass
+from ..core.results.force_history import most_loaded
 from .run_folder import Run
 
 IMPACT = "Impact of the ball"

@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.image import imread
 
 from ..core.errors import OutputError, ScenarioError
-from ..core.results import Results, load_results
-from ..core.run_files import (
+from ..core.results.arrays import Results, load_results
+from ..core.results.files import (
     BREAKING_LOG,
     FORCE_LOG,
     PICTURE_FOLDER,
@@ -22,10 +22,10 @@ from ..core.run_files import (
     SCENARIO_FILE,
     SUMMARY_FILE,
 )
+from ..core.results.removed_shards import without_taken_away
+from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
-from ..core.summary import first_hit_s
-from ..core.taken_away import without_taken_away
 
 
 @dataclass(frozen=True, eq=False, slots=True)

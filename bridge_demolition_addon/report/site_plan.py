@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from manifold3d import CrossSection
 
-from ..core.plan import outlines
+from ..core.results.footprint import outlines
 from ..core.scenario import Site
 
 EQUATOR_M = 6_378_137.0

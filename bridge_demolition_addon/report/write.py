@@ -11,19 +11,19 @@ from typing import Protocol
 from manifold3d import CrossSection
 
 from ..core.errors import OutputError
-from ..core.plan import footprint
-from ..core.run_files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..core.results.footprint import footprint
 from ..core.scenario.file import scenario_text
-from .blast_section import blast_section
-from .collapse_section import collapse_section
 from .comparison import comparison
-from .cover import cover_section, scenario_section, trust_section
-from .debris_section import corner_table, debris_section, exclusion_section, zone_of
-from .document import Document, Picture, Section, write_tables
-from .force_section import force_section, logged_section
-from .html import write_html
-from .pdf import write_pdf
+from .document.blocks import Document, Picture, Section, write_tables
+from .document.html import write_html
+from .document.pdf import write_pdf
 from .run_folder import Run, read_run
+from .sections.blast import blast_section
+from .sections.collapse import collapse_section
+from .sections.cover import cover_section, scenario_section, trust_section
+from .sections.debris import corner_table, debris_section, exclusion_section, zone_of
+from .sections.forces import force_section, logged_section
 from .site_plan import write_dxf, write_geojson
 
 _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (1, 2))

@@ -9,19 +9,17 @@ import bpy
 import numpy as np
 import trimesh
 
-from ..core.fracture import Shard
-from ..core.scenario import Ball, Ground, ShardSettings
-from ..core.solids import box
+from ..core.geometry.mesh import Shard
+from ..core.geometry.solids import box
+from ..core.scenario import Ground, ShardSettings
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
 _MEMBER = "bda_member"
 _MEMBER_KIND = "bda_member_kind"
 _GROUND_THICKNESS_M = 2.0
-_BALL_SEGMENTS = (32, 64)
 
 _CONCRETE = (0.80, 0.78, 0.73)
-_STEEL = (0.08, 0.09, 0.10, 1.0)
 _SOIL = (0.18, 0.17, 0.12, 1.0)
 _SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
 
@@ -137,34 +135,6 @@ def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings:
     ground.rigid_body.type = "PASSIVE"
     set_surface(ground.rigid_body, settings.friction, settings.restitution, 0.0)
     return ground
-
-
-def create_ball(
-    world: bpy.types.RigidBodyWorld, settings: Ball, deck_top_m: float, start_frame: int, release_frame: int
-) -> bpy.types.Object:
-    """Wrecking ball above its target: held by animation up to its release, then free.
-
-    In the release frame it is free for the first time, so that it falls in the step towards that frame.
-    """
-    radius = settings.diameter_m / 2.0
-    solid = trimesh.creation.uv_sphere(radius, count=_BALL_SEGMENTS)
-    ball = create_body(world, mesh_of("Wrecking ball", solid), Kind.BALL, "SPHERE")
-    ball.location = settings.start_m(deck_top_m)
-    ball.color = _STEEL
-    rigid = ball.rigid_body
-    rigid.mass = settings.mass_kg
-    set_surface(rigid, settings.friction, settings.restitution, 0.0)
-    # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
-    rigid.linear_damping, rigid.angular_damping = 0.0, settings.angular_damping
-    rigid.use_deactivation = False
-    for frame, held in ((start_frame, True), (release_frame, False)):
-        rigid.kinematic = held
-        ball.keyframe_insert("rigid_body.kinematic", frame=frame)
-    rigid.kinematic = True
-    # Blender animates a body before it simulates it only where its place is animated; otherwise it may let go of the
-    # ball a frame late, as its threads happen to run.
-    ball.keyframe_insert("location", frame=start_frame)
-    return ball
 
 
 def create_body(

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import bpy
 
-from ..core.extent import ground_half_size, surface_height
-from ..core.model import Model
+from ..core.bridge.extent import ground_half_size, surface_height
+from ..core.mechanics.strength import MATERIALS, Ductility
 from ..core.scenario import ConnectionSettings, Scenario
-from ..core.strength import MATERIALS, Ductility
-from .bodies import bodies_of, create_ball, create_ground, create_shards, mark_member
-from .breaking import Breaking, keep_breaking
-from .cable import create_cable
-from .changes import keep_changes
-from .charges import charge_objects, create_charges
-from .connections import create_connections
-from .explosion import Apply, explosion_settings, keep_explosion
-from .force_fields import build_force_objects
-from .jackhammer import create_jackhammer
-from .joints import set_joints
-from .lifts import create_hits
-from .slow_motion import animate_time_scale
+from ..core.structure.model import Model
+from .blast.charges import charge_objects, create_charges
+from .blast.force_fields import build_force_objects
+from .blast.settings import Apply, explosion_settings, keep_explosion
+from .bodies import bodies_of, create_ground, create_shards, mark_member
+from .connections.breaking_settings import Breaking, keep_breaking
+from .connections.constraints import create_connections
+from .connections.joints import set_joints
+from .structural_changes import keep_changes
+from .time_scale import animate_time_scale
+from .tools.ball import create_ball, create_hits
+from .tools.cable import create_cable
+from .tools.jackhammer import create_jackhammer
 from .world import START_FRAME, create_world, off_scene
 
 FIRST_STEP_FRAME = START_FRAME + 2

@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 
 from ..core.errors import SimulationError
-from ..core.solids import volumes_and_centres
+from ..core.geometry.solids import volumes_and_centres
 from .bodies import kind_of, member_of, triangulated
-from .connections import sections_of
+from .connections.constraints import sections_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import bpy
 
+from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
-from .breaking import Breaking, keep_breaking
-from .changes import keep_changes
-from .connections import ends_of, loose_connections
-from .force_fields import force_collection, force_objects
-from .slow_motion import stop_animation
+from .connections.breaking_settings import Breaking, keep_breaking
+from .connections.constraints import ends_of, loose_connections
+from .structural_changes import keep_changes
+from .time_scale import stop_animation
 from .world import START_FRAME
 
 

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 
 import bpy
 
-from ..core.gravity import STANDARD_GRAVITY_M_S2
 from ..core.scenario import TimeSettings
-from ..core.time_step import TimeStep
+from ..core.timing.time_step import TimeStep
+from ..core.units import STANDARD_GRAVITY_M_S2
 
 START_FRAME = 1
 

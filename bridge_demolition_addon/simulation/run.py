@@ -13,23 +13,23 @@ from typing import Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.contours import ContourSettings
-from ..core.model import Model
-from ..core.results import Results
-from ..core.run_files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
-from ..core.runnable import runnable_model
+from ..core.display.camera_targets import points_to_see
+from ..core.display.contours import ContourSettings
+from ..core.results.arrays import Results
+from ..core.results.files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
+from ..core.results.key_frame import telling_step
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
-from ..core.telling_moment import telling_step
-from ..core.view import points_to_see
-from ..scene.charges import charge_objects, show_until
+from ..core.sequence.checked_model import runnable_model
+from ..core.structure.model import Model
+from ..scene.blast.charges import charge_objects, show_until
 from ..scene.demolition import build_demolition, first_frame_after
-from ..scene.rendering import prepare_pictures, render_picture
+from ..scene.rendering.camera import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames
-from .film import FilmRendering, FilmSettings
-from .output import keep_results, prepared_folder
-from .playing import Playing
-from .recording import Recording
+from .display.film import FilmRendering, FilmSettings
+from .playback import Playing
+from .recording.recorder import Recording
+from .results_folder import keep_results, prepared_folder
 from .run_summary import Subject, rest_watch, run_summary
 
 SLOW_MOTION = 5.0

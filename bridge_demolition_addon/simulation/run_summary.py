@@ -8,12 +8,12 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.rest import Rest, last_event_s
-from ..core.results import Results
+from ..core.results.arrays import Results
+from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
-from ..core.summary import settling, summarise
+from ..core.sequence.rest import Rest, last_event_s
 from ..scene.world import scene_time_step
-from .recording import Recording
+from .recording.recorder import Recording
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from bridge_demolition_addon.charts.blast_design import CHARTS
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.report.blast_charts import CHARTS
 
 
 def test_charts_are_drawn_and_named(tmp_path, capsys):

@@ -87,7 +87,13 @@ def test_a_run_ends_with_a_report_when_asked(tmp_path):
     done = bda("run", path, "--output", output, "--no-pictures", "--report")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
-    for name in ("report.html", "report.pdf", "exclusion_zone.dxf", "tables/debris.csv", "scenario_as_run.toml"):
+    for name in (
+        "report.html",
+        "report.pdf",
+        "exclusion_zone.dxf",
+        "tables/debris.csv",
+        "scenario_as_run.toml",
+    ):
         assert lines.count(str(output / name)) == 1, name
     assert read_scenario(output / "scenario_as_run.toml") == small
     assert "I-235 bridge, one span, wrecking ball" in (output / "report.html").read_text(encoding="utf-8")

@@ -12,11 +12,11 @@ import pytest
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top, deck_underside
-from bridge_demolition_addon.core.debris import debris_of
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.results import Results, load_results
+from bridge_demolition_addon.core.results.arrays import Results, load_results
+from bridge_demolition_addon.core.results.debris import debris_of
 from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 DURATION_S = 3.0

@@ -5,7 +5,7 @@ import pytest
 from example_runs import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results import load_results
+from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario.file import read_scenario
 
 STEPS = read_scenario(EXAMPLES / "i235_steps.toml")

@@ -38,7 +38,7 @@ def steps(person: Person) -> Steps:
 
 def open_panels(seconds: dict[str, list[float]]) -> None:
     """Have all panels open from the beginning, and take their times."""
-    found = [each for each in module("ui.classes").classes() if issubclass(each, bpy.types.Panel)]
+    found = [each for each in module("ui.registration").classes() if issubclass(each, bpy.types.Panel)]
     for each in reversed(found):
         bpy.utils.unregister_class(each)
     for each in found:
@@ -64,7 +64,7 @@ def make_many(person: Person) -> Steps:
     yield from person.click("bda.build_scenario")
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)
     charge = module("core.blast.charges").Charge
-    create = module("scene.charges").create_charges
+    create = module("scene.blast.charges").create_charges
     places = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
     create(person.scene, [charge(name=f"Charge {n}", place_m=place, mass_kg=1.0) for n, place in enumerate(places, 1)])
     settings.charge_index = 5

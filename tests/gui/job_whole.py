@@ -394,7 +394,9 @@ def make_report(person: Person, panels: Panels) -> Steps:
     yield from person.wait_for("there is a report", lambda: (folder / "report.pdf").exists(), 180.0)
     yield 2.0
     person.expect(
-        "both as a page and as PDF", [(folder / name).exists() for name in ("report.html", "report.pdf")], [True] * 2
+        "both as a page and as PDF",
+        [(folder / name).exists() for name in ("report.html", "report.pdf")],
+        [True] * 2,
     )
     person.expect_reports("nothing but the report is reported", "Report: ")
     yield from person.picture("report")

@@ -15,7 +15,7 @@ from person import Person
 EXTENSION = "bl_ext.user_default.bridge_demolition_addon"
 CHECKOUT = Path(__file__).resolve().parents[2]
 SCENARIO = CHECKOUT / "tests" / "gui" / "small.toml"
-PRESETS = CHECKOUT / "bridge_demolition_addon" / "ui" / "presets"
+PRESETS = CHECKOUT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 
 
 def module(name: str) -> ModuleType:
@@ -30,12 +30,12 @@ def scenario_in(file: Path) -> Any:
 
 def scenario_shown(scene: bpy.types.Scene) -> Any:
     """The scenario that the panels show."""
-    return module("ui.scenario_values").scenario_of(scene.bda)
+    return module("ui.scenario.values").scenario_of(scene.bda)
 
 
 def charges(scene: bpy.types.Scene) -> tuple[Any, ...]:
     """The charges of a scene."""
-    return module("scene.charges").charges_of(scene)
+    return module("scene.blast.charges").charges_of(scene)
 
 
 def colours(person: Person, shown: bool = False) -> np.ndarray:
@@ -51,7 +51,7 @@ def opened() -> list[str]:
     return file.read_text(encoding="utf-8").splitlines() if file.exists() else []
 
 
-def handlers(module: str = "simulation.handlers") -> Counter[str]:
+def handlers(module: str = "simulation.recording.handlers") -> Counter[str]:
     """How often each handler of a module of the extension is registered, by default those of a recording."""
     lists = {name: getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)}
     return Counter(

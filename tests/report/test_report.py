@@ -17,17 +17,17 @@ from matplotlib.image import imsave
 from moving_boxes import moving_boxes
 from run_folders import I235, TOLD, flying_shards, keep_run
 
+from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
 from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.results import Results
+from bridge_demolition_addon.core.results.arrays import Results
 from bridge_demolition_addon.core.scenario import BallCable, BallHit
-from bridge_demolition_addon.report.blast_maps import overpressure_map
-from bridge_demolition_addon.report.cover import cover_section
-from bridge_demolition_addon.report.document import Paragraph
+from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.report.sections.cover import cover_section
 from bridge_demolition_addon.report.write import write_report
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

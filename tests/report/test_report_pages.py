@@ -9,11 +9,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from run_folders import flying_shards, keep_run
 
+from bridge_demolition_addon.charts.style import PAGE_WIDTH_MM
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.report import pdf
 from bridge_demolition_addon.report import write as writing
-from bridge_demolition_addon.report.document import (
-    PAGE_WIDTH_MM,
+from bridge_demolition_addon.report.document import pdf
+from bridge_demolition_addon.report.document.blocks import (
     Column,
     DataTable,
     Document,
@@ -23,7 +23,7 @@ from bridge_demolition_addon.report.document import (
     facts,
     write_tables,
 )
-from bridge_demolition_addon.report.html import write_html
+from bridge_demolition_addon.report.document.html import write_html
 
 # Letters may be a little wider than their advance.
 SLACK_MM = 0.6

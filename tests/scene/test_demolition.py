@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from bridge_demolition_addon.core.connections import GROUND
-from bridge_demolition_addon.core.model import build_model
 from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.structure.connections import GROUND
+from bridge_demolition_addon.core.structure.model import build_model
 
 EXAMPLE = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 SCENARIO = replace(EXAMPLE, fracture=replace(EXAMPLE.fracture, shards=30))
@@ -47,7 +47,7 @@ def bodies(scene, kind):
 
 
 def connections(scene):
-    from bridge_demolition_addon.scene.connections import connections_of
+    from bridge_demolition_addon.scene.connections.constraints import connections_of
 
     return connections_of(scene)
 
@@ -325,7 +325,7 @@ def test_unmarked_bodies_are_told_by_whether_they_move(blender, build):
 
 
 def test_thresholds_of_a_built_scene_follow_its_step(build):
-    from bridge_demolition_addon.scene.thresholds import rewrite_thresholds
+    from bridge_demolition_addon.scene.connections.breaking_thresholds import rewrite_thresholds
 
     scene = build()
     assert not rewrite_thresholds(scene)

@@ -5,8 +5,8 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.connections import GROUND, Connections
 from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.core.structure.connections import GROUND, Connections
 
 # Blender keeps places, scales and masses in single precision: 24 binary digits, and a few roundings on the way.
 SINGLE = 4 * 2.0**-23
@@ -21,7 +21,7 @@ def blocks(blender):
 
 def inventory_of(scene):
     from bridge_demolition_addon.scene.bodies import bodies_of
-    from bridge_demolition_addon.scene.connections import connections_of
+    from bridge_demolition_addon.scene.connections.constraints import connections_of
     from bridge_demolition_addon.scene.inventory import take_inventory
 
     scene.view_layers[0].update()
@@ -91,7 +91,8 @@ def test_masses_and_volumes_of_what_moves_and_of_what_does_not(blocks):
 
 def test_names_and_kinds(blocks):
     from bridge_demolition_addon.core.scenario import Ball, Ground
-    from bridge_demolition_addon.scene.bodies import create_ball, create_ground
+    from bridge_demolition_addon.scene.bodies import create_ground
+    from bridge_demolition_addon.scene.tools.ball import create_ball
 
     blocks.block((0, 0, 0)).name = "Pier, left"
     blocks.block((0, 0, 2), 10.0).name = "Brücke"
@@ -107,7 +108,7 @@ def test_names_and_kinds(blocks):
 
 
 def made_connections(blender, blocks, shards, ground, connections, second_moments=None):
-    from bridge_demolition_addon.scene.connections import create_connections
+    from bridge_demolition_addon.scene.connections.constraints import create_connections
     from bridge_demolition_addon.scene.world import off_scene
 
     if second_moments is None:

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.model import build_model
+from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import Ball, FractureSettings, Geometry
 from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.solids import box
+from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of, kind_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 

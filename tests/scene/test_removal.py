@@ -6,21 +6,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.density import painted_density
 from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.model import build_model
+from bridge_demolition_addon.core.fracture.density import painted_density
+from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import FractureSettings, Support
 from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.solids import box
+from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.scene.blast.charges import charge_objects
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
-from bridge_demolition_addon.scene.charges import charge_objects
-from bridge_demolition_addon.scene.connections import connections_of
+from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.painting import painted_points
 from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
-from bridge_demolition_addon.scene.slow_motion import time_is_animated
-from bridge_demolition_addon.simulation import handlers, watch
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.scene.time_scale import time_is_animated
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording import unrecorded_watch as watch
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 I235 = replace(read_scenario(EXAMPLES / "i235_one_span.toml"), fracture=FractureSettings(shards=30))

@@ -11,10 +11,10 @@ import pytest
 from blast_scenes import IMPULSE_AT_5_PA_S, charge, set_off, weightless
 from blocks import Blocks
 
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.scene.force_fields import force_objects
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.blast.force_fields import force_objects
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 
 def rows_of(path):

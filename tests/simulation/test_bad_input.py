@@ -17,8 +17,8 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 FRAMES = 10
 """Recorded before something goes wrong: frames 2 to 11."""

@@ -7,10 +7,10 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.summary import summarise
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.core.results.summary import summarise
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 
 @pytest.fixture

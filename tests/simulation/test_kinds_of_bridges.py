@@ -5,8 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.connections import GROUND
-from bridge_demolition_addon.core.model import build_model
 from bridge_demolition_addon.core.scenario import (
     Abutments,
     BoxGirder,
@@ -21,9 +19,11 @@ from bridge_demolition_addon.core.scenario import (
     Support,
     TimeSettings,
 )
+from bridge_demolition_addon.core.structure.connections import GROUND
+from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.demolition import build_demolition
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 GRAVITY = 9.80665
 WALLS = Piers(kind="wall", column_length_m=0.9, column_width_m=6, height_m=5)

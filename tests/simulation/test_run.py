@@ -10,9 +10,9 @@ import pytest
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top, deck_underside
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.results import load_results
+from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
 SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 

@@ -9,12 +9,12 @@ from shard_scenes import ShardScene
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.core.results.summary import settling
 from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.summary import settling
-from bridge_demolition_addon.scene.breaking import Breaking, breaking_of
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, breaking_of
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 WARM_UP_S = 1.0

@@ -7,11 +7,11 @@ import pytest
 from blocks import Blocks
 from shard_scenes import DENSITY_KG_M3, ShardScene
 
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.strength import MATERIALS, Ductility, Strength
-from bridge_demolition_addon.scene.breaking import Breaking, keep_breaking
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.core.mechanics.strength import MATERIALS, Ductility, Strength
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 

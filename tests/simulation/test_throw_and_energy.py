@@ -7,11 +7,11 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet.memory import write_vectors
-from bridge_demolition_addon.core.energy import energy_of
-from bridge_demolition_addon.core.gravity import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.core.motion import throw
-from bridge_demolition_addon.simulation import handlers
-from bridge_demolition_addon.simulation.recording import Recording
+from bridge_demolition_addon.core.results.energy import energy_of
+from bridge_demolition_addon.core.results.motion import throw
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 G = float(np.float32(STANDARD_GRAVITY_M_S2))
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .charge_sizing import stand_off_for_overpressure
 from .charges import Charge
-from .design import stand_off_for_overpressure
 from .models import BlastModel
 
 CLANCEY = "Clancey, 6th International Meeting of Forensic Sciences, Edinburgh (1972)"

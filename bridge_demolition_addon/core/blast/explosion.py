@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..geometry.hulls import ConvexHulls
 from .charges import Charge, ChargeArrays
-from .hulls import ConvexHulls
 from .models import BlastModel
 from .projection import lines_of_blast, projected_areas
 from .pulses import Loading, Pulses, blast_pulses, impulse_between

@@ -101,9 +101,9 @@ def _tables() -> Mapping[Burst, Mapping[Quantity, list[_Piece]]]:
 
 def _read(name: str, value_of: Callable) -> Mapping[Quantity, list[_Piece]]:
     # Named from here, as the package has another name inside Blender.
-    core = resources.files(__package__.rpartition(".")[0])
+    here = resources.files(__package__)
     pieces = defaultdict(list)
-    for row in csv.DictReader((core / "data" / name).read_text(encoding="utf-8").splitlines()):
+    for row in csv.DictReader((here / "data" / name).read_text(encoding="utf-8").splitlines()):
         piece = _Piece(float(row["z_min"]), float(row["z_max"]), value_of(row, _SI[row["unit"]]))
         pieces[Quantity(row["quantity"])].append(piece)
     return pieces

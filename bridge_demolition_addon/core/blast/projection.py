@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .hulls import ConvexHulls
+from ..geometry.hulls import ConvexHulls
 
 UPWARDS = np.array([0.0, 0.0, 1.0])
 """Where a charge in the very centre of a body pushes it: away from the ground, as no other direction is marked."""

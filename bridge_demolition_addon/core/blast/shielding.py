@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..proximity import ranges
-from .hulls import ConvexHulls
+from ..geometry.hulls import ConvexHulls
+from ..geometry.proximity import ranges
 
 GRAZING_M = 1e-3
 """Hulls stop rays this much inside their faces, so that none is stopped between bodies that touch, or by rounding."""

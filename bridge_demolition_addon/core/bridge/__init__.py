@@ -4,7 +4,7 @@ x runs along the road from the axis of the first pier, y across it from its midd
 """
 
 from .layout import deck_outline, deck_top, deck_underside, pier_axes, slab_underside
-from .members import bridge_density, bridge_members
+from .parametric import bridge_density, bridge_members
 
 __all__ = [
     "bridge_density",

@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 import trimesh
 
+from ..geometry.solids import mesh_of
 from ..scenario import Bridge
-from ..solids import mesh_of
 
 
 def pier_axes(bridge: Bridge) -> np.ndarray:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import trimesh
 
+from ..geometry.solids import box
 from ..scenario import Bridge
-from ..solids import box
 from .layout import deck_underside, pier_axes, skewed, turned_with_axis
 from .shape import Shape
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import trimesh
 
+from ..geometry.solids import box, difference, union
 from ..scenario import Bridge
-from ..solids import box, difference, union
 from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside
 from .shape import Shape
 

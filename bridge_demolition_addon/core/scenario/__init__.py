@@ -11,15 +11,15 @@ from .bodies import Ground, ShardSettings
 from .bridge import Bridge
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
 from .cable import BallCable
-from .changes import Change, Removal, SawCut, Weakening
-from .connection_between import ConnectionBetween
+from .connection_rules import ConnectionBetween
 from .connections import ConnectionSettings
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
-from .output import PictureSettings, RecordingSettings
+from .recording import PictureSettings, RecordingSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
+from .structural_changes import Change, Removal, SawCut, Weakening
 from .supports import Support
 from .time import TimeSettings
 

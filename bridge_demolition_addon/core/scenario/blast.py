@@ -10,8 +10,8 @@ from ..blast.models import BlastModel
 from ..blast.pulses import Loading
 from ..blast.wave import Burst
 from ..errors import ScenarioError
-from ..timeline import SlowMotion
-from .key import Table, key
+from ..timing.timeline import SlowMotion
+from .schema import Table, key
 
 _MS_PER_S = 1000.0
 

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
-from .key import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
+from .schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 
 LARGEST_SKEW_DEG = 75.0
 

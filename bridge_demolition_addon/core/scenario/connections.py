@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from ..gravity import STANDARD_GRAVITY_M_S2
-from ..joint import TYPES, Joint
-from ..strength import MATERIALS, Strength
-from .connection_between import ConnectionBetween
+from ..mechanics.joint import TYPES, Joint
+from ..mechanics.strength import MATERIALS, Strength
+from ..units import STANDARD_GRAVITY_M_S2
+from .connection_rules import ConnectionBetween
 from .joint import JointSettings
-from .key import LARGEST_INTEGER, check_exactly_one, key, shown
+from .schema import LARGEST_INTEGER, check_exactly_one, key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ScenarioError
-from .key import (
+from .scenario import Scenario
+from .schema import (
     Table,
     expected,
     holds_many,
@@ -22,7 +23,6 @@ from .key import (
     subtable_class,
     subtable_fields,
 )
-from .scenario import Scenario
 from .variant import take_based_on, varied
 
 LIKENESS = 0.68

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from ..errors import ScenarioError
-from ..joint import MOTIONS, TYPES, Springs
-from .key import Table, key, shown
+from ..mechanics.joint import MOTIONS, TYPES, Springs
+from .schema import Table, key, shown
 
 _STIFFENED = "Bullet softens what is stiffer than a 16th of the body's {} by the square of the sub-step."
 

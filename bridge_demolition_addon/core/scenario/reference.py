@@ -9,8 +9,8 @@ from dataclasses import Field
 from pathlib import Path
 
 from .file import toml_value
-from .key import Table, expected, holds_many, is_required, key_fields, subtable_class, subtable_fields
 from .scenario import Scenario
+from .schema import Table, expected, holds_many, is_required, key_fields, subtable_class, subtable_fields
 
 INTRODUCTION = """\
 # Scenario files

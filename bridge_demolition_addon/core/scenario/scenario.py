@@ -5,19 +5,19 @@ from typing import ClassVar
 
 from ..blast.charges import Charge
 from ..errors import ScenarioError
-from ..timeline import Timeline
+from ..timing.timeline import Timeline
 from .ball import Ball, BallHit
 from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge
-from .changes import Change, Removal, SawCut, Weakening, check_times
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
-from .key import LARGEST_INTEGER, ROUNDING, Table, key, shown
-from .output import PictureSettings, RecordingSettings
+from .recording import PictureSettings, RecordingSettings
+from .schema import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .site import Exclusion, Neighbour, Site, Zone
+from .structural_changes import Change, Removal, SawCut, Weakening, check_times
 from .supports import Support
 from .time import MOST_FRAMES, TimeSettings
 

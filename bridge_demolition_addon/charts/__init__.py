@@ -1,0 +1,1 @@
+"""Figures drawn with matplotlib, for logs, reports and windows."""

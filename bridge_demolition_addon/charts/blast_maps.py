@@ -1,0 +1,84 @@
+"""Blast in plan and over time: overpressure on the ground with rings of damage, and pressure at neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from textwrap import fill
+
+import numpy as np
+from manifold3d import CrossSection
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.figure import FigureBase
+
+from ..core.blast.charges import Charge
+from ..core.blast.damage import distinct_thresholds, ring_radii
+from ..core.blast.models import BlastModel
+from ..core.blast.receptors import PlaceLoads, peak_overpressures
+from ..core.scenario import Neighbour
+from .histories import DASHES, SHADES
+from .plan_maps import draw_area, plain
+
+_CELLS = 240
+_NAME_LETTERS = 28
+_ROOM = 1.05
+WIDEST_PA = 2.07e3
+"""The map reaches to the ring of this threshold; those of less pressure would leave nothing to see of the rest."""
+
+
+def overpressure_map(
+    figure: FigureBase,
+    charges: Sequence[Charge],
+    bridge: CrossSection,
+    neighbours: Sequence[Neighbour],
+    model: BlastModel,
+) -> None:
+    """Largest overpressure of any one charge on the ground, with the rings of damage."""
+    thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= WIDEST_PA]
+    radii = ring_radii(charges, 0.0, thresholds, model)
+    places = np.array([charge.place_m[:2] for charge in charges])
+    left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground
+    low = np.minimum(places.min(axis=0) - _ROOM * radii.max(), (left, back))
+    high = np.maximum(places.max(axis=0) + _ROOM * radii.max(), (right, front))
+    xs, ys = np.linspace(low[0], high[0], _CELLS), np.linspace(low[1], high[1], _CELLS)
+    grid = np.stack([*np.meshgrid(xs, ys), np.zeros((_CELLS, _CELLS))], axis=-1)
+    peaks_kpa = peak_overpressures(grid.reshape(-1, 3), charges, model).reshape(_CELLS, _CELLS) / 1e3
+    axes = figure.add_subplot()
+    scale = LogNorm(1.0, max(float(peaks_kpa.max()), 10.0))
+    image = axes.imshow(
+        peaks_kpa, extent=(*xs[[0, -1]], *ys[[0, -1]]), origin="lower", cmap="Greys", norm=scale, aspect="equal"
+    )
+    levels = [each.overpressure_pa / 1e3 for each in thresholds]
+    order = np.argsort(levels)
+    styles = [DASHES[row % len(DASHES)] for row in range(len(levels))]
+    lines = axes.contour(xs, ys, peaks_kpa, levels=np.array(levels)[order], colors=SHADES[1], linestyles=styles)
+    axes.clabel(lines, fmt=lambda level: f"{level:g} kPa", fontsize=6)
+    draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.0, label="bridge")
+    axes.plot(*places.T, "k+", markersize=7, label="charge")
+    for neighbour in neighbours:
+        if (np.array(neighbour.place_m[:2]) >= low).all() and (np.array(neighbour.place_m[:2]) <= high).all():
+            axes.plot(*neighbour.place_m[:2], "k^", markersize=5)
+            _name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
+    axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
+    figure.colorbar(image, ax=axes, label="peak overpressure of one charge (kPa)", shrink=0.9)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+
+
+def _name_neighbour(axes: Axes, neighbour: Neighbour, *, to_the_left: bool) -> None:
+    """Write a neighbour's name beside it, towards the middle of the map, over several lines where it is long."""
+    name = fill(plain(neighbour.name), _NAME_LETTERS)
+    offset, side = ((-4, 4), "right") if to_the_left else ((4, 4), "left")
+    axes.annotate(name, neighbour.place_m[:2], offset, textcoords="offset points", ha=side, fontsize=7)
+
+
+def neighbour_pressures(figure: FigureBase, loads: Sequence[tuple[str, PlaceLoads]]) -> None:
+    """Overpressure of all charges together at neighbours, over time."""
+    axes = figure.add_subplot()
+    for number, (name, load) in enumerate(loads):
+        style = {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": 1.2}
+        axes.plot(1e3 * load.times_s, load.pressures_pa / 1e3, **style, label=plain(name))
+    axes.set(xlabel="time since the start of the blasting (ms)", ylabel="overpressure of all charges (kPa)")
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlim(left=0.0)
+    axes.grid(alpha=0.3)
+    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)

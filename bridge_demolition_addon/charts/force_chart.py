@@ -1,0 +1,48 @@
+"""Chart of the forces and of the breaking over a run's time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ..core.results.arrays import Results
+from ..core.results.force_history import largest_on_a_shard
+
+
+def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
+    """Draw the largest force on any shard, and the connections that still hold, over time.
+
+    Parameters
+    ----------
+    results
+        What was recorded.
+    path
+        Picture to write; its ending chooses the format.
+    title
+        Heading.
+    impact_s
+        When the ball hit, marked by a line; None for no mark.
+    """
+    # A figure of its own: pyplot would set up a window system inside Blender and keep every figure alive.
+    figure = Figure(figsize=(9.0, 5.0), dpi=120, layout="constrained")
+    FigureCanvasAgg(figure)
+    force_axes = figure.add_subplot()
+    sums = largest_on_a_shard(results, results.body_peak_sums_n)
+    resultants = largest_on_a_shard(results, results.body_peaks_n)
+    times = results.times_s
+    lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
+    lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
+    force_axes.set_title(title, parse_math=False, wrap=True)  # a title may hold dollar signs
+    force_axes.set(xlabel="time (s)", ylabel="force (kN)", xmargin=0.0)
+    force_axes.set_ylim(bottom=0.0)
+    force_axes.grid(alpha=0.3)
+    count_axes = force_axes.twinx()
+    intact = results.intact.sum(axis=1)
+    lines += count_axes.plot(times, intact, color="#4d4d4d", linestyle="--", label="connections intact")
+    count_axes.set(ylabel="connections intact", ylim=(0.0, 1.05 * max(1, intact.max())))
+    if impact_s is not None:
+        lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
+    figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
+    figure.savefig(path)

@@ -1,0 +1,140 @@
+"""Charts over the time of a run: forces, breaking, heights of spans, progress of the collapse, and energy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import FigureBase
+
+from ..core.results.arrays import Results
+from ..core.results.collapse import Span
+from ..core.results.energy import Energy
+from ..core.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
+from .plan_maps import plain
+
+DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (1, 3)), (0, (3, 1)))
+SHADES = ("0.0", "#b2182b", "#2166ac", "0.45", "#542788", "#b35806", "0.0", "0.45")
+_MOST_KINDS = 7
+"""Kinds of connections that have a line of their own."""
+
+
+def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:
+    """Total and largest contact force, and what the ground carries by contacts, over time."""
+    axes = _time_axes(figure, "contact force (kN)", forces.times_s)
+    axes.plot(forces.times_s, forces.total_n / 1e3, **_style(0), label="all contacts together, at least")
+    axes.plot(forces.times_s, forces.largest_n / 1e3, **_style(1), label="largest on one shard")
+    axes.plot(forces.times_s, forces.ground_n / 1e3, **_style(2), label="upward force of the ground")
+    _finish(figure, axes, impact_s)
+
+
+def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
+    """Largest load on any shard over time, by connections and contacts together."""
+    axes = _time_axes(figure, "largest load on a shard (kN)", results.times_s)
+    sums = largest_on_a_shard(results, results.body_peak_sums_n)
+    resultants = largest_on_a_shard(results, results.body_peaks_n)
+    axes.plot(results.times_s, sums / 1e3, **_style(0), label="sum of magnitudes")
+    axes.plot(results.times_s, resultants / 1e3, **_style(1), label="resultant")
+    _finish(figure, axes, impact_s)
+
+
+def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
+    """The same from a log alone: times (k,), and (k,) largest sum and resultant on any body."""
+    axes = _time_axes(figure, "largest load on a body (kN)", times_s)
+    axes.plot(times_s, sums_n / 1e3, **_style(0), label="sum of magnitudes")
+    axes.plot(times_s, resultants_n / 1e3, **_style(1), label="resultant")
+    _finish(figure, axes, None)
+
+
+def breaking_history(
+    figure: FigureBase, times_s: np.ndarray, kinds: Sequence[BreakingByKind], impact_s: float | None
+) -> None:
+    """Share of the connections of each kind that are broken, over time."""
+    axes = _time_axes(figure, "connections broken (%)", times_s)
+    for number, kind in enumerate(kinds[:_MOST_KINDS]):
+        label = plain(f"{kind.kind} ({kind.broken[-1]} of {kind.count})")
+        axes.plot(times_s, 100.0 * kind.broken / kind.count, **_style(number + 1), label=label)
+    count = sum(kind.count for kind in kinds)
+    broken = np.sum([kind.broken for kind in kinds], axis=0)
+    all_of_them = {"color": "black", "linewidth": 2.5, "label": f"all ({broken[-1]} of {count})"}
+    axes.plot(times_s, 100.0 * broken / count, **all_of_them)
+    axes.set_ylim(0.0, 105.0)
+    _finish(figure, axes, impact_s, columns=3)
+
+
+def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span], impact_s: float | None) -> None:
+    """Height of the centre of mass of every span over time, and of the lowest centre of its shards."""
+    axes = _time_axes(figure, "height above the ground (m)", times_s)
+    for number, span in enumerate(spans):
+        style = _style(number)
+        axes.plot(times_s, span.heights_m, **style, label=f"{span.name}: centre of mass")
+        axes.plot(times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=f"{span.name}: lowest shard")
+    highest = max((float(span.heights_m.max()) for span in spans), default=0.0)
+    axes.set_ylim(min(0.0, axes.get_ylim()[0]), 1.05 * highest if highest > 0.0 else None)
+    _finish(figure, axes, impact_s, columns=2)
+
+
+def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarray, impact_s: float | None) -> None:
+    """Progress of the collapse over time."""
+    axes = _time_axes(figure, "progress (%)", times_s)
+    axes.plot(times_s, 100.0 * progress, **_style(0), label="progress of the collapse")
+    axes.set_ylim(min(0.0, 105.0 * progress.min()), 105.0)
+    _finish(figure, axes, impact_s)
+
+
+def energy_history(figure: FigureBase, energy: Energy, impact_s: float | None) -> None:
+    """Potential and kinetic energy, and what is lost of them, over time."""
+    axes = _time_axes(figure, "energy (MJ)", energy.times_s)
+    axes.plot(energy.times_s, energy.potential_j / 1e6, **_style(0), label="potential")
+    axes.plot(energy.times_s, energy.kinetic_j / 1e6, **_style(1), label="kinetic")
+    axes.plot(energy.times_s, energy.rotation_j / 1e6, **_style(3), label="part of it in rotation")
+    axes.plot(energy.times_s, energy.dissipated_j / 1e6, **_style(2), label="dissipated")
+    _finish(figure, axes, impact_s)
+
+
+def throw_distribution(figure: FigureBase, throws_m: np.ndarray, masses_kg: np.ndarray) -> None:
+    """Share of the debris that was thrown farther than a distance, by mass and by number."""
+    axes = figure.add_subplot()
+    order = np.argsort(throws_m)
+    distances = np.concatenate([[0.0], throws_m[order]])
+    by_mass = 100.0 * (1.0 - np.concatenate([[0.0], np.cumsum(masses_kg[order])]) / masses_kg.sum())
+    by_number = 100.0 * (1.0 - np.arange(len(distances)) / max(len(throws_m), 1))
+    axes.step(distances, by_mass, where="post", **_style(0), label="by mass")
+    axes.step(distances, by_number, where="post", **_style(1), label="by number of shards")
+    axes.set(xlabel="throw (m)", ylabel="debris thrown farther (%)", ylim=(0.0, 102.0))
+    axes.set_xlim(left=0.0)
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False, fontsize=8)
+
+
+def compared_histories(figure: FigureBase, label: str, histories: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> None:
+    """Lines of several runs in one chart: the name of each, its times (k,) and its values (k,)."""
+    axes = _time_axes(figure, label, np.concatenate([times for _, times, _ in histories]))
+    for number, (name, times, values) in enumerate(histories):
+        axes.plot(times, values, **_style(number), label=plain(name))
+    _finish(figure, axes, None, columns=2)
+
+
+def _time_axes(figure: FigureBase, label: str, times_s: np.ndarray) -> Axes:
+    axes = figure.add_subplot()
+    axes.set(xlabel="time (s)", ylabel=label)
+    last = float(times_s.max(initial=0.0))
+    axes.set_xlim(0.0, last if last > 0.0 else 1.0)
+    axes.grid(alpha=0.3)
+    return axes
+
+
+def _style(number: int) -> dict[str, object]:
+    return {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": 1.4}
+
+
+def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int = 2) -> None:
+    for line in axes.lines:
+        if len(line.get_xdata()) == 1:  # a run of one frame has no line to show
+            line.set_marker("o")
+    if impact_s is not None:
+        axes.axvline(impact_s, color="black", linestyle=(0, (1, 1)), linewidth=1.0, label="impact of the ball")
+    if axes.get_ylim()[0] > 0.0:
+        axes.set_ylim(bottom=0.0)
+    figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=8)

@@ -1,0 +1,255 @@
+"""Maps in plan: debris with the bridge's outline, the height of the pile, and the exclusion zone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from manifold3d import CrossSection
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import FigureBase
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path as Outline
+
+from ..core.results.arrays import Results
+from ..core.results.debris import Debris, HeightMap
+from ..core.results.exclusion import ExclusionZone
+from ..core.results.footprint import corners_at, outlines
+from ..core.scenario import Zone
+from .style import PAGE_WIDTH_MM
+
+NAMED_THROWS = 5
+"""Largest throws that the map names."""
+
+_ROOM = 0.04
+_LABEL_SHARE = 0.03
+"""How far a zone's name is from its sides, as a share of these."""
+
+_SIDES = {"left": 0.0, "bottom": 0.0, "center": 0.5, "right": 1.0, "top": 1.0}
+_NAME_PLACES = tuple((across, upwards) for across in ("left", "right") for upwards in ("top", "bottom", "center"))
+"""Places in a zone in the order in which its name tries them."""
+
+_NAME_POINTS = 7.0
+_LETTER_SHARE, _LINE_SHARE = 0.6, 1.5
+"""Mean width of a letter, and height of a line with its white box, over the size of the letters."""
+
+_AXES_SHARES = (0.85, 0.75)
+"""About how much of a map's width and height are left beside its labels, ticks and legend."""
+
+_MM_PER_POINT = 25.4 / 72.0
+
+_MAPS_ABREAST = 2
+_MAP_TITLE_MM, _MAP_LEGEND_MM, _HIGHEST_MAPS_MM = 20.0, 10.0, 220.0
+"""What title and labels of one of the maps beside each other need, their legend, and what fits on a page."""
+
+_ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
+
+
+def debris_map(
+    figure: FigureBase, results: Results, debris: Debris, zones: Sequence[Zone] = (), *, trajectories: bool = False
+) -> None:
+    """Where the debris lies, against where the bridge stood.
+
+    Parameters
+    ----------
+    figure
+        Figure or part of one to draw into.
+    results, debris
+        What was recorded, and its debris.
+    zones
+        Zones of the site.
+    trajectories
+        Whether to draw the path of every shard's centre of mass.
+    """
+    axes = _plan_axes(figure)
+    draw_zones(axes, zones)
+    for body in debris.bodies:
+        hull = CrossSection.hull_points(corners_at(results, -1, body)[:, :2])
+        draw_area(axes, hull, facecolor="0.78", edgecolor="0.45", linewidth=0.3)
+    if trajectories:
+        paths = np.swapaxes(results.places_m[:, debris.bodies, :2], 0, 1)
+        axes.add_collection(LineCollection(list(paths), colors="0.3", linewidths=0.3, label="paths of the shards"))
+    draw_area(axes, debris.area, fill=False, edgecolor="black", linewidth=1.0, label="footprint of the debris")
+    draw_area(axes, debris.outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
+    for ball in results.of_kind("ball"):
+        hull = CrossSection.hull_points(corners_at(results, -1, ball)[:, :2])
+        draw_area(axes, hull, facecolor="0.25", edgecolor="black", linewidth=0.5, label=plain(results.body_names[ball]))
+    largest = np.argsort(-debris.throws_m, kind="stable")[:NAMED_THROWS]
+    for number, row in enumerate(largest, start=1):
+        first, last = results.places_m[[0, -1], debris.bodies[row], :2]
+        axes.annotate("", last, first, arrowprops=_ARROW)
+        box = {"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "black", "linewidth": 0.6}
+        axes.annotate(str(number), last, ha="center", va="center", fontsize=6, bbox=box)
+    _fit(axes, figure)
+    _name_zones(axes, figure, zones)
+
+
+def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> None:
+    """How high the debris lies, in plan."""
+    axes = _plan_axes(figure)
+    xs, ys = heights.xs_m, heights.ys_m
+    half = (xs[1] - xs[0]) / 2.0
+    extent = (xs[0] - half, xs[-1] + half, ys[0] - half, ys[-1] + half)
+    top = float(np.nanmax(heights.heights_m))
+    image = axes.imshow(
+        heights.heights_m, extent=extent, origin="lower", cmap="Greys", vmin=0.0, vmax=max(top, 0.1), aspect="equal"
+    )
+    draw_area(axes, outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
+    _fit(axes, figure)
+    figure.colorbar(image, ax=axes, label="height above the ground (m)", shrink=0.8)
+
+
+def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone] = ()) -> None:
+    """The areas that make up the exclusion zone."""
+    axes = _plan_axes(figure)
+    draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone")
+    draw_zones(axes, zones)
+    draw_area(axes, zone.drop, facecolor="0.82", edgecolor="black", linewidth=0.8, linestyle=":", label="designed drop")
+    style = {"facecolor": "none", "edgecolor": "0.3", "hatch": "....", "linewidth": 0.8}
+    draw_area(axes, zone.debris, **style, label="predicted debris")
+    draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
+    _fit(axes, figure)
+    _name_zones(axes, figure, zones)
+    _dimension(axes, zone)
+
+
+def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
+    """Footprints of the debris of several runs beside each other, all at one scale, each with the name of its run."""
+    low, high = _bounds_of(runs)
+    rows = math.ceil(len(runs) / _MAPS_ABREAST)
+    panels = figure.subplots(rows, min(len(runs), _MAPS_ABREAST), squeeze=False)
+    for axes, (name, debris) in zip(panels.flat, runs, strict=False):
+        axes.set_title(plain(name), fontsize=8, loc="left")
+        axes.set_aspect("equal", adjustable="box")
+        axes.set(xlabel="x along the road (m)", ylabel="y across (m)")
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+        axes.grid(alpha=0.25)
+        axes.set_axisbelow(True)
+        draw_area(axes, debris.area, facecolor="0.7", edgecolor="0.3", linewidth=0.4, label="footprint of the debris")
+        style = {"fill": False, "edgecolor": "black", "linewidth": 1.2, "linestyle": "--"}
+        draw_area(axes, debris.outline, label="bridge before", **style)
+    for axes in panels.flat[len(runs) :]:
+        axes.remove()
+    handles, labels = panels.flat[0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False, fontsize=8)
+
+
+def debris_maps_height_mm(runs: Sequence[tuple[str, Debris]]) -> float:
+    """Height of `debris_maps` at the full width of a page, which suits their shape."""
+    low, high = _bounds_of(runs)
+    columns, rows = min(len(runs), _MAPS_ABREAST), math.ceil(len(runs) / _MAPS_ABREAST)
+    wide, across = high - low
+    each = PAGE_WIDTH_MM / columns * float(across / wide) + _MAP_TITLE_MM
+    return min(rows * each + _MAP_LEGEND_MM, _HIGHEST_MAPS_MM)
+
+
+def _bounds_of(runs: Sequence[tuple[str, Debris]]) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest x and y of all debris and bridges, with some room around them."""
+    areas = [area for _, debris in runs for area in (debris.area, debris.outline) if not area.is_empty()]
+    bounds = np.array([area.bounds() for area in areas])
+    low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
+    room = _ROOM * float((high - low).max())
+    return low - room, high + room
+
+
+def draw_area(axes: Axes, area: CrossSection, label: str | None = None, **style: Any) -> None:
+    """Draw an area with its holes; nothing where it is empty."""
+    rings = outlines(area)
+    if rings:
+        path = Outline.make_compound_path(*(Outline(np.vstack([ring, ring[:1]]), closed=True) for ring in rings))
+        axes.add_patch(PathPatch(path, label=label, **style))
+
+
+def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
+    """Draw zones of the site."""
+    for zone in zones:
+        corners = np.array(zone.corners_m)
+        path = Outline(np.vstack([corners, corners[:1]]), closed=True)
+        axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
+
+
+def _name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
+    """Write each zone's name where no other name is, if there is such a place at its sides."""
+    letter_m = _NAME_POINTS * _MM_PER_POINT * _metres_per_mm(axes, figure)
+    style = {"fontsize": _NAME_POINTS, "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}, "zorder": 5}
+    taken: list[np.ndarray] = []
+    for zone in zones:
+        size = letter_m * np.array([_LETTER_SHARE * len(zone.name), _LINE_SHARE])
+        choices = [(*place, *_name_box(zone, *place, size)) for place in _NAME_PLACES]
+        free = (each for each in choices if not any(_overlap(each[3], other) for other in taken))
+        across, upwards, anchor, box = next(free, choices[0])
+        taken.append(box)
+        axes.annotate(plain(zone.name), anchor, ha=across, va=upwards, **style)
+
+
+def _name_box(zone: Zone, across: str, upwards: str, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where a name of a size is anchored in its zone, and (2, 2) lowest and highest corner of the name."""
+    corners = np.array(zone.corners_m)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    sides = np.array([_SIDES[across], _SIDES[upwards]])
+    anchor = low + (high - low) * (_LABEL_SHARE + (1.0 - 2.0 * _LABEL_SHARE) * sides)
+    lowest = anchor - size * sides
+    return anchor, np.array([lowest, lowest + size])
+
+
+def _overlap(first: np.ndarray, second: np.ndarray) -> bool:
+    return bool((first[0] < second[1]).all() and (second[0] < first[1]).all())
+
+
+def _metres_per_mm(axes: Axes, figure: FigureBase) -> float:
+    """About how many metres of a map are a millimetre of its drawing."""
+    shown = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)
+    drawn_mm = 25.4 / figure.dpi * np.array([figure.bbox.width, figure.bbox.height]) * _AXES_SHARES
+    return float((shown / drawn_mm).max())
+
+
+def plain(text: str) -> str:
+    """A text that matplotlib does not take for a formula."""
+    return str(text).replace("$", r"\$")
+
+
+def _plan_axes(figure: FigureBase) -> Axes:
+    axes = figure.add_subplot()
+    axes.set_aspect("equal", adjustable="box")
+    axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
+    axes.grid(alpha=0.25)
+    axes.set_axisbelow(True)
+    return axes
+
+
+def _fit(axes: Axes, figure: FigureBase) -> None:
+    """Show all that was drawn, with a legend below it."""
+    corners = [axes.dataLim.get_points()]
+    corners += [patch.get_extents().transformed(axes.transData.inverted()).get_points() for patch in axes.patches]
+    low = np.min([each.min(axis=0) for each in corners if np.isfinite(each).all()], axis=0)
+    high = np.max([each.max(axis=0) for each in corners if np.isfinite(each).all()], axis=0)
+    room = _ROOM * float((high - low).max())
+    axes.set_xlim(low[0] - room, high[0] + room)
+    axes.set_ylim(low[1] - room, high[1] + room)
+    handles, labels = axes.get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    if unique:
+        figure.legend(unique.values(), unique.keys(), loc="outside lower center", ncols=4, frameon=False, fontsize=8)
+
+
+def _dimension(axes: Axes, zone: ExclusionZone) -> None:
+    """Length and width of the zone, and how far it reaches beyond the bridge to each side."""
+    low_x, low_y, high_x, high_y = zone.whole.bounds()
+    bridge = zone.plan.bounds()
+    middle_x, middle_y = (bridge[0] + bridge[2]) / 2.0, (bridge[1] + bridge[3]) / 2.0
+    sides = (
+        ((bridge[2], middle_y), (high_x, middle_y), high_x - bridge[2]),
+        ((bridge[0], middle_y), (low_x, middle_y), bridge[0] - low_x),
+        ((middle_x, bridge[3]), (middle_x, high_y), high_y - bridge[3]),
+        ((middle_x, bridge[1]), (middle_x, low_y), bridge[1] - low_y),
+    )
+    arrow = {"arrowstyle": "<|-|>", "color": "black", "linewidth": 0.9, "shrinkA": 0.0, "shrinkB": 0.0}
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+    for start, end, length in sides:
+        axes.annotate("", end, start, arrowprops=arrow)
+        place = (np.array(start) + np.array(end)) / 2.0
+        axes.annotate(f"{length:.1f} m", place, ha="center", va="center", fontsize=8, bbox=box)

@@ -1,0 +1,54 @@
+"""Stress contours: an elevation of the shards at one moment, each as dark as it is stressed."""
+
+from __future__ import annotations
+
+import numpy as np
+from manifold3d import CrossSection
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LogNorm
+from matplotlib.figure import FigureBase
+
+from ..core.results.arrays import Results
+from ..core.results.footprint import corners_at, outlines
+
+DECADES = 2.0
+"""What is stressed less than the largest by more than so many powers of ten is as light as can be."""
+
+
+def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
+    """Draw all shards and balls as seen across the road, those in front last.
+
+    Parameters
+    ----------
+    figure
+        Figure or part of one to draw into.
+    results
+        What was recorded.
+    step
+        Recorded step.
+    """
+    shards = results.of_kind("shard")
+    stresses_mpa = np.nan_to_num(results.von_mises_pa[step, shards]) / 1e6
+    largest = float(stresses_mpa.max(initial=0.0)) or 1.0
+    scale = LogNorm(largest / 10.0**DECADES, largest)
+    axes = figure.add_subplot()
+    axes.set_aspect("equal", adjustable="box")
+    nearest_last = np.argsort(-results.places_m[step, shards, 1], kind="stable")
+    polygons = [_elevation(results, step, body) for body in shards[nearest_last]]
+    drawn = PolyCollection(polygons, edgecolors="black", linewidths=0.25, cmap="YlOrRd", norm=scale)
+    drawn.set_array(np.maximum(stresses_mpa[nearest_last], scale.vmin))
+    axes.add_collection(drawn)
+    for ball in results.of_kind("ball"):
+        ball_outline = _elevation(results, step, ball)
+        axes.add_collection(PolyCollection([ball_outline], facecolors="0.25", edgecolors="black", linewidths=0.5))
+    axes.axhline(0.0, color="black", linewidth=1.2)
+    axes.autoscale_view()
+    axes.set(xlabel="x along the road (m)", ylabel="height (m)")
+    figure.colorbar(
+        drawn, ax=axes, label="equivalent stress (MPa)", extend="min", orientation="horizontal", aspect=40, shrink=0.6
+    )
+
+
+def _elevation(results: Results, step: int, body: int) -> np.ndarray:
+    rings = outlines(CrossSection.hull_points(corners_at(results, step, body)[:, [0, 2]]))
+    return rings[0] if rings else np.zeros((1, 2))

@@ -1,0 +1,83 @@
+"""How far members reach, and how high they are at a place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..errors import GeometryError
+from ..scenario import Scenario
+from . import deck_top
+from .member import Member
+
+_DEBRIS_ROOM = 10.0
+"""Ground to each side of the bridge, as a multiple of its height; debris of a felled bridge stays well inside."""
+
+_ON_EDGE = 1e-9
+"""How far outside a triangle, as a part of it, a place may lie and still be on it."""
+
+
+def extent(members: Sequence[Member]) -> np.ndarray:
+    """Lowest and highest corner of the box around all members, (2, 3) in m."""
+    boxes = np.array([member.solid.bounds for member in members])
+    return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+
+def ground_half_size(members: Sequence[Member], clear_height_m: float) -> float:
+    """How far the ground reaches from the origin to every side, m, with room for debris.
+
+    Parameters
+    ----------
+    members
+        What stands on the ground.
+    clear_height_m
+        How high above it a ball hangs, m; 0 without one.
+    """
+    lower, upper = extent(members)
+    farthest = float(np.hypot(*np.maximum(abs(lower[:2]), abs(upper[:2]))))
+    across = math.hypot(*(upper - lower)[:2])
+    return max(across, farthest) + _DEBRIS_ROOM * (float(upper[2]) + clear_height_m)
+
+
+def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple[float, float]) -> float:
+    """Height above the ground of what something that falls on a place meets first, m.
+
+    Parameters
+    ----------
+    scenario
+        Of a bridge alone the deck's top is taken, which joints do not interrupt.
+    members
+        All members of the scenario.
+    place_m
+        Along the road, and across it.
+
+    Raises
+    ------
+    GeometryError
+        No member lies under the place.
+    """
+    if scenario.bridge and not scenario.geometry:
+        return deck_top(scenario.bridge)
+    corners = np.concatenate([np.asarray(each.solid.vertices)[np.asarray(each.solid.faces)] for each in members])
+    heights = _heights_above(corners, np.asarray(place_m, dtype=float))
+    if not len(heights):
+        raise GeometryError(
+            f"No member lies under {list(place_m)}; aim the ball at a place that has something under it."
+        )
+    return float(heights.max())
+
+
+def _heights_above(corners: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Heights of the triangles (t, 3, 3) that lie over or under a place (2,)."""
+    origin = corners[:, 0]
+    first, second = corners[:, 1] - origin, corners[:, 2] - origin
+    area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    lies = np.abs(area) > 0.0
+    origin, first, second, area = origin[lies], first[lies], second[lies], area[lies]
+    offset = place - origin[:, :2]
+    u = (offset[:, 0] * second[:, 1] - offset[:, 1] * second[:, 0]) / area
+    v = (first[:, 0] * offset[:, 1] - first[:, 1] * offset[:, 0]) / area
+    inside = (u >= -_ON_EDGE) & (v >= -_ON_EDGE) & (u + v <= 1.0 + _ON_EDGE)
+    return (origin[:, 2] + u * first[:, 2] + v * second[:, 2])[inside]

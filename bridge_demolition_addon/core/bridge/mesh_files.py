@@ -1,0 +1,124 @@
+"""Mesh files of the user, placed in the bridge's coordinates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from ..errors import GeometryError, ScenarioError
+from ..geometry.repair import repaired_solid
+from ..geometry.solids import mesh_of, union
+from ..scenario import Geometry
+from ..scenario.geometry import MESH_FILES
+from ..scenario.schema import FARTHEST_M, SHORTEST_LENGTH_M
+from .member import Member
+
+_BELOW_GROUND_M = 1e-3
+"""How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
+
+_FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Turns coordinates with y up and z towards the viewer into ours, with z up."""
+
+
+def geometry_members(tables: Sequence[Geometry]) -> tuple[tuple[Member, ...], tuple[str, ...]]:
+    """Members from files, those of the same name united, and sentences on what was repaired.
+
+    Raises
+    ------
+    ScenarioError
+        A file is not there or of no known kind, or files of one name disagree in kind or density.
+    GeometryError
+        A file cannot be read, or what is in it cannot be made into a solid.
+    """
+    members, notes = [], []
+    ordered = sorted(tables, key=lambda each: [other.name for other in tables].index(each.name))
+    for name, group in groupby(ordered, key=lambda each: each.name):
+        same_name = list(group)
+        solids = []
+        for table in same_name:
+            mesh = placed_mesh(table)
+            _check_extent(mesh, name)
+            done = repaired_solid(mesh, name)
+            _check_above_ground(done.solid, name)
+            solids.append(done.solid)
+            notes += [f"{name}: {repair}" for repair in done.repairs]
+        members.append(_member(same_name, solids))
+    return tuple(members), tuple(notes)
+
+
+def placed_mesh(table: Geometry) -> trimesh.Trimesh:
+    """The mesh in a file as it is, scaled, turned and moved to its place.
+
+    Raises
+    ------
+    ScenarioError
+        The file is not there or of no known kind.
+    GeometryError
+        The file cannot be read or has no faces.
+    """
+    path = Path(table.file)
+    mesh = _file_mesh(path)
+    vertices = np.asarray(mesh.vertices, dtype=float) * table.scale
+    up = table.up or ("y" if path.suffix.lower() == ".glb" else "z")
+    if up == "y":
+        vertices = vertices @ _FROM_Y_UP.T
+    if table.rotation_deg:
+        angle = math.radians(table.rotation_deg)
+        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        vertices[:, :2] = vertices[:, :2] @ turn.T
+    return mesh_of(vertices + np.array(table.place_m), np.asarray(mesh.faces))
+
+
+def _file_mesh(path: Path) -> trimesh.Trimesh:
+    if path.suffix.lower() not in MESH_FILES:
+        raise ScenarioError(f'geometry.file is "{path}": expected a file that ends in one of {", ".join(MESH_FILES)}')
+    if not path.is_file():
+        raise ScenarioError(f'geometry.file is "{path}": no such file')
+    try:
+        mesh = trimesh.load(path, force="mesh", process=False)
+    except Exception as error:  # each reader has its own for a file that is not what its name says
+        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
+    if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
+        raise GeometryError(f"{path}: has no faces; export a closed surface.")
+    return mesh
+
+
+def _check_extent(mesh: trimesh.Trimesh, name: str) -> None:
+    farthest, thinnest = float(np.abs(mesh.bounds).max()), float(mesh.extents.min())
+    if farthest > FARTHEST_M:
+        raise GeometryError(
+            f"{name}: reaches {farthest:.4g} m from the origin; bring it within {FARTHEST_M:g} m by "
+            "geometry.place_m, or by geometry.scale if the file is not in metres."
+        )
+    if 0.0 < thinnest < SHORTEST_LENGTH_M:
+        raise GeometryError(
+            f"{name}: is {thinnest:.4g} m thick; expected at least {SHORTEST_LENGTH_M:g} m, so set geometry.scale if "
+            "the file is not in metres, or give it a thickness."
+        )
+
+
+def _check_above_ground(solid: trimesh.Trimesh, name: str) -> None:
+    lowest = float(solid.bounds[0, 2])
+    if lowest < -_BELOW_GROUND_M:
+        raise GeometryError(
+            f"{name}: reaches {-lowest:.4g} m below the ground, which is at height 0; raise it by geometry.place_m."
+        )
+
+
+def _member(tables: Sequence[Geometry], solids: Sequence[trimesh.Trimesh]) -> Member:
+    first = tables[0]
+    if len(tables) == 1:
+        density = first.density_kg_m3 or first.mass_kg / float(solids[0].volume)
+        return Member(first.name, first.kind, solids[0], density)
+    for other in tables[1:]:
+        if first.density_kg_m3 is None or (other.kind, other.density_kg_m3) != (first.kind, first.density_kg_m3):
+            raise ScenarioError(
+                f'geometry.name is "{first.name}" more than once: expected the same kind and density_kg_m3 with each, '
+                "as they become one solid"
+            )
+    return Member(first.name, first.kind, union(solids), first.density_kg_m3)

@@ -1,0 +1,69 @@
+"""All members of a scenario, of the bridge and of the user's own files, ready to be cut into shards."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from ..errors import ScenarioError
+from ..geometry.overlap import cut_apart
+from ..scenario import Scenario
+from . import bridge_members
+from .extent import surface_height
+from .member import Member
+from .mesh_files import geometry_members
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedMembers:
+    """Members without overlap, and sentences on what was repaired and cut off to get there."""
+
+    members: tuple[Member, ...]
+    notes: tuple[str, ...]
+
+
+def prepared_members(scenario: Scenario) -> PreparedMembers:
+    """All members of a scenario: those of the bridge first, then those from files, cut by all before them.
+
+    Raises
+    ------
+    ScenarioError
+        Two members have the same name, or a file is not there.
+    GeometryError
+        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball.
+    """
+    of_bridge = bridge_members(scenario.bridge) if scenario.bridge else ()
+    if not scenario.geometry:
+        return PreparedMembers(of_bridge, ())
+    from_files, repairs = geometry_members(scenario.geometry)
+    prepared = without_overlap([*of_bridge, *from_files])
+    if scenario.ball:
+        surface_height(scenario, prepared.members, scenario.ball.target_m)  # refuses a ball that nothing lies under
+    return PreparedMembers(prepared.members, repairs + prepared.notes)
+
+
+def without_overlap(members: Sequence[Member]) -> PreparedMembers:
+    """Members of which each has lost what it had in common with those before it.
+
+    Raises
+    ------
+    ScenarioError
+        Two members have the same name.
+    GeometryError
+        Nothing is left of a member.
+    """
+    names = [member.name for member in members]
+    for name in names:
+        if names.count(name) > 1:
+            raise ScenarioError(f'two members are called "{name}": expected a name of its own for each')
+    solids, removed = cut_apart([member.solid for member in members], names)
+    notes = [
+        f"{name}: {volume:.4g} m³ cut off, as members before it take that room"
+        for name, volume in zip(names, removed, strict=True)
+        if volume > 0.0
+    ]
+    apart = (
+        member if solid is member.solid else replace(member, solid=solid, parts=())
+        for member, solid in zip(members, solids, strict=True)
+    )
+    return PreparedMembers(tuple(apart), tuple(notes))

@@ -1,0 +1,1 @@
+"""Numbers turned into colours, arrows and film frames."""

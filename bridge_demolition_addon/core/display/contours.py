@@ -1,0 +1,331 @@
+"""What contours show: a quantity of every body, frame by frame, and its place within a range of values."""
+
+from __future__ import annotations
+
+import bisect
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from enum import StrEnum
+
+import numpy as np
+
+from ..errors import ContourError
+from ..mechanics.stress import principal_stresses
+from ..results.arrays import Results
+from .colour_scale import ColourMap, colours
+
+
+class Quantity(StrEnum):
+    """What a body is coloured by."""
+
+    SIGNED_2019 = "signed 2019"
+    RESULTANT = "resultant"
+    SUM = "sum"
+    VON_MISES = "von Mises"
+    PRINCIPAL = "principal"
+
+
+TITLES = {
+    Quantity.SIGNED_2019: "Contact force of 2019",
+    Quantity.RESULTANT: "Resultant force",
+    Quantity.SUM: "Sum of forces",
+    Quantity.VON_MISES: "Von Mises stress",
+    Quantity.PRINCIPAL: "Largest principal stress",
+}
+
+STRESSES = (Quantity.VON_MISES, Quantity.PRINCIPAL)
+"""Quantities in Pa; all others are in N."""
+
+
+class RangeKind(StrEnum):
+    """Which values the lowest and the highest colour stand for."""
+
+    RUN = "run"
+    FRAME = "frame"
+    FIXED = "fixed"
+
+
+@dataclass(frozen=True, slots=True)
+class ContourSettings:
+    """What is shown, and how.
+
+    Attributes
+    ----------
+    quantity
+        What bodies are coloured by.
+    peak
+        Whether to show the largest value up to a frame instead of that of the frame.
+    range_kind
+        Of all frames so far, of each frame by itself, or fixed.
+    low, high
+        The fixed range, N or Pa.
+    logarithmic
+        Whether equal steps of colour stand for equal ratios. Signs are left out then.
+    decades
+        Powers of ten in an automatic range that is logarithmic.
+    colour_map
+        Which colours.
+
+    Raises
+    ------
+    ContourError
+        A fixed range is empty, or begins at 0 or below and is logarithmic.
+    """
+
+    quantity: Quantity = Quantity.RESULTANT
+    peak: bool = False
+    range_kind: RangeKind = RangeKind.RUN
+    low: float = 0.0
+    high: float = 1e6
+    logarithmic: bool = False
+    decades: float = 3.0
+    colour_map: ColourMap = ColourMap.BLUE_TO_RED
+
+    def __post_init__(self) -> None:
+        if self.range_kind != RangeKind.FIXED:
+            return
+        if not self.low < self.high:
+            raise ContourError(f"range of contours: its low end, {self.low:g}, has to be below its high, {self.high:g}")
+        if self.logarithmic and self.low <= 0.0:
+            raise ContourError(f"range of contours: a logarithmic one has to begin above 0, not at {self.low:g}")
+
+    @property
+    def title(self) -> str:
+        """Name of what is shown."""
+        return TITLES[self.quantity] + (", peak so far" if self.peak else "")
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """From values to shares of the range: `low` and below is 0, `high` and above is 1."""
+
+    low: float
+    high: float
+    logarithmic: bool = False
+
+    def shares(self, values: np.ndarray) -> np.ndarray:
+        """Shares (n,) of values (n,), nan where there is no value; all 0 in a range without an extent."""
+        values = np.asarray(values, float)
+        low, high = self.low, self.high
+        if not low < high:
+            return np.where(np.isfinite(values), 0.0, np.nan)
+        if self.logarithmic:
+            values, low, high = np.log10(np.maximum(abs(values), low)), math.log10(low), math.log10(high)
+        return np.clip((values - low) / (high - low), 0.0, 1.0)
+
+    def ticks(self, most: int = 6) -> np.ndarray:
+        """Round values within the range, from low to high, no more than `most` of them."""
+        if not self.low < self.high:
+            return np.array([self.low])
+        if self.logarithmic:
+            first, last = math.ceil(math.log10(self.low) - 1e-9), math.floor(math.log10(self.high) + 1e-9)
+            exponents = np.arange(first, last + 1)
+            powers = 10.0 ** exponents[:: max(1, math.ceil(len(exponents) / most))]
+            return powers if len(powers) > 1 else np.array([self.low, self.high])
+        step = _round_step((self.high - self.low) / (most - 1))
+        first, last = math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9)
+        return step * np.arange(first, last + 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit that keeps numbers short: values are divided by `size`."""
+
+    name: str
+    size: float
+
+
+def unit_of(quantity: Quantity, high: float) -> Unit:
+    """The unit for a quantity whose largest magnitude is `high`, in N or Pa."""
+    if quantity in STRESSES:
+        return Unit("N/mm²", 1e6) if high >= 1e4 else Unit("kPa", 1e3)
+    return Unit("MN", 1e6) if high >= 1e6 else Unit("kN", 1e3) if high >= 1e3 else Unit("N", 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ContourFrame:
+    """One frame's colours.
+
+    Attributes
+    ----------
+    frame, time_s
+        Which.
+    values
+        (n,) N or Pa; nan where a body has no value.
+    scale
+        The range.
+    screen_colours
+        (n, 3) as a screen has them.
+    """
+
+    frame: int
+    time_s: float
+    values: np.ndarray
+    scale: Scale
+    screen_colours: np.ndarray
+
+
+FRAME_ARRAYS = (
+    "frames",
+    "times_s",
+    "substep_s",
+    "places_m",
+    "rotations",
+    "body_forces_n",
+    "body_peaks_n",
+    "body_sums_n",
+    "body_peak_sums_n",
+    "body_contact_impulses_ns",
+    "body_signed_2019_n",
+    "stresses_pa",
+    "von_mises_pa",
+    "connection_forces_n",
+    "intact",
+)
+"""What is used of a frame, of a recording's or of its results."""
+
+
+class ContourSeries:
+    """The frames of a recording as contours: of one that still grows, or of a finished one.
+
+    Parameters
+    ----------
+    body_names, moves
+        (n,) names of the bodies, and whether they move; those that do not are not coloured and do not count for
+        ranges.
+    pairs, points_m
+        (m, 2) bodies that connections are between, and (m, 3) where connections are at first.
+    """
+
+    def __init__(
+        self,
+        body_names: Sequence[str],
+        moves: np.ndarray,
+        pairs: np.ndarray | None = None,
+        points_m: np.ndarray | None = None,
+    ):
+        self.body_names = [str(name) for name in body_names]
+        self.moves = np.asarray(moves, bool)
+        self.pairs = np.zeros((0, 2), int) if pairs is None else pairs
+        self.points_m = np.zeros((0, 3)) if points_m is None else points_m
+        self._frames: list[Mapping[str, np.ndarray]] = []
+        self._rows: dict[int, int] = {}
+        self._values: dict[tuple[Quantity, bool], list[np.ndarray]] = {}
+        self._extents: dict[tuple[Quantity, bool], list[tuple[float, float]]] = {}
+
+    @classmethod
+    def of_results(cls, results: Results) -> ContourSeries:
+        """The contours of a finished recording."""
+        series = cls(results.body_names, results.masses_kg > 0.0, results.pairs, results.points_m)
+        names = [field.name for field in fields(results) if field.name in FRAME_ARRAYS]
+        for row in range(len(results.frames)):
+            series.append({name: getattr(results, name)[row] for name in names})
+        return series
+
+    def __len__(self) -> int:
+        return len(self._frames)
+
+    @property
+    def frames(self) -> list[int]:
+        """Numbers of the frames, in their order."""
+        return list(self._rows)
+
+    @property
+    def times_s(self) -> np.ndarray:
+        """(k,) simulated times of the frames."""
+        return np.array([frame["times_s"] for frame in self._frames], float)
+
+    def append(self, frame: Mapping[str, np.ndarray]) -> None:
+        """Add the next frame, with the arrays of a recording: see `FRAME_ARRAYS`."""
+        self._rows[int(frame["frames"])] = len(self._frames)
+        self._frames.append(frame)
+
+    def row_at(self, frame: int) -> int | None:
+        """The row of a frame, or of the recorded one before it; the first before all, None where none is recorded."""
+        if frame in self._rows:
+            return self._rows[frame]
+        return max(bisect.bisect_right(self.frames, frame) - 1, 0) if self._frames else None
+
+    def arrays(self, row: int) -> Mapping[str, np.ndarray]:
+        """Everything that was recorded in a row."""
+        return self._frames[row]
+
+    def values(self, row: int, quantity: Quantity, *, peak: bool = False) -> np.ndarray:
+        """Values (n,) of a row, N or Pa; nan for bodies that do not move and where nothing is known."""
+        self._fill(quantity, peak)
+        return self._values[quantity, peak][row]
+
+    def show(self, row: int, settings: ContourSettings) -> ContourFrame:
+        """The colours of a row."""
+        values = self.values(row, settings.quantity, peak=settings.peak)
+        scale = self._scale(row, settings)
+        frame = self._frames[row]
+        painted = colours(settings.colour_map, scale.shares(values))
+        return ContourFrame(int(frame["frames"]), float(frame["times_s"]), values, scale, painted)
+
+    def extent(self, row: int | None, quantity: Quantity, *, peak: bool = False) -> tuple[float, float]:
+        """Lowest and highest value, N or Pa, of a row, or of all rows for None; 0 always lies between them.
+
+        As in 2019 a range has 0 in it, so that what is free of load has the colour of that.
+        """
+        self._fill(quantity, peak)
+        extents = self._extents[quantity, peak]
+        chosen = extents if row is None else extents[row : row + 1]
+        return min(each[0] for each in chosen), max(each[1] for each in chosen)
+
+    def _scale(self, row: int, settings: ContourSettings) -> Scale:
+        if settings.range_kind == RangeKind.FIXED:
+            return Scale(settings.low, settings.high, settings.logarithmic)
+        of_frame = settings.range_kind == RangeKind.FRAME
+        low, high = self.extent(row if of_frame else None, settings.quantity, peak=settings.peak)
+        if not settings.logarithmic:
+            return Scale(low, high)
+        largest = max(-low, high)
+        return Scale(largest / 10.0**settings.decades, largest, True) if largest > 0.0 else Scale(0.0, 0.0)
+
+    def _fill(self, quantity: Quantity, peak: bool) -> None:
+        """Reckon the rows that were added since."""
+        values = self._values.setdefault((quantity, peak), [])
+        extents = self._extents.setdefault((quantity, peak), [])
+        for frame in self._frames[len(values) :]:
+            found = np.where(self.moves, _peaks(quantity, frame) if peak else _means(quantity, frame), np.nan)
+            if peak and values:
+                found = np.fmax(values[-1], found)
+            known = found[np.isfinite(found)]
+            values.append(found)
+            extents.append((float(known.min(initial=0.0)), float(known.max(initial=0.0))))
+
+
+def _means(quantity: Quantity, frame: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Values (n,) of a frame."""
+    match quantity:
+        case Quantity.SIGNED_2019:
+            return np.asarray(frame["body_signed_2019_n"], float)
+        case Quantity.RESULTANT:
+            return np.linalg.norm(frame["body_forces_n"], axis=-1)
+        case Quantity.SUM:
+            return np.asarray(frame["body_sums_n"], float)
+        case Quantity.VON_MISES:
+            return np.asarray(frame["von_mises_pa"], float)
+        case Quantity.PRINCIPAL:
+            return principal_stresses(frame["stresses_pa"])[:, 0]
+
+
+def _peaks(quantity: Quantity, frame: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Largest values (n,) within a frame, as far as they are recorded."""
+    match quantity:
+        case Quantity.SIGNED_2019:
+            return abs(_means(quantity, frame))
+        case Quantity.RESULTANT:
+            return np.asarray(frame["body_peaks_n"], float)
+        case Quantity.SUM:
+            return np.asarray(frame["body_peak_sums_n"], float)
+        case _:
+            return _means(quantity, frame)
+
+
+def _round_step(step: float) -> float:
+    """The next larger of 1, 2 and 5 times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(step))
+    return next(power * digit for digit in (1.0, 2.0, 5.0, 10.0) if power * digit >= step * (1.0 - 1e-9))

@@ -1,0 +1,265 @@
+"""All members cut into shards, and the faces that shards have in common, within a member and between two."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from trimesh import Trimesh
+
+from ..bridge.member import Member
+from ..errors import GeometryError, ScenarioError
+from ..geometry.mesh import Shard
+from ..geometry.solids import contains
+from ..scenario import FractureSettings, Scenario
+from ..scenario.fracture import MemberFracture
+from ..scenario.schema import SHORTEST_LENGTH_M
+from .density import PointDensity, densest, density_around, painted_density
+from .gaps import with_gaps
+from .options import FractureOptions, Recursion
+from .point_files import paint_from_file, points_from_file
+from .seeds import random_points
+from .shards import Fracture, SharedFaces, fracture, joined_fractures, touching_faces, voronoi_cells
+from .shared_faces import joined_faces
+
+_DENSITY_SAMPLES = 4000
+"""Points that the mean density of a member is taken over: it is off by some percent at most, and so is a number of
+shards."""
+
+
+@dataclass(frozen=True, slots=True)
+class CutMembers:
+    """Shards of all members, one member after the other.
+
+    Attributes
+    ----------
+    shards
+        The n shards' closed meshes, in the bridge's coordinates, without gaps.
+    member_of_shard
+        (n,) index of the member that each shard was cut from.
+    masses_kg
+        (n,) mass of each shard.
+    centres_m
+        (n, 3) centre of mass of each shard.
+    faces
+        What neighbouring shards have in common.
+    """
+
+    shards: tuple[Shard, ...]
+    member_of_shard: np.ndarray
+    masses_kg: np.ndarray
+    centres_m: np.ndarray
+    faces: SharedFaces
+
+
+def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDensity | None = None) -> CutMembers:
+    """Members in shards as a scenario asks for; the same seed gives the same shards.
+
+    Parameters
+    ----------
+    scenario
+        Says how many shards, and how they are cut.
+    members
+        What is cut.
+    density
+        Where the points lie closer, in place of what the scenario says.
+
+    Raises
+    ------
+    ScenarioError
+        A member that the scenario names is not there, or a file of points or paint cannot be read.
+    GeometryError
+        The members cannot be cut into that many shards, or a point lies outside of all.
+    """
+    settings = scenario.fracture
+    density = density or _density(settings)
+    own_points = _points_by_member(settings, members)
+    rules = _rules(settings, members)
+    counts = _counts(scenario, members, rules, own_points, density)
+    seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
+    parts = []
+    for index, member in enumerate(members):
+        rule = rules[index]
+        options = FractureOptions(
+            density=density,
+            noise=settings.noise,
+            stretch=rule.stretch if rule and rule.stretch else settings.stretch,
+            recursion=_recursion(settings),
+        )
+        parts.append(_cut(member, int(counts[index]), own_points[index], int(seeds[index]), options))
+    shards = tuple(shard for part in parts for shard in part.shards)
+    member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
+    return CutMembers(
+        shards=shards,
+        member_of_shard=member_of_shard,
+        masses_kg=np.concatenate([_masses(*each, settings.mass) for each in zip(members, parts, strict=True)]),
+        centres_m=np.concatenate([part.centres for part in parts]),
+        faces=_all_faces([part.faces for part in parts], shards, member_of_shard),
+    )
+
+
+def shards_with_gaps(cut: CutMembers, members: Sequence[Member], gap_m: float) -> tuple[Shard, ...]:
+    """The shards with gaps between those of one member.
+
+    Raises
+    ------
+    GeometryError
+        Nothing is left of a shard.
+    """
+    bounds = np.searchsorted(cut.member_of_shard, np.arange(len(members) + 1))
+    return tuple(
+        shard
+        for index, member in enumerate(members)
+        for shard in with_gaps(cut.shards[bounds[index] : bounds[index + 1]], member.solid, gap_m)
+    )
+
+
+def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
+    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together.
+
+    Raises
+    ------
+    GeometryError
+        There are fewer shards than members.
+    """
+    if shard_count < len(volumes):
+        raise GeometryError(
+            f"fracture.shards is {shard_count}: expected at least {len(volumes)}, one for each member of the bridge"
+        )
+    shares = volumes / volumes.sum() * (shard_count - len(volumes))
+    counts = 1 + np.floor(shares).astype(int)
+    largest_remainders = np.argsort(-(shares - np.floor(shares)), kind="stable")
+    counts[largest_remainders[: shard_count - counts.sum()]] += 1
+    return counts
+
+
+def _density(settings: FractureSettings) -> PointDensity | None:
+    """Where the points lie closer: around places, and where it is painted."""
+    found = []
+    if settings.finer:
+        columns = ([getattr(each, name) for each in settings.finer] for name in ("place_m", "radius_m", "factor"))
+        found.append(density_around(*columns))
+    if settings.painted_file is not None:
+        found.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
+    return densest(found) if found else None
+
+
+def _cut(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
+    if member.volume_m3 / count < SHORTEST_LENGTH_M**3:
+        raise GeometryError(
+            f"{member.name}: {count} shards do not fit into {member.volume_m3:.4g} m³, as each would be smaller than "
+            f"{SHORTEST_LENGTH_M} m; ask for fewer."
+        )
+    try:
+        if len(points):
+            return voronoi_cells(member.solid, points, seed, options)
+        if 1 < len(member.parts) <= count:
+            return _cut_in_parts(member, count, seed, options)
+        return fracture(member.solid, count, seed, options)
+    except GeometryError as error:
+        raise GeometryError(f"{member.name}: {error}") from error
+
+
+def _cut_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:
+    """Each convex part of a member by itself, so that no shard reaches around a corner."""
+    amounts = np.array([_amount(part, options.density, seed) for part in member.parts])
+    seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))
+    counts = shards_per_member(amounts, count)
+    columns = zip(member.parts, counts.tolist(), seeds.tolist(), strict=True)
+    return joined_fractures([fracture(part, number, part_seed, options) for part, number, part_seed in columns])
+
+
+def _masses(member: Member, part: Fracture, mass: str) -> np.ndarray:
+    if mass == "uniform":
+        return np.full(len(part), member.density_kg_m3 * part.volumes.sum() / len(part))
+    return member.density_kg_m3 * part.volumes
+
+
+def _recursion(settings: FractureSettings) -> Recursion | None:
+    if settings.recursion_share == 0.0:
+        return None
+    return Recursion(settings.recursion_share, settings.recursion_shards, settings.recursion_smallest_m3)
+
+
+def _rules(settings: FractureSettings, members: Sequence[Member]) -> list[MemberFracture | None]:
+    """What is said of each member by its name, or else of its kind."""
+    by_name = {each.member: each for each in settings.members}
+    known = {member.name for member in members} | {member.kind for member in members}
+    for name in by_name:
+        if name not in known:
+            raise ScenarioError(
+                f'fracture.members.member is "{name}": expected the name or kind of a member, one of '
+                f"{', '.join(sorted(known))}"
+            )
+    return [by_name.get(member.name) or by_name.get(member.kind) for member in members]
+
+
+def _counts(
+    scenario: Scenario,
+    members: Sequence[Member],
+    rules: Sequence[MemberFracture | None],
+    own_points: Sequence[np.ndarray],
+    density: PointDensity | None,
+) -> np.ndarray:
+    """How many shards each member (k,) gets: its points, what is said of it, or its share of what is left."""
+    wanted = scenario.fracture.shards
+    amounts = np.array([_amount(member.solid, density, scenario.seed) for member in members])
+    counts = np.array([len(points) for points in own_points])
+    for rule in {id(rule): rule for rule in rules if rule}.values():
+        such = np.array([each is rule for each in rules]) & (counts == 0)
+        if rule.shards is not None:
+            counts[such] = rule.shards
+        elif rule.share is not None and such.any():
+            counts[such] = shards_per_member(amounts[such], max(int(such.sum()), round(rule.share * wanted)))
+    open_ones = counts == 0
+    left = wanted - int(counts.sum())
+    if not open_ones.any() and left:
+        raise GeometryError(
+            f"fracture.shards is {wanted}: expected {wanted - left}, as every member has points or a number of its own"
+        )
+    if open_ones.all():
+        return shards_per_member(amounts, wanted)
+    if open_ones.any():
+        if left < open_ones.sum():
+            raise GeometryError(
+                f"fracture.shards is {wanted}: expected at least {wanted - left + int(open_ones.sum())}, as "
+                f"{wanted - left} are for members with points or a number of their own and the others need one each"
+            )
+        counts[open_ones] = shards_per_member(amounts[open_ones], left)
+    return counts
+
+
+def _amount(solid: Trimesh, density: PointDensity | None, seed: int) -> float:
+    """Volume of a solid, m³; where points lie closer it counts as many times."""
+    if density is None:
+        return float(solid.volume)
+    samples = random_points(solid, _DENSITY_SAMPLES, np.random.default_rng(seed))
+    return float(solid.volume) * float(density.at(samples).mean())
+
+
+def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
+    """Points of the user's own in each member, (p, 3) in m."""
+    places = [each.place_m for each in settings.points]
+    if settings.points_file is not None:
+        places += points_from_file(Path(settings.points_file)).tolist()
+    points = np.array(places, dtype=float).reshape(-1, 3)
+    if not len(points):
+        return [points] * len(members)
+    inside = np.array([contains(member.solid, points) for member in members])
+    outside = np.flatnonzero(~inside.any(axis=0))
+    if len(outside):
+        raise GeometryError(
+            f"{len(outside)} of {len(points)} points of fracture.points and its file lie in no member, the first at "
+            f"{points[outside[0]].tolist()} m; move or drop them."
+        )
+    first = inside.argmax(axis=0)
+    return [points[first == index] for index in range(len(members))]
+
+
+def _all_faces(within: list[SharedFaces], shards: tuple[Shard, ...], member_of_shard: np.ndarray) -> SharedFaces:
+    """Faces shared within each member, and those where two members touch."""
+    first_shards = np.searchsorted(member_of_shard, np.arange(len(within)))
+    numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]
+    return joined_faces([*numbered, touching_faces(shards, member=member_of_shard)])

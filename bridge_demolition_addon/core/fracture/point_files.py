@@ -1,0 +1,79 @@
+"""CSV files of places: points to cut around, and painted places with their weights."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ScenarioError
+
+_AMOUNTS = {3: "three", 4: "four"}
+
+
+def points_from_file(path: Path) -> np.ndarray:
+    """Points in a CSV file, (n, 3) in m: x, y and z in a row; a first row that holds no numbers is skipped.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, or a row does not hold three finite numbers.
+    """
+    return _numbers(path, "points_file", 3)
+
+
+def paint_from_file(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Painted places in a CSV file, (n, 3) in m, and their weights (n,): x, y, z and weight in a row.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, holds nothing, or a row does not hold four finite numbers, the last from 0 to 1.
+    """
+    rows = _numbers(path, "painted_file", 4)
+    if not len(rows) or (rows[:, 3] < 0.0).any() or (rows[:, 3] > 1.0).any():
+        raise ScenarioError(f"{path}: expected rows of x, y, z (m) and a weight from 0 to 1")
+    return rows[:, :3], rows[:, 3]
+
+
+def paint_text(points_m: np.ndarray, weights: np.ndarray) -> str:
+    """Painted places (n, 3) in m and their weights (n,), as `paint_from_file` reads them."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(("x_m", "y_m", "z_m", "weight"))
+    writer.writerows(np.column_stack((points_m, weights)).tolist())
+    return text.getvalue()
+
+
+def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            rows = [(number, row) for number, row in enumerate(csv.reader(file), start=1) if any(map(str.strip, row))]
+    except OSError as error:
+        raise ScenarioError(f'fracture.{key} is "{path}": cannot be read ({error.strerror})') from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f'fracture.{key} is "{path}": is no text file in UTF-8') from error
+    found = [_row(path, number, row, columns) for number, row in rows]
+    return np.array([row for row in found if row is not None], dtype=float).reshape(-1, columns)
+
+
+def _row(path: Path, number: int, row: list[str], columns: int) -> list[float] | None:
+    """The numbers in a row; None for a first row of names."""
+    try:
+        numbers = [float(each) for each in row]
+    except ValueError:
+        if number == 1:
+            return None
+        numbers = []
+    if len(numbers) != columns:
+        raise ScenarioError(
+            f"{path}, row {number}: expected {_AMOUNTS[columns]} numbers (m) with commas between them, "
+            f"found {', '.join(row)}"
+        ) from None
+    if not np.isfinite(numbers).all():
+        raise ScenarioError(
+            f"{path}, row {number}: expected {_AMOUNTS[columns]} finite numbers (m), found {', '.join(row)}"
+        )
+    return numbers

@@ -1,0 +1,249 @@
+"""Faces that two shards have in common: where they were cut apart, or where separately made bodies touch."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..geometry.mesh import Mesh, triangle_areas_and_normals
+from ..geometry.proximity import boxes_that_meet, ranges
+
+OPPOSITE_COSINE = -1 + 1e-6
+"""Two faces look at each other when the cosine between their normals is below this: they lean by less than 0.08°."""
+
+SMALLEST_AREA = 1e-12
+"""Part of the larger of two triangles' areas below which what they have in common is rounding."""
+
+_PAIRS_PER_BLOCK = 20_000
+"""Pairs of meshes whose triangles are compared in one go; bounds the memory of `touching_faces`."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SharedFaces:
+    """What neighbouring shards have in common, one row per pair of neighbours, sorted by pair.
+
+    Attributes
+    ----------
+    pairs : (k, 2) int
+        Indices of the two shards, the smaller first.
+    areas : (k,) float
+        Common area in m².
+    centres : (k, 3) float
+        Centre of the common area in m.
+    normals : (k, 3) float
+        Unit vector out of the first shard into the second. Where the common area is not plane, the direction of the sum
+        of its area vectors.
+    """
+
+    pairs: np.ndarray
+    areas: np.ndarray
+    centres: np.ndarray
+    normals: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.areas)
+
+
+def shared_faces(
+    pairs: np.ndarray, areas: np.ndarray, centres: np.ndarray, normals: np.ndarray, smallest_area: float = 0.0
+) -> SharedFaces:
+    """Patches (m,) between two shards each, put together to one face per pair of shards.
+
+    Parameters
+    ----------
+    pairs : (m, 2) int
+        In any order and as often as there are patches. A patch between a shard and itself is left out.
+    areas, centres, normals : (m,), (m, 3), (m, 3) float
+        Area, centre and unit normal, from the first of the pair to the second, of each patch.
+    smallest_area : float
+        A pair with no more than this in common, in m², is left out.
+    """
+    apart = (pairs[:, 0] != pairs[:, 1]) & (areas > 0)
+    pairs, areas, centres, normals = pairs[apart], areas[apart], centres[apart], normals[apart]
+    turned = np.where(pairs[:, :1] > pairs[:, 1:], -normals, normals)
+    unique, row = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
+    row = row.ravel()
+    total = np.bincount(row, weights=areas, minlength=len(unique))
+    moment = _summed(areas[:, None] * centres, row, len(unique))
+    area_vector = _summed(areas[:, None] * turned, row, len(unique))
+    length = np.linalg.norm(area_vector, axis=1)
+    # A face bent back on itself has no direction; such a pair is as good as none.
+    kept = (total > smallest_area) & (length > 0)
+    return SharedFaces(
+        pairs=unique[kept].reshape(-1, 2),
+        areas=total[kept],
+        centres=moment[kept] / total[kept, None],
+        normals=area_vector[kept] / length[kept, None],
+    )
+
+
+def joined_faces(parts: Sequence[SharedFaces]) -> SharedFaces:
+    """Several sets of faces, of pairs that none of the others has, as one, sorted by pair."""
+    columns = [np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(SharedFaces)]
+    order = np.lexsort((columns[0][:, 1], columns[0][:, 0]))
+    return SharedFaces(*(column[order] for column in columns))
+
+
+def touching_faces(meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None) -> SharedFaces:
+    """Where meshes stand on or against each other with plane faces that look at each other.
+
+    Only faces in the same plane count: bodies that overlap in space or meet along an edge do not touch in this sense.
+
+    Parameters
+    ----------
+    meshes : n meshes
+        Closed, convex or not, for example the shards of a fracture.
+    tolerance_m : float
+        How far apart, or how far inside each other, two faces may be and still touch.
+    member : (n,) int, optional
+        The bridge member each mesh belongs to. When given, only meshes of different members are compared.
+
+    Returns
+    -------
+    SharedFaces
+        Its pairs are indices of the meshes.
+    """
+    lower = np.array([mesh.vertices.min(axis=0) for mesh in meshes]).reshape(-1, 3)
+    upper = np.array([mesh.vertices.max(axis=0) for mesh in meshes]).reshape(-1, 3)
+    pairs = boxes_that_meet(lower, upper, tolerance_m)
+    if member is not None:
+        pairs = pairs[np.asarray(member)[pairs[:, 0]] != np.asarray(member)[pairs[:, 1]]]
+    patches = [_no_patches()]
+    surface = _Surface.of(meshes)
+    for first in range(0, len(pairs), _PAIRS_PER_BLOCK):
+        patches.append(_touching_patches(surface, pairs[first : first + _PAIRS_PER_BLOCK], lower, upper, tolerance_m))
+    return shared_faces(*(np.concatenate(column) for column in zip(*patches, strict=True)))
+
+
+def overlaps(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What pairs of triangles that look at each other have in common, seen along the normal of the first.
+
+    Parameters
+    ----------
+    first, second : (m, 3, 3) float
+        Corners, counter-clockwise seen from outside; both have an area, nearly the same plane and nearly opposite
+        normals.
+
+    Returns
+    -------
+    areas : (m,) float
+    centres : (m, 3) float
+        In the plane of the first triangle; its first corner where there is no overlap.
+
+    References
+    ----------
+    I. Sutherland, G. Hodgman (1974), Reentrant polygon clipping, Communications of the ACM 17, 32-42; here all corners
+    that are cut off are moved onto the cutting line instead of being dropped, which leaves area and centre right and
+    every polygon with the same number of corners.
+    """
+    origin = first[:, 0]
+    along = _unit(first[:, 1] - origin)
+    across = np.cross(_unit(np.cross(along, first[:, 2] - origin)), along)
+    frame = np.stack([along, across], axis=2)
+    window = (first - origin[:, None]) @ frame
+    polygon = ((second - origin[:, None]) @ frame)[:, ::-1]
+    for corner in range(3):
+        edge = window[:, (corner + 1) % 3] - window[:, corner]
+        polygon = _left_of_line(polygon, window[:, corner], _unit(edge))
+    areas, centres = _polygon_areas_and_centres(polygon)
+    return areas, origin + np.einsum("ijk,ik->ij", frame, centres)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Surface:
+    """All triangles of all meshes with their boxes, and where those of each mesh begin: `bounds` (n + 1,)."""
+
+    corners: np.ndarray
+    areas: np.ndarray
+    normals: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    bounds: np.ndarray
+
+    @classmethod
+    def of(cls, meshes: Sequence[Mesh]) -> "_Surface":
+        parts = [mesh.vertices[mesh.triangles] for mesh in meshes]
+        corners = np.concatenate([np.zeros((0, 3, 3)), *parts])
+        areas, normals = triangle_areas_and_normals(corners)
+        bounds = np.cumsum([0] + [len(part) for part in parts])
+        return cls(corners, areas, normals, corners.min(axis=1), corners.max(axis=1), bounds)
+
+
+def _touching_patches(
+    surface: _Surface, pairs: np.ndarray, lower: np.ndarray, upper: np.ndarray, tolerance: float
+) -> tuple[np.ndarray, ...]:
+    """Pairs, areas, centres and normals of all common patches, triangle by triangle, of these pairs of meshes."""
+    row, first, second = _facing_triangles(surface, pairs, lower, upper, tolerance)
+    areas, centres = overlaps(surface.corners[first], surface.corners[second])
+    gap = np.einsum("ij,ij->i", centres - surface.corners[second, 0], surface.normals[second])
+    real = areas > SMALLEST_AREA * np.maximum(surface.areas[first], surface.areas[second])
+    touch = real & (np.abs(gap) <= tolerance)
+    return pairs[row[touch]], areas[touch], centres[touch], surface.normals[first[touch]]
+
+
+def _no_patches() -> tuple[np.ndarray, ...]:
+    return np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3))
+
+
+def _facing_triangles(
+    surface: _Surface, pairs: np.ndarray, lower: np.ndarray, upper: np.ndarray, tolerance: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Row of the pair, triangle of its first and triangle of its second mesh, wherever the two may touch."""
+    reach = np.full(3, tolerance)
+    row, first = _triangles_in_box(surface, pairs[:, 0], lower[pairs[:, 1]] - reach, upper[pairs[:, 1]] + reach)
+    own_row, second = _triangles_in_box(surface, pairs[:, 1], lower[pairs[:, 0]] - reach, upper[pairs[:, 0]] + reach)
+    starts = np.searchsorted(own_row, np.arange(len(pairs)))
+    counts = np.bincount(own_row, minlength=len(pairs))
+    of_first, position = ranges(starts[row], counts[row])
+    row, first, second = row[of_first], first[of_first], second[position]
+    for axis in range(3):
+        near = (surface.lower[first, axis] <= surface.upper[second, axis] + tolerance) & (
+            surface.lower[second, axis] <= surface.upper[first, axis] + tolerance
+        )
+        row, first, second = row[near], first[near], second[near]
+    facing = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second]) < OPPOSITE_COSINE
+    return row[facing], first[facing], second[facing]
+
+
+def _triangles_in_box(
+    surface: _Surface, meshes: np.ndarray, lower: np.ndarray, upper: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Row k and triangle of meshes[k], for all triangles of it whose box meets the box k."""
+    row, triangle = ranges(surface.bounds[meshes], surface.bounds[meshes + 1] - surface.bounds[meshes])
+    meets = ((surface.lower[triangle] <= upper[row]) & (surface.upper[triangle] >= lower[row])).all(axis=1)
+    return row[meets], triangle[meets]
+
+
+def _left_of_line(polygons: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Polygons (m, k, 2) cut to the left of a line each, with twice the corners, some of them doubled."""
+    leftwards = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
+    heights = np.einsum("ijk,ik->ij", polygons - point[:, None], leftwards)
+    next_heights, next_corners = np.roll(heights, -1, axis=1), np.roll(polygons, -1, axis=1)
+    onto_line = polygons - np.minimum(heights, 0)[..., None] * leftwards[:, None]
+    crosses = (heights < 0) != (next_heights < 0)
+    fraction = np.divide(heights, heights - next_heights, out=np.zeros_like(heights), where=crosses)
+    crossing = polygons + fraction[..., None] * (next_corners - polygons)
+    between = np.where(crosses[..., None], crossing, onto_line)
+    return np.stack([onto_line, between], axis=2).reshape(len(polygons), 2 * polygons.shape[1], 2)
+
+
+def _polygon_areas_and_centres(polygons: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Areas (m,) and centres (m, 2) of polygons (m, k, 2); the first corner where there is no area."""
+    base = polygons[:, :1]
+    here = polygons - base
+    there = np.roll(here, -1, axis=1)
+    crossed = here[..., 0] * there[..., 1] - here[..., 1] * there[..., 0]
+    areas = crossed.sum(axis=1) / 2
+    moments = np.einsum("ij,ijk->ik", crossed, here + there) / 6
+    offsets = np.divide(moments, areas[:, None], out=np.zeros_like(moments), where=areas[:, None] > 0)
+    return np.maximum(areas, 0), base[:, 0] + offsets
+
+
+def _summed(rows: np.ndarray, group: np.ndarray, count: int) -> np.ndarray:
+    """Sums (count, 3) of the rows (m, 3) of each group."""
+    columns = [np.bincount(group, weights=column, minlength=count) for column in rows.T]
+    return np.column_stack(columns)
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)

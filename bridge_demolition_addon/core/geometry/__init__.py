@@ -1,0 +1,1 @@
+"""Meshes, solids, hulls and nearness. Knows no bridge."""

@@ -1,0 +1,116 @@
+"""What solids have in common: cut off where members are made, and looked for where nothing may overlap."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold, Mesh64, OpType
+from trimesh import Trimesh
+
+from ..errors import GeometryError
+from .mesh import Mesh, Shard
+from .proximity import boxes_that_meet
+from .solids import OVERLAP_TOLERANCE, arrays_of, bodies, from_manifold, to_manifold
+
+SHARD_OVERLAP_TOLERANCE = 1e-6
+"""Part of the smaller of two shards' volumes that they may have in common at the start: too little to push them."""
+
+_CRUMB = 1e-9
+"""Part of a member's volume below which what a cut leaves loose is rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Overlaps:
+    """Pairs of meshes that overlap, the largest volume first: indices (k, 2), and common volumes (k,) in m³."""
+
+    pairs: np.ndarray
+    volumes: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.volumes)
+
+
+def overlaps(meshes: Sequence[Mesh], tolerance: float = SHARD_OVERLAP_TOLERANCE) -> Overlaps:
+    """Which meshes overlap by more than a tolerance.
+
+    Parameters
+    ----------
+    meshes : n meshes
+        Closed, with `vertices` (v, 3) in m and `triangles` (t, 3), for example shards.
+    tolerance : float
+        Part of the smaller volume of two meshes that they may have in common.
+
+    Raises
+    ------
+    GeometryError
+        A mesh is not closed.
+    """
+    solids = [_manifold(mesh, index) for index, mesh in enumerate(meshes)]
+    volumes = np.array([solid.volume() for solid in solids])
+    boxes = np.array([solid.bounding_box() for solid in solids]).reshape(-1, 2, 3)
+    pairs = boxes_that_meet(boxes[:, 0], boxes[:, 1], 0.0)
+    common = np.array([(solids[one] ^ solids[other]).volume() for one, other in pairs])
+    found = np.flatnonzero(common > tolerance * volumes[pairs].min(axis=1)) if len(pairs) else np.zeros(0, int)
+    order = found[np.argsort(-common[found], kind="stable")]
+    return Overlaps(pairs[order], common[order] if len(order) else np.zeros(0))
+
+
+def hulls(shards: Sequence[Mesh]) -> list[Shard]:
+    """Convex hulls of shards, which Blender takes them for where they collide."""
+    return [_hull(shard) for shard in shards]
+
+
+def cut_apart(solids: Sequence[Trimesh], names: Sequence[str]) -> tuple[list[Trimesh], np.ndarray]:
+    """Solids without what they have in common with those before them.
+
+    Parameters
+    ----------
+    solids : n solids
+        Closed.
+    names : n str
+        What they are called, for messages.
+
+    Returns
+    -------
+    solids : n solids
+        The very same where nothing was cut off.
+    volumes : (n,) float
+        What was cut off each, m³.
+
+    Raises
+    ------
+    GeometryError
+        Nothing is left of a solid.
+    """
+    whole = [to_manifold(solid, name) for solid, name in zip(solids, names, strict=True)]
+    result, removed = list(solids), np.zeros(len(solids))
+    for index, solid in enumerate(whole):
+        before = [other for other in whole[:index] if (solid ^ other).volume() > OVERLAP_TOLERANCE * solid.volume()]
+        if not before:
+            continue
+        rest = Manifold.batch_boolean([solid, *before], OpType.Subtract)
+        shells = [shell for body in bodies(rest, _CRUMB * solid.volume(), names[index]) for shell in body]
+        if rest.volume() <= _CRUMB * solid.volume() or not shells:
+            raise GeometryError(
+                f"{names[index]}: lies wholly inside members before it; leave it out, or name it first."
+            )
+        result[index] = from_manifold(*shells)
+        removed[index] = solid.volume() - rest.volume()
+        whole[index] = to_manifold(result[index], names[index])
+    return result, removed
+
+
+def _hull(shard: Mesh) -> Shard:
+    vertices, triangles = arrays_of(Manifold.hull_points(np.ascontiguousarray(shard.vertices, dtype=float)))
+    return Shard(vertices, triangles.astype(np.int32))
+
+
+def _manifold(mesh: Mesh, index: int) -> Manifold:
+    solid = Manifold(
+        Mesh64(np.ascontiguousarray(mesh.vertices, dtype=float), np.asarray(mesh.triangles).astype(np.uint64))
+    )
+    if solid.is_empty():
+        raise GeometryError(f"Mesh {index} is not closed or holds no volume; it cannot be looked at for overlap.")
+    return solid

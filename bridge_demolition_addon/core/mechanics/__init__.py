@@ -1,0 +1,1 @@
+"""Forces, stress, sections, strength and impact: formulas on arrays."""

@@ -1,0 +1,207 @@
+"""When a connection breaks: strengths by area, so that it does not matter how finely a bridge is cut.
+
+A connection stands for the section it was cut with. Its axial force, shear, torsion and bending give stresses in that
+section, and these are compared with the strengths of the material together. What breaks may go on as a ductile
+connection, such as the reinforcement across a crack, until it has opened too far.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..errors import ScenarioError
+from .section_forces import SectionForces
+
+NEWTON_PER_SQUARE_MILLIMETRE = 1e6
+"""1 N/mm² in Pa."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Strength:
+    """Stresses at which a material breaks, each a positive number, or an array (m,) with one for every connection.
+
+    Attributes
+    ----------
+    compression_pa, tension_pa
+        Axial force by area.
+    shear_pa
+        Shear force by area: the mean over the section, which codes of practice give their shear strengths for.
+    torsion_pa
+        Torsional moment by torsion modulus: the shear stress at the edge of an uncracked section.
+    bending_pa
+        Bending moment by elastic section modulus: the stress that an uncracked section would have at its edge.
+
+    Raises
+    ------
+    ScenarioError
+        A strength is not a positive number.
+    """
+
+    compression_pa: float | np.ndarray
+    tension_pa: float | np.ndarray
+    shear_pa: float | np.ndarray
+    torsion_pa: float | np.ndarray
+    bending_pa: float | np.ndarray
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if not np.all((np.asarray(value) > 0.0) & np.isfinite(value)):
+                raise ScenarioError(f"{each.name} of a strength is {value}: expected a positive number")
+
+    @classmethod
+    def in_n_mm2(cls, compression: float, tension: float, shear: float, torsion: float, bending: float) -> Strength:
+        """Strength from numbers in N/mm²."""
+        return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * each for each in (compression, tension, shear, torsion, bending)))
+
+
+MATERIALS = {
+    "concrete": Strength.in_n_mm2(compression=35.0, tension=3.5, shear=0.9, torsion=3.5, bending=3.5),
+    "reinforced concrete column": Strength.in_n_mm2(
+        compression=35.0, tension=5.2, shear=1.55, torsion=5.2, bending=12.6
+    ),
+    "reinforced concrete slab": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, torsion=5.2, bending=12.6),
+    "reinforced concrete wall": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, torsion=5.2, bending=12.6),
+    "masonry": Strength.in_n_mm2(compression=10.0, tension=0.2, shear=0.5, torsion=0.2, bending=0.1),
+    "steel": Strength.in_n_mm2(compression=235.0, tension=235.0, shear=135.7, torsion=135.7, bending=235.0),
+}
+"""Strengths to start from where none were measured.
+
+Compression, tension and shear of concrete and masonry are those of the Bullet Constraints Builder 3.6.5 (K. Kostack).
+Torsion, for which it has none, is tension: a section that is twisted cracks where its shear stress, which in pure shear
+is the principal tensile stress, gets to the tensile strength (EN 1992-1-1:2004, 6.3.2 (5)).
+Two of its numbers are not stresses in N/mm² and are not taken as such:
+
+- It gives bending as moment by area, in N·m/mm², which is a stress for one depth of section only. Here, plain concrete
+  bends as it is pulled, the lower bound of EN 1992-1-1:2004, equation 3.23. Reinforced concrete has its yield moment:
+  with half of the steel at each edge, M / W = 3 × steel ratio × yield stress × lever arm / depth, which is
+  3 × 0.0105 × 500 × 0.8 for the same bars that give the 5.2 N/mm² of tension. Masonry has the flexural strength of
+  EN 1996-1-1:2005, 3.6.4, of clay units in general-purpose mortar along the bed joints.
+- Its shear of columns, 155, takes the ratio of links in per cent for a plain number. Here it is a hundredth of that:
+  two legs of 6 mm every 100 mm in its section of 150 mm × 250 mm carry 1.53 N/mm² by EN 1992-1-1:2004, equation 6.8,
+  with struts at 45°.
+
+Steel is S235 up to 40 mm thick, at yield: EN 1993-1-1:2005, table 3.1; in shear 1/√3 of it, equation 6.18.
+"""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sections:
+    """What resists in m sections; nan throughout for a section without an area.
+
+    Attributes
+    ----------
+    areas_m2
+        (m,) area.
+    directions
+        (m, 2, 2) the principal axes of bending are its columns, in the section's y and z.
+    bending_moduli_m3, torsion_moduli_m3
+        (m, 2) elastic moduli about these axes, and (m,) for torsion: moment by stress at the edge.
+    """
+
+    areas_m2: np.ndarray
+    directions: np.ndarray
+    bending_moduli_m3: np.ndarray
+    torsion_moduli_m3: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Ductility:
+    """What holds on after a connection broke; numbers, or arrays (m,) with one for every connection.
+
+    Attributes
+    ----------
+    strength_share
+        Part of the strength that is left, from 0, nothing, to 1.
+    elongation_m
+        How far the two sides of the crack may part before it lets go. It is a length and not a share of one: the
+        distance between two shards depends on how finely the bridge is cut, the width of a crack does not.
+
+    Raises
+    ------
+    ScenarioError
+        The share is not between 0 and 1, or the elongation is negative or not a number.
+    """
+
+    strength_share: float | np.ndarray
+    elongation_m: float | np.ndarray
+
+    def __post_init__(self) -> None:
+        share, elongation = np.asarray(self.strength_share), np.asarray(self.elongation_m)
+        if not np.all((share >= 0.0) & (share <= 1.0)):
+            raise ScenarioError(f"strength_share of a ductility is {self.strength_share}: expected 0 to 1")
+        if not np.all(elongation >= 0.0):
+            raise ScenarioError(f"elongation_m of a ductility is {self.elongation_m}: expected 0 or more")
+
+
+def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Sections:
+    """Sections with known second moments of area, as the rectangles that have the same.
+
+    The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
+    area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned.
+
+    Parameters
+    ----------
+    areas
+        (m,) in m².
+    second_moments
+        (m, 2, 2) about the section's y and z axes through its centre, m⁴: ∫ z² dA and ∫ y² dA on the diagonal,
+        -∫ y z dA beside it; positive definite.
+
+    References
+    ----------
+    Torsion of a rectangle b > c: stress = T / (b c²) × (3 + 1.8 c/b), within 5 % (S. Timoshenko, 1955, Strength of
+    Materials, part I, 3rd edition, section 62).
+    """
+    areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
+    moments, directions = np.linalg.eigh(second_moments)
+    sides = np.sqrt(12.0 * moments / areas[:, None])
+    short, long = sides.T  # eigh sorts them
+    torsion_moduli = areas * short / (3.0 + 1.8 * short / long)
+    return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
+
+
+def strength_at(strength: Strength, rows: np.ndarray) -> Strength:
+    """The strength of some connections (k,), of a strength for all or for each of them."""
+    values = (np.asarray(getattr(strength, item.name)) for item in fields(Strength))
+    return Strength(*(value[rows] if value.ndim else value for value in values))
+
+
+def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> np.ndarray:
+    """How much of its strength each connection uses, (m,); above 1 it breaks.
+
+    - Stretched edge: axial tension by its strength plus bending by its own; compression relieves it.
+    - Pressed edge: compression plus bending, by the strength in compression.
+    - Shear: the mean of shear by its strength plus the edge stress of torsion by its own.
+
+    The larger of the two edges acts together with shear as √(edge² + shear²). For steel that is the yield criterion of
+    von Mises, EN 1993-1-1:2005, equation 6.1. For joints that are pulled apart it is the quadratic criterion of nominal
+    stress (L. Ye, 1988, Composites Science and Technology 33, 257-277; P. Camanho, C. Dávila, 2002,
+    NASA/TM-2002-211737). Friction, which helps a pressed section against shear, is not counted on.
+
+    The stress of a rectangle is largest at a corner: bending about its two axes adds up.
+
+    Parameters
+    ----------
+    forces
+        Of m connections.
+    sections
+        Of the same connections.
+    strength
+        Of all, or of each of them.
+
+    Returns
+    -------
+    numpy.ndarray
+        (m,) nan where the section has no area, or the forces are nan.
+    """
+    axial = forces.axial_n / sections.areas_m2
+    moments = np.einsum("mji,mj->mi", sections.directions, forces.bending_nm)
+    bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
+    shear = np.hypot(*forces.shear_n.T) / sections.areas_m2 / strength.shear_pa
+    shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3 / strength.torsion_pa
+    stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
+    pressed = (bending - axial) / strength.compression_pa
+    return np.hypot(np.maximum(stretched, pressed), shear)

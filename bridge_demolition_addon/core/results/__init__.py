@@ -1,0 +1,1 @@
+"""What a run recorded, and what follows from it."""

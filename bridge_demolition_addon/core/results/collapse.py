@@ -1,0 +1,114 @@
+"""How a bridge comes down: heights of its spans, how far the collapse is, and when all is at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .arrays import Results
+
+REST_SPEED_M_S = 0.1
+"""A shard that moves more slowly than this is at rest."""
+
+_DECK = "deck"
+_WHOLE = "whole structure"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Span:
+    """Height of one span over time.
+
+    Attributes
+    ----------
+    name
+        What it is called.
+    bodies
+        Indices of its shards.
+    heights_m, lowest_m
+        (k,) height of its centre of mass, and of the lowest centre of its shards.
+    """
+
+    name: str
+    bodies: np.ndarray
+    heights_m: np.ndarray
+    lowest_m: np.ndarray
+
+    @property
+    def drop_m(self) -> float:
+        """How far its centre of mass came down."""
+        return float(self.heights_m[0] - self.heights_m[-1])
+
+
+def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Span, ...]:
+    """Spans of the deck, told apart by where their shards were at first.
+
+    Parameters
+    ----------
+    results
+        What was recorded.
+    span_lengths_m
+        Lengths of the spans from x = 0 on. Shards beyond the first or last axis belong to the nearest span. Without
+        them, or where no shard is of the deck, everything is one span.
+    """
+    shards = results.of_kind("shard")
+    deck = shards[results.body_member_kinds[shards] == _DECK]
+    if not len(shards):
+        return ()
+    if not len(deck):
+        return (_span(results, _WHOLE, shards),)
+    inner_axes = np.cumsum(span_lengths_m)[:-1] if len(span_lengths_m) else np.zeros(0)
+    numbers = np.searchsorted(inner_axes, results.places_m[0, deck, 0], side="right")
+    names = ["deck"] if not len(inner_axes) else [f"span {number + 1}" for number in range(len(inner_axes) + 1)]
+    return tuple(_span(results, name, deck[numbers == row]) for row, name in enumerate(names) if (numbers == row).any())
+
+
+def collapse_progress(results: Results) -> np.ndarray:
+    """How far the collapse is at each recorded step, (k,) from 0 to 1, and a little below 0 where shards rise.
+
+    The part of the height of the shards' centre of mass above the ground that is lost: 0 stands as it did, 1 would be
+    all of it flat on the ground.
+    """
+    shards = results.of_kind("shard")
+    masses = results.masses_kg[shards]
+    if not masses.sum() > 0.0:
+        return np.zeros(len(results.times_s))
+    heights = results.places_m[:, shards, 2] @ masses / masses.sum()
+    return 1.0 - heights / heights[0] if heights[0] > 0.0 else np.zeros(len(heights))
+
+
+@dataclass(frozen=True, slots=True)
+class ShardRest:
+    """When the shards came to rest.
+
+    Attributes
+    ----------
+    first_motion_s
+        When a shard first moved; None where none did.
+    at_rest_s
+        From when on no shard moved; None where some still did at the end, or none ever did.
+    moving_at_end
+        How many moved at the end.
+    """
+
+    first_motion_s: float | None
+    at_rest_s: float | None
+    moving_at_end: int
+
+
+def rest_of(results: Results) -> ShardRest:
+    """When the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
+    shards = results.of_kind("shard")
+    moving = np.linalg.norm(results.velocities_m_s[:, shards], axis=2) > REST_SPEED_M_S
+    at_times = np.flatnonzero(moving.any(axis=1))
+    if not len(at_times):
+        return ShardRest(None, None, 0)
+    at_end = int(moving[-1].sum())
+    at_rest = None if at_end else float(results.times_s[at_times[-1] + 1])
+    return ShardRest(float(results.times_s[at_times[0]]), at_rest, at_end)
+
+
+def _span(results: Results, name: str, bodies: np.ndarray) -> Span:
+    heights, masses = results.places_m[:, bodies, 2], results.masses_kg[bodies]
+    return Span(name, bodies, heights @ masses / masses.sum(), heights.min(axis=1))

@@ -1,0 +1,63 @@
+"""Connections between certain members that are others than the rest."""
+
+from dataclasses import dataclass, fields
+from typing import ClassVar
+
+from ..errors import ScenarioError
+from ..mechanics.strength import MATERIALS
+from ..units import STANDARD_GRAVITY_M_S2
+from .joint import JointSettings
+from .schema import key
+
+GROUND_NAME = "ground"
+
+_JOINT = tuple(item.name for item in fields(JointSettings))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConnectionBetween(JointSettings):
+    """Connections between two members, or two kinds of members, that differ from the others: bearings, joints, gaps.
+    What is not given is as in `[connections]`, but for `free` and the springs where any of
+    these or `type` is given. The first of these tables that names both members counts.
+    """
+
+    table: ClassVar[str] = "connections.between"
+
+    members: tuple[str, str] = key(
+        'The two, each by the name that `bda check` lists or by kind, or `"ground"` for the foundations: '
+        '`["deck", "pier cap"]`. Twice the same for connections within a member.'
+    )
+    none: bool = key("Whether there are no connections between them at all; then nothing else is given.", default=False)
+    breaking_force_n: float | None = key("Force that breaks it.", default=None, unit="N", above=0)
+    breaking_force_kgf: float | None = key(
+        "Force that breaks it, 1 kgf = 9.80665 N.", default=None, unit="kgf", above=0
+    )
+    material: str | None = key(
+        "Material by whose strengths it breaks; with method `face`. Give at most one of this, `breaking_force_n` and "
+        "`breaking_force_kgf`.",
+        default=None,
+        choices=tuple(MATERIALS),
+    )
+
+    @property
+    def changes_joint(self) -> bool:
+        """Whether the type, what is free or the springs are given; then those of `[connections]` do not count."""
+        return any(getattr(self, name) is not None for name in _JOINT)
+
+    @property
+    def breaking_force_newton(self) -> float | None:
+        """Force that breaks it, N, whichever unit it was given in; None where none was given."""
+        if self.breaking_force_kgf is not None:
+            return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
+        return self.breaking_force_n
+
+    def _check_together(self) -> None:
+        breaking = [
+            name for name in ("breaking_force_n", "breaking_force_kgf", "material") if getattr(self, name) is not None
+        ]
+        others = breaking + [name for name in _JOINT if getattr(self, name) is not None]
+        if self.none and others:
+            raise ScenarioError(f"{self.table}.none is true: expected nothing else but members, found {others[0]}")
+        if len(breaking) > 1:
+            listed = " and ".join(f"{self.table}.{name}" for name in breaking)
+            raise ScenarioError(f"{listed} are given together: expected at most one of them")

@@ -1,0 +1,104 @@
+"""What is done to the bridge in the course of time, besides hitting it: removals, saw cuts and weakenings."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..errors import ScenarioError
+from .schema import Table, key, shown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change(Table):
+    """A change at a time to a part of the bridge: to some members, to what lies in a box, or to both at once."""
+
+    table: ClassVar[str] = "changes"
+    kind: ClassVar[str] = "change"
+
+    time_s: float = key("When it happens.", unit="s", at_least=0)
+    members: tuple[str, ...] | None = key(
+        'Members that it happens to, by the names that `bda check` lists or by kind: `["pier 1", "pier cap"]`.',
+        default=None,
+    )
+    lowest_corner_m: tuple[float, float, float] | None = key(
+        "Lowest x, y and z of the box that it happens in, as the bridge was built. Give both corners or none.",
+        default=None,
+        unit="m",
+    )
+    highest_corner_m: tuple[float, float, float] | None = key("Highest x, y and z of that box.", default=None, unit="m")
+
+    def _check_together(self) -> None:
+        lowest, highest = self.lowest_corner_m, self.highest_corner_m
+        if (lowest is None) != (highest is None):
+            given, missing = ("lowest", "highest") if highest is None else ("highest", "lowest")
+            raise ScenarioError(
+                f"{self.table}.{missing}_corner_m is missing: expected it with {self.table}.{given}_corner_m"
+            )
+        for place, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True)):
+            if not low < high:
+                raise ScenarioError(
+                    f"{self.table}.highest_corner_m[{place}] is {high}: expected more than that of the lowest "
+                    f"corner, {low} (m)"
+                )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Removal(Change):
+    """Shards that are taken away in one moment, such as a pier that is kicked out: all of the members, or those whose
+    centres of mass lie in the box. Their connections are cut, they meet nothing any more, and what slept wakes up. They
+    are put out of sight, 1000 m below their places.
+    """
+
+    table: ClassVar[str] = "removals"
+    kind: ClassVar[str] = "removal"
+
+    def _check_together(self) -> None:
+        Change._check_together(self)
+        if self.members is None and self.lowest_corner_m is None:
+            raise ScenarioError(f"{self.table}.members is missing: expected it, or the two corners of a box")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SawCut(Change):
+    """A saw cut through a plane: in one moment it cuts the connections between shards on its two sides, of the members
+    and in the box, or everywhere. It runs along the faces of shards; the finer they are, the straighter it is.
+    """
+
+    table: ClassVar[str] = "saw_cuts"
+    kind: ClassVar[str] = "saw cut"
+
+    point_m: tuple[float, float, float] = key("A point of the plane.", unit="m")
+    normal: tuple[float, float, float] = key("Direction across the plane, of any length but 0.")
+
+    def _check_together(self) -> None:
+        Change._check_together(self)
+        if not any(self.normal):
+            raise ScenarioError(f"{self.table}.normal is {shown(self.normal)}, all 0: expected a direction")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Weakening(Change):
+    """A loss of strength in one moment, such as by cut reinforcement: of all connections of the members' shards, of
+    those in the box, or of all. What slept among them wakes up, so that they bear their load at once. Several at the
+    same place multiply.
+    """
+
+    table: ClassVar[str] = "weakenings"
+    kind: ClassVar[str] = "weakening"
+
+    factor: float = key("Part of the strength, or of the breaking force, that is left.", above=0, at_most=1)
+
+
+def check_times(changes: tuple[Change, ...], latest_s: float, settled_s: float) -> None:
+    """See that all changes fall between the end of the settling and the end of the run.
+
+    Raises
+    ------
+    ScenarioError
+        One does not.
+    """
+    for each in changes:
+        if not settled_s <= each.time_s < latest_s:
+            raise ScenarioError(
+                f"{each.table}.time_s is {each.time_s}: expected at least connections.warm_up_s, {settled_s} (s), and "
+                f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
+            )

@@ -1,0 +1,1 @@
+"""What happens when: removals, weakenings, tools, rest."""

@@ -1,0 +1,58 @@
+"""Whether a scenario can be run at all, beyond what its values tell: found out without Blender."""
+
+from collections.abc import Sequence
+
+from manifold3d import Manifold
+
+from ..bridge.extent import surface_height
+from ..bridge.member import Member
+from ..errors import GeometryError
+from ..geometry.solids import to_manifold
+from ..scenario import Ball, Scenario
+from ..structure.model import Model, build_model
+from .events import model_structure, schedule
+
+_SPHERE_FACETS = 64
+"""Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""
+
+
+def runnable_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
+    """Return the model of a scenario in which all that is planned for it concerns something.
+
+    Parameters
+    ----------
+    scenario
+        What is to be run.
+    members
+        Its members, where they are prepared already.
+
+    Raises
+    ------
+    GeometryError
+        The bridge cannot be cut as asked, nothing lies under the ball or the beginning of a jackhammer's path, or the
+        ball begins within a member.
+    ScenarioError
+        There is no member of a name, or a change concerns nothing.
+    """
+    model = build_model(scenario, members)
+    schedule(scenario.changes, model_structure(model))
+    drops = [drop.target_m for drop in scenario.ball.drops] if scenario.ball else []
+    heights = [surface_height(scenario, model.members, place) for place in drops]
+    for hammer in scenario.jackhammers:
+        surface_height(scenario, model.members, hammer.path_m[0])
+    if scenario.ball:
+        _check_start(scenario.ball, heights[0] if heights else 0.0, model.members)
+    return model
+
+
+def _check_start(ball: Ball, surface_m: float, members: Sequence[Member]) -> None:
+    """Bullet would throw a ball and a shard that begin within each other apart."""
+    place = ball.start_m(surface_m)
+    sphere = Manifold.sphere(ball.diameter_m / 2.0, _SPHERE_FACETS).translate(place)
+    for member in members:
+        if (to_manifold(member.solid, member.name) ^ sphere).volume() > 0.0:
+            where = ", ".join(f"{each:g}" for each in place)
+            raise GeometryError(
+                f"The ball begins within member {member.name!r}, with its middle at [{where}] (m); give it another "
+                f"{'cable, or draw it aside farther' if ball.cable else 'target or drop height'}."
+            )

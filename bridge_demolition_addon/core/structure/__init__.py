@@ -1,0 +1,1 @@
+"""Shards, connections and supports: the structural model."""

@@ -1,0 +1,216 @@
+"""Which shards are connected, and where: neighbours by distance or by shared face, and foundations on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..fracture.shards import SharedFaces
+from ..geometry.mesh import Shard
+from ..geometry.proximity import blocks, boxes_that_meet, nearest_points, points_within, ranges
+
+GROUND = -1
+"""Stands for the ground where a connection names its second body."""
+
+_LEVEL_TOLERANCE_M = 1e-6
+"""How far a face may lie off the ground and still stand on it: rounding of coordinates of some hundred metres."""
+
+_ROUNDING = 1e-9
+"""How much further than a radius vertices are looked at, in m and as a part of the radius."""
+
+
+@dataclass(frozen=True, slots=True)
+class Connections:
+    """Connections between shards, structure of arrays.
+
+    Attributes
+    ----------
+    pairs
+        (m, 2) indices of the connected shards; the second is `GROUND` for a foundation.
+    points
+        (m, 3) where each connection sits, m: the centre of the face that the two share, or half-way between their
+        centres of mass where they share none.
+    areas
+        (m,) area of the shared face, m²; 0 where the two share none.
+    normals
+        (m, 3) unit vectors from the first body to the second, at right angles to the shared face; without one, along
+        the line between their centres of mass, and upwards where these coincide.
+    """
+
+    pairs: np.ndarray
+    points: np.ndarray
+    areas: np.ndarray
+    normals: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+    def only(self, kept: np.ndarray) -> Connections:
+        """Those connections (m,) that are kept."""
+        return Connections(self.pairs[kept], self.points[kept], self.areas[kept], self.normals[kept])
+
+
+def connect(
+    centres: np.ndarray, faces: SharedFaces, pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int
+) -> Connections:
+    """Connections of neighbouring shards, nearest first, until a shard has as many as allowed.
+
+    Parameters
+    ----------
+    centres
+        (n, 3) centres of mass of the shards, m.
+    faces
+        All faces that two shards share.
+    pairs, distances
+        (k, 2) neighbouring shards and (k,) how far apart they are, in m or in any other order of preference.
+    limit_per_shard
+        How many connections a shard may have.
+    """
+    pairs = limited(pairs, distances, limit_per_shard, len(centres))
+    pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    points = centres[pairs].mean(axis=1)
+    normals = _directions(centres[pairs[:, 1]] - centres[pairs[:, 0]])
+    areas = np.zeros(len(pairs))
+    rows, face_rows = _matching_rows(pairs, faces.pairs, len(centres))
+    points[rows] = faces.centres[face_rows]
+    normals[rows] = faces.normals[face_rows]
+    areas[rows] = faces.areas[face_rows]
+    return Connections(pairs, points, areas, normals)
+
+
+def neighbours_by_face(faces: SharedFaces) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k, 2) of shards that share a face, and an order (k,) in which the largest face comes first."""
+    return faces.pairs, -faces.areas
+
+
+def neighbours_by_centre(centres: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k, 2) of shards whose centres of mass (n, 3) lie within a radius, and their distances (k,) in m."""
+    return points_within(centres, radius_m)
+
+
+def neighbours_by_count(centres: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k, 2) of shards, one of them among those nearest to the other, and their distances (k,) in m.
+
+    Parameters
+    ----------
+    centres
+        (n, 3) centres of mass, m.
+    count
+        How many of its nearest each shard is connected with; it may be among the nearest of more.
+    """
+    others, distances = nearest_points(centres, count)
+    pairs = np.sort(np.column_stack((np.repeat(np.arange(len(centres)), others.shape[1]), others.ravel())), axis=1)
+    pairs, rows = np.unique(pairs, axis=0, return_index=True)
+    return pairs, distances.ravel()[rows]
+
+
+def neighbours_by_vertex(shards: Sequence[Shard], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs (k, 2) of shards whose nearest vertices lie within a radius, and their distances (k,) in m."""
+    corners = _Corners.of(shards)
+    candidates = boxes_that_meet(corners.lower, corners.upper, radius_m)
+    counts = np.diff(corners.bounds)[candidates].prod(axis=1)
+    found = [corners.distances(candidates[part], radius_m) for part in blocks(counts)]
+    distances = np.concatenate([np.zeros(0), *found])
+    near = distances <= radius_m
+    return candidates[near], distances[near]
+
+
+def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shard_count: int) -> np.ndarray:
+    """The pairs (k, 2) that remain when, nearest first, no shard may have more than its limit.
+
+    Pairs at the same distance are taken in order of their shards, so that the result is reproducible.
+    """
+    order = np.lexsort((pairs[:, 1], pairs[:, 0], distances))
+    pairs = pairs[order]
+    if np.bincount(pairs.ravel(), minlength=1).max() <= limit_per_shard:
+        return pairs
+    taken = [0] * shard_count
+    kept = []
+    for row, (first, second) in enumerate(pairs.tolist()):
+        if taken[first] < limit_per_shard and taken[second] < limit_per_shard:
+            taken[first] += 1
+            taken[second] += 1
+            kept.append(row)
+    return pairs[kept]
+
+
+def foundations(shards: Sequence[Shard]) -> Connections:
+    """Connections to the ground of all shards that stand on it, in the middle of the face they stand on."""
+    standing = [(index, *_standing_face(shard)) for index, shard in enumerate(shards)]
+    standing = [(index, area, centre) for index, area, centre in standing if area > 0.0]
+    count = len(standing)
+    return Connections(
+        pairs=np.array([(index, GROUND) for index, _, _ in standing], int).reshape(count, 2),
+        points=np.array([centre for _, _, centre in standing], float).reshape(count, 3),
+        areas=np.array([area for _, area, _ in standing], float),
+        normals=np.tile([0.0, 0.0, -1.0], (count, 1)),
+    )
+
+
+def joined(parts: Sequence[Connections]) -> Connections:
+    """Several sets of connections as one."""
+    return Connections(*(np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(Connections)))
+
+
+def _standing_face(shard: Shard) -> tuple[float, np.ndarray]:
+    """Area and centre of what of a shard lies flat on the ground."""
+    corners = shard.vertices[shard.triangles]
+    flat = corners[(abs(corners[:, :, 2]) <= _LEVEL_TOLERANCE_M).all(axis=1)]
+    areas = np.linalg.norm(np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]), axis=1) / 2.0
+    total = float(areas.sum())
+    centre = areas @ flat.mean(axis=1) / total if total > 0.0 else np.zeros(3)
+    return total, centre
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Corners:
+    """Vertices (v, 3) of all shards, where those of each begin: `bounds` (n + 1,), and the shards' boxes (n, 3)."""
+
+    vertices: np.ndarray
+    bounds: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+
+    @classmethod
+    def of(cls, shards: Sequence[Shard]) -> _Corners:
+        return cls(
+            vertices=np.concatenate([np.zeros((0, 3)), *(shard.vertices for shard in shards)]),
+            bounds=np.cumsum([0] + [len(shard.vertices) for shard in shards]),
+            lower=np.array([shard.vertices.min(axis=0) for shard in shards]).reshape(-1, 3),
+            upper=np.array([shard.vertices.max(axis=0) for shard in shards]).reshape(-1, 3),
+        )
+
+    def distances(self, pairs: np.ndarray, radius_m: float) -> np.ndarray:
+        """Distances (k,) between the nearest vertices of pairs (k, 2) of shards; inf where surely beyond a radius."""
+        row, first = self._near_box(pairs[:, 0], pairs[:, 1], radius_m)
+        other_row, second = self._near_box(pairs[:, 1], pairs[:, 0], radius_m)
+        counts = np.bincount(other_row, minlength=len(pairs))
+        of_first, place = ranges((np.cumsum(counts) - counts)[row], counts[row])
+        row = row[of_first]
+        difference = self.vertices[first[of_first]] - self.vertices[second[place]]
+        squares = np.full(len(pairs), np.inf)
+        np.minimum.at(squares, row, np.einsum("ij,ij->i", difference, difference))
+        return np.sqrt(squares)
+
+    def _near_box(self, shards: np.ndarray, others: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+        """Row k and vertex of shards[k], for all its vertices within a radius of the box of others[k]."""
+        row, vertex = ranges(self.bounds[shards], np.diff(self.bounds)[shards])
+        reach = radius_m * (1.0 + _ROUNDING) + _ROUNDING
+        places, other = self.vertices[vertex], others[row]
+        near = ((places >= self.lower[other] - reach) & (places <= self.upper[other] + reach)).all(axis=1)
+        return row[near], vertex[near]
+
+
+def _matching_rows(pairs: np.ndarray, face_pairs: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of `pairs` (sorted) that also stand in `face_pairs`, and their rows there."""
+    keys, face_keys = pairs[:, 0] * count + pairs[:, 1], face_pairs[:, 0] * count + face_pairs[:, 1]
+    _, rows, face_rows = np.intersect1d(keys, face_keys, return_indices=True)
+    return rows, face_rows
+
+
+def _directions(vectors: np.ndarray) -> np.ndarray:
+    """Unit vectors (k, 3) along vectors (k, 3); upwards where one has no length."""
+    lengths = np.linalg.norm(vectors, axis=1)[:, None]
+    return np.divide(vectors, lengths, out=np.tile([0.0, 0.0, 1.0], (len(vectors), 1)), where=lengths > 0.0)

@@ -1,0 +1,129 @@
+"""From a scenario to the model that is simulated: shards with their masses, and the connections between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from ..bridge.member import Member, mean_density
+from ..bridge.preparation import prepared_members
+from ..fracture.members import cut_members, shards_with_gaps
+from ..fracture.shards import SharedFaces
+from ..geometry.mesh import Shard
+from ..scenario import ConnectionSettings, Scenario
+from . import connections as connecting
+from .connection_rules import rules_of_pairs
+from .connections import Connections
+from .face_sections import second_moments
+from .supports import held_shards
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A bridge cut into shards, and its connections.
+
+    Attributes
+    ----------
+    members
+        Members of the bridge before they were cut.
+    shards
+        The n shards' closed meshes, in the bridge's coordinates.
+    member_of_shard
+        (n,) index of the member that each shard was cut from.
+    masses_kg
+        (n,) mass of each shard.
+    centres_m
+        (n, 3) centre of mass of each shard.
+    connections
+        Connections between shards and to the ground.
+    joint_of_connection
+        (m,) what each connection has in common with others: index of one of the scenario's joints.
+    second_moments_m4
+        (m, 2, 2) second moments of area of the connections' faces; 0 for one without a face.
+    held
+        (n,) whether each shard never moves, as supports hold it; no connection lies between two of these.
+    """
+
+    members: tuple[Member, ...]
+    shards: tuple[Shard, ...]
+    member_of_shard: np.ndarray
+    masses_kg: np.ndarray
+    centres_m: np.ndarray
+    connections: Connections
+    joint_of_connection: np.ndarray
+    second_moments_m4: np.ndarray
+    held: np.ndarray
+
+    @property
+    def density_kg_m3(self) -> float:
+        """Mean density of all members, kg/m³."""
+        return mean_density(self.members)
+
+
+def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
+    """Members, shards and connections of a scenario; the same scenario gives the same model.
+
+    Parameters
+    ----------
+    scenario
+        What to build.
+    members
+        What is cut into shards, without overlap; by default all members that the scenario names.
+
+    Raises
+    ------
+    GeometryError
+        The bridge cannot be cut into that many shards.
+    """
+    members = prepared_members(scenario).members if members is None else tuple(members)
+    cut = cut_members(scenario, members)
+    shards, centres, faces = cut.shards, cut.centres_m, cut.faces
+    rules = scenario.connections.between
+    rules_of = partial(rules_of_pairs, rules, members, cut.member_of_shard)
+    excluded = np.array([False, *(rule.none for rule in rules)])
+    connections = _connections(scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)])
+    held = held_shards(scenario.supports, members, shards, cut.member_of_shard)
+    # The ground, at index -1, is held as well.
+    moves = ~np.append(held, True)[connections.pairs].all(axis=1)
+    connections = connections.only(moves)
+    return Model(
+        members=members,
+        shards=shards_with_gaps(cut, members, scenario.fracture.margin_m),
+        member_of_shard=cut.member_of_shard,
+        masses_kg=cut.masses_kg,
+        centres_m=centres,
+        connections=connections,
+        joint_of_connection=rules_of(connections.pairs),
+        second_moments_m4=second_moments(
+            shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
+        ),
+        held=held,
+    )
+
+
+def _connections(
+    settings: ConnectionSettings,
+    shards: tuple[Shard, ...],
+    centres: np.ndarray,
+    faces: SharedFaces,
+    allowed: Callable[[np.ndarray], np.ndarray],
+) -> Connections:
+    """Connections between shards and to the ground, of those pairs (k, 2) that are allowed (k,)."""
+    match settings.method:
+        case "face":
+            pairs, distances = connecting.neighbours_by_face(faces)
+        case "centre":
+            pairs, distances = connecting.neighbours_by_centre(centres, settings.search_radius_m)
+        case "vertex":
+            pairs, distances = connecting.neighbours_by_vertex(shards, settings.search_radius_m)
+        case "nearest":
+            pairs, distances = connecting.neighbours_by_count(centres, settings.neighbours)
+    kept = allowed(pairs)
+    between = connecting.connect(centres, faces, pairs[kept], distances[kept], settings.limit_per_shard)
+    if not settings.foundation:
+        return between
+    standing = connecting.foundations(shards)
+    return connecting.joined([between, standing.only(allowed(standing.pairs))])

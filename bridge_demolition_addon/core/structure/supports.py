@@ -1,0 +1,93 @@
+"""Which shards never move, because their member, or the face they are part of, is held."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from trimesh import Trimesh
+
+from ..bridge.member import Member
+from ..errors import GeometryError, ScenarioError
+from ..geometry.mesh import Shard, triangle_areas_and_normals
+from ..scenario.supports import Support
+
+DIRECTIONS = {
+    "bottom": (0.0, 0.0, -1.0),
+    "top": (0.0, 0.0, 1.0),
+    "start": (-1.0, 0.0, 0.0),
+    "end": (1.0, 0.0, 0.0),
+    "right": (0.0, -1.0, 0.0),
+    "left": (0.0, 1.0, 0.0),
+}
+
+_SAME_PLANE = 1e-7
+"""Part of a member's longest extent within which a shard's face lies in a plane."""
+
+_SAME_LEANING = 1e-6
+"""Difference of two cosines below which faces look the same way."""
+
+
+def held_shards(
+    supports: Sequence[Support], members: Sequence[Member], shards: Sequence[Shard], member_of_shard: np.ndarray
+) -> np.ndarray:
+    """Whether each shard is held, (n,) bool.
+
+    Parameters
+    ----------
+    supports
+        What is held.
+    members
+        The k members.
+    shards, member_of_shard
+        The n shards before gaps are made, and the index of each one's member.
+
+    Raises
+    ------
+    ScenarioError
+        A member is not there.
+    GeometryError
+        Every shard is held, so that nothing is left to move.
+    """
+    held = np.zeros(len(shards), dtype=bool)
+    for support in supports:
+        chosen = [index for index, each in enumerate(members) if support.member in (each.name, each.kind)]
+        if not chosen:
+            known = sorted({each.name for each in members} | {each.kind for each in members})
+            raise ScenarioError(
+                f'supports.member is "{support.member}": expected the name or kind of a member, one of '
+                f"{', '.join(known)}"
+            )
+        for index in chosen:
+            own = np.flatnonzero(member_of_shard == index)
+            if support.face == "all":
+                held[own] = True
+            else:
+                parts = [shards[shard] for shard in own]
+                held[own] |= on_outermost_face(members[index].solid, parts, np.array(DIRECTIONS[support.face]))
+    if len(held) and held.all():
+        raise GeometryError("Every shard is held by supports, so that nothing is left to move; hold fewer members.")
+    return held
+
+
+def on_outermost_face(solid: Trimesh, shards: Sequence[Shard], direction: np.ndarray) -> np.ndarray:
+    """Which of a solid's shards (n,) are part of its outermost face that looks most in a direction (3,)."""
+    vertices = np.asarray(solid.vertices, dtype=float)
+    corners = vertices[np.asarray(solid.faces)]
+    areas, normals = triangle_areas_and_normals(corners)
+    heights = np.einsum("tk,tk->t", normals, corners[:, 0])
+    tolerance = _SAME_PLANE * float(np.ptp(vertices, axis=0).max())
+    outermost = (vertices @ normals.T <= heights + tolerance).all(axis=0) & (areas > 0.0)
+    leaning = np.where(outermost, normals @ direction, -np.inf)
+    faces = np.flatnonzero(leaning > leaning.max() - _SAME_LEANING)
+    planes = np.unique(np.column_stack([normals[faces], heights[faces]]).round(9), axis=0)
+    return np.array([_has_face_in(shard, planes, tolerance) for shard in shards], dtype=bool)
+
+
+def _has_face_in(shard: Shard, planes: np.ndarray, tolerance: float) -> bool:
+    """Whether a triangle with an area lies in one of the planes (p, 4), given by their normals and heights."""
+    corners = shard.vertices[shard.triangles]
+    areas, normals = triangle_areas_and_normals(corners)
+    lies = np.abs(np.einsum("tck,pk->tcp", corners, planes[:, :3]) - planes[:, 3]).max(axis=1) <= tolerance
+    looks = normals @ planes[:, :3].T > 1.0 - _SAME_LEANING
+    return bool((lies & looks & (areas > tolerance**2)[:, None]).any())

@@ -1,0 +1,1 @@
+"""Sub-steps, frames and slow motion."""

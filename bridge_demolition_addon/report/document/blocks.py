@@ -1,0 +1,150 @@
+"""What a report consists of, for a browser or as a PDF: sections of text, tables and pictures."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import FigureBase
+
+MISSING = "-"
+"""Stands in a table where a value is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """Text; a notice is set apart, so that nobody overlooks it."""
+
+    text: str
+    is_notice: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """Text that keeps its lines, such as a scenario file."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a table.
+
+    Attributes
+    ----------
+    heading
+        What people read, with the unit.
+    key
+        What programs read: the heading in the CSV file, with the unit in its name.
+    form
+        Python's format of a number, such as ``.1f``; empty for texts.
+    """
+
+    heading: str
+    key: str
+    form: str = ""
+
+    def shown(self, value: Any) -> str:
+        """A value as people read it."""
+        if value is None or (isinstance(value, float) and not math.isfinite(value)):
+            return MISSING
+        return format(value, self.form) if self.form else str(value)
+
+
+@dataclass(frozen=True, slots=True)
+class DataTable:
+    """A table; its rows also become a CSV file.
+
+    Attributes
+    ----------
+    name
+        Name of the CSV file, without ending; empty for a table that is only read.
+    title
+        Stands above it.
+    columns, rows
+        What it holds; None for a value that is not known.
+    """
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+    rows: Sequence[tuple[Any, ...]]
+
+    def shown_rows(self) -> list[list[str]]:
+        """All rows as people read them."""
+        return [[column.shown(value) for column, value in zip(self.columns, row, strict=True)] for row in self.rows]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A figure, drawn once for every kind of report.
+
+    Attributes
+    ----------
+    draw
+        Draws it into a figure, or into a part of one.
+    title
+        Caption.
+    height_mm
+        Height at the full width of a page.
+    """
+
+    draw: Callable[[FigureBase], None]
+    title: str
+    height_mm: float = 90.0
+
+
+@dataclass(frozen=True, slots=True)
+class Photo:
+    """A rendered picture: the PNG file, and its caption."""
+
+    path: Path
+    title: str
+
+
+Block = Paragraph | Listing | DataTable | Picture | Photo
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A headed part of a report."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A whole report."""
+
+    title: str
+    subtitle: str
+    sections: tuple[Section, ...]
+
+    def blocks(self) -> Iterator[Block]:
+        """All blocks of all sections in order."""
+        for section in self.sections:
+            yield from section.blocks
+
+
+def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:
+    """A table of names and values."""
+    return DataTable(name, title, (Column("", "fact"), Column("", "value")), rows)
+
+
+def write_tables(document: Document, folder: Path) -> list[Path]:
+    """Write every table that has a name as CSV, with all digits; what is not known stays empty."""
+    written = []
+    for table in document.blocks():
+        if isinstance(table, DataTable) and table.name:
+            path = folder / f"{table.name}.csv"
+            with path.open("w", encoding="utf-8", newline="") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                writer.writerow(column.key for column in table.columns)
+                writer.writerows(["" if value is None else value for value in row] for row in table.rows)
+            written.append(path)
+    return written

@@ -1,0 +1,141 @@
+"""A report as one page for a browser, with everything in it: it can be mailed and needs no script and no network."""
+
+from __future__ import annotations
+
+import io
+from base64 import b64encode
+from collections.abc import Callable, Iterator
+from html import escape
+from pathlib import Path
+
+import matplotlib
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+
+from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM
+from .blocks import (
+    Block,
+    DataTable,
+    Document,
+    Listing,
+    Paragraph,
+    Photo,
+    Picture,
+    Section,
+)
+
+_SHORT_TABLE_ROWS = 16
+"""Tables of no more rows are not broken over pages."""
+
+STYLE = """
+@page { size: A4; margin: 18mm 20mm; }
+html { font: 10.5pt/1.45 "DejaVu Sans", "Liberation Sans", Arial, sans-serif; color: #000; background: #fff; }
+body { max-width: 190mm; margin: 0 auto; padding: 0 1em; }
+h1 { font-size: 1.7em; line-height: 1.2; margin-bottom: 0.2em; }
+h2 { font-size: 1.3em; border-bottom: 1px solid #000; margin-top: 1.8em; break-after: avoid; }
+p.subtitle { margin-top: 0; color: #333; }
+p.notice { border: 2px solid #000; padding: 0.5em 0.8em; font-weight: bold; break-inside: avoid; }
+figure { margin: 1.2em 0; break-inside: avoid; }
+figure img { width: 100%; height: auto; display: block; }
+figcaption { font-size: 0.9em; margin-top: 0.3em; }
+table { border-collapse: collapse; width: 100%; margin: 0.4em 0 1.4em; font-size: 0.85em; line-height: 1.3; }
+caption { text-align: left; font-weight: bold; padding: 0.6em 0 0.3em; break-after: avoid; }
+th, td { text-align: left; vertical-align: top; padding: 0.18em 0.8em 0.18em 0; border-bottom: 1px solid #bbb; }
+th { border-bottom: 1px solid #000; }
+td.number, th.number { text-align: right; }
+tr { break-inside: avoid; }
+thead { display: table-header-group; }
+table.short { break-inside: avoid; }
+pre { font: 0.75em/1.35 "DejaVu Sans Mono", "Liberation Mono", monospace; white-space: pre-wrap; }
+ol.contents { columns: 2; }
+ol.contents a { color: inherit; }
+@media print { body { max-width: none; padding: 0; } }
+"""
+
+
+def write_html(document: Document, path: Path, drawn: Callable[[Picture], None] = lambda _: None) -> None:
+    """Write a report.
+
+    Parameters
+    ----------
+    document
+        What to write.
+    path
+        File to write.
+    drawn
+        Told about every picture that is drawn.
+    """
+    path.write_text("\n".join(_lines(document, drawn)) + "\n", encoding="utf-8")
+
+
+def _lines(document: Document, drawn: Callable[[Picture], None]) -> Iterator[str]:
+    title = escape(document.title)
+    yield f'<!doctype html>\n<html lang="en-GB">\n<head>\n<meta charset="utf-8">\n<title>{title}</title>'
+    yield '<link rel="icon" href="data:,">'  # or a browser asks for one
+    yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
+    yield f"<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>"
+    yield f'<p class="subtitle">{escape(document.subtitle)}</p>'
+    yield '<ol class="contents">'
+    for number, section in enumerate(document.sections, start=1):
+        yield f'<li><a href="#section-{number}">{escape(section.title)}</a></li>'
+    yield "</ol>"
+    for number, section in enumerate(document.sections, start=1):
+        yield from _section(number, section, drawn)
+    yield "</body>\n</html>"
+
+
+def _section(number: int, section: Section, drawn: Callable[[Picture], None]) -> Iterator[str]:
+    yield f'<section>\n<h2 id="section-{number}">{number} {escape(section.title)}</h2>'
+    for block in section.blocks:
+        yield _block(block)
+        if isinstance(block, Picture):
+            drawn(block)
+    yield "</section>"
+
+
+def _block(block: Block) -> str:
+    match block:
+        case Paragraph():
+            kind = ' class="notice"' if block.is_notice else ""
+            return f"<p{kind}>{escape(block.text)}</p>"
+        case Listing():
+            return f"<pre>{escape(block.text)}</pre>"
+        case DataTable():
+            return _table(block)
+        case Picture():
+            return _figure("image/svg+xml", _svg(block), block.title)
+        case Photo():
+            return _figure("image/png", block.path.read_bytes(), block.title)
+
+
+def _figure(kind: str, content: bytes, title: str) -> str:
+    source = f"data:{kind};base64,{b64encode(content).decode('ascii')}"
+    caption = escape(title)
+    return f'<figure>\n<img alt="{caption}" src="{source}">\n<figcaption>{caption}</figcaption>\n</figure>'
+
+
+def _table(table: DataTable) -> str:
+    classes = [' class="number"' if column.form else "" for column in table.columns]
+    kind = ' class="short"' if len(table.rows) <= _SHORT_TABLE_ROWS else ""
+    lines = [f"<table{kind}>", f"<caption>{escape(table.title)}</caption>"]
+    if any(column.heading for column in table.columns):
+        cells = [
+            f"<th{kind}>{escape(column.heading)}</th>" for kind, column in zip(classes, table.columns, strict=True)
+        ]
+        lines.append(f"<thead><tr>{''.join(cells)}</tr></thead>")
+    lines.append("<tbody>")
+    for row in table.shown_rows():
+        cells = [f"<td{kind}>{escape(text)}</td>" for kind, text in zip(classes, row, strict=True)]
+        lines.append(f"<tr>{''.join(cells)}</tr>")
+    return "\n".join([*lines, "</tbody>", "</table>"])
+
+
+def _svg(picture: Picture) -> bytes:
+    # A fixed salt, so that the same run gives the same file.
+    with matplotlib.rc_context({"svg.hashsalt": "report", "svg.fonttype": "path"}):
+        figure = Figure(figsize=(PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH), layout="constrained")
+        FigureCanvasSVG(figure)
+        picture.draw(figure)
+        file = io.BytesIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
+    return file.getvalue()

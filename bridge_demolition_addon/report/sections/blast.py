@@ -1,0 +1,142 @@
+"""Blast in a report: charges, overpressure in plan, and what reaches the neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from manifold3d import CrossSection
+
+from ...charts.blast_maps import WIDEST_PA, neighbour_pressures, overpressure_map
+from ...core.blast.charges import Charge
+from ...core.blast.damage import THRESHOLDS, ring_radii
+from ...core.blast.models import BlastModel
+from ...core.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
+from ...core.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
+from ...core.scenario import Scenario
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+
+
+def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
+    """What the charges do around the bridge; None where the scenario has none that does anything."""
+    charges = tuple(charge for charge in scenario.placed_charges if charge.mass_kg > 0.0)
+    if not charges:
+        return None
+    model = BlastModel(scenario.blast.model)
+    blocks: list[Block] = []
+    if not scenario.blast.explosion:
+        blocks.append(Paragraph("The charges did not go off in this run: this is what they would do.", is_notice=True))
+    blocks += [_charge_table(charges), _totals(charges)]
+    blocks.append(
+        Picture(
+            partial(overpressure_map, charges=charges, bridge=bridge, neighbours=scenario.neighbours, model=model),
+            "Peak overpressure on the ground, the largest that any one charge gives by itself; where waves meet, it "
+            f"can be more. Rings up to that of {WIDEST_PA / 1e3:g} kPa; those of less are in the table. Free field: "
+            "nothing hides the ground, and no wall sends anything back.",
+            140.0,
+        )
+    )
+    blocks.append(_ring_table(charges, model))
+    if scenario.neighbours:
+        loads = [(each.name, loads_at(each.place_m, charges, model)) for each in scenario.neighbours]
+        blocks += _neighbour_blocks(loads)
+    else:
+        blocks.append(Paragraph("The scenario names no neighbours: add tables [[neighbours]] to have them told of."))
+    return Section("Blast", tuple(blocks))
+
+
+def _charge_table(charges: Sequence[Charge]) -> DataTable:
+    columns = (
+        Column("charge", "charge"),
+        Column("explosive", "explosive"),
+        Column("mass (kg)", "mass_kg", ".2f"),
+        Column("TNT by pressure (kg)", "tnt_by_pressure_kg", ".2f"),
+        Column("x (m)", "x_m", ".2f"),
+        Column("y (m)", "y_m", ".2f"),
+        Column("z (m)", "z_m", ".2f"),
+        Column("delay (ms)", "delay_ms", ".0f"),
+        Column("burst", "burst"),
+    )
+    rows = [
+        (
+            charge.name,
+            charge.explosive,
+            charge.mass_kg,
+            charge.tnt_for_pressure_kg,
+            *charge.place_m,
+            1e3 * charge.delay_s,
+            charge.burst.value,
+        )
+        for charge in charges
+    ]
+    return DataTable("charges", "Charges", columns, rows)
+
+
+def _totals(charges: Sequence[Charge]) -> DataTable:
+    groups = charges_per_delay(charges)
+    masses = [sum(charge.mass_kg for charge in group) for group in groups]
+    largest = groups[masses.index(max(masses))]
+    names = ", ".join(charge.name for charge in largest)
+    rows = [
+        ("Total charge", f"{sum(masses):.2f} kg"),
+        ("Delays", f"{len(groups)}, counting charges within {1e3 * ONE_DELAY_S:g} ms of each other as one"),
+        ("Largest charge per delay", f"{max(masses):.2f} kg at {1e3 * largest[0].delay_s:g} ms ({names})"),
+    ]
+    return facts("Total charge and charge per delay", rows, "charge_per_delay")
+
+
+def _ring_table(charges: Sequence[Charge], model: BlastModel) -> DataTable:
+    radii = ring_radii(charges, 0.0, THRESHOLDS, model).max(axis=1)
+    columns = (
+        Column("overpressure (kPa)", "overpressure_kPa", ".2f"),
+        Column("damage", "damage"),
+        Column("ring (m)", "radius_m", ".1f"),
+        Column("source", "source"),
+    )
+    rows = [
+        (threshold.overpressure_pa / 1e3, threshold.damage, float(radius), threshold.source)
+        for threshold, radius in zip(THRESHOLDS, radii, strict=True)
+    ]
+    return DataTable(
+        "damage_rings",
+        "Thresholds of damage, and the largest radius around a charge on the ground",
+        columns,
+        rows,
+    )
+
+
+def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
+    columns = (
+        Column("neighbour", "neighbour"),
+        Column("distance (m)", "distance_m", ".1f"),
+        Column("first wave (ms)", "arrival_ms", ".1f"),
+        Column("peak (kPa)", "peak_overpressure_kPa", ".3f"),
+        Column("impulse (kPa·ms)", "impulse_kPa_ms", ".2f"),
+        Column("ground velocity (mm/s)", "peak_particle_velocity_mm_s", ".1f"),
+    )
+    rows = [
+        (
+            name,
+            load.distance_m,
+            1e3 * load.arrival_s,
+            load.peak_pa / 1e3,
+            load.impulse_pa_s,
+            1e3 * load.peak_velocity_m_s,
+        )
+        for name, load in loads
+    ]
+    ground = FREE_FACE_AVERAGE
+    told = (
+        f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), of the "
+        f"charges that detonate together; houses bear {1e3 * DAMAGE_LIMIT_M_S:g} mm/s (USBM Bulletin 656), many "
+        "codes ask for less. It holds for charges drilled into rock; the fall of the bridge, which often shakes the "
+        "ground more, is not in it."
+    )
+    return [
+        DataTable("neighbours", "What reaches the neighbours", columns, rows),
+        Picture(
+            partial(neighbour_pressures, loads=loads),
+            "Overpressure at the neighbours, all charges and delays together, incident and in the free field.",
+        ),
+        Paragraph(told),
+    ]

@@ -1,0 +1,105 @@
+"""The collapse in a report: heights of the spans, progress, time to rest, and energy."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from ...charts.histories import energy_history, progress_history, span_heights
+from ...core.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
+from ...core.results.energy import Energy, energy_of
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+from ..run_folder import Run
+
+
+def collapse_section(run: Run) -> Section:
+    """How the bridge came down."""
+    results = run.results
+    bridge = run.scenario.bridge if run.scenario else None  # there is none where all is of files or objects
+    lengths = bridge.span_lengths_m if bridge else ()
+    spans, progress, energy = spans_of(results, lengths), collapse_progress(results), energy_of(results)
+    told = (
+        "Progress is the part of the height of the shards' common centre of mass above the ground that is lost: 100 % "
+        f"would be all of it flat on the ground. At rest is what moves more slowly than {REST_SPEED_M_S:g} m/s."
+    )
+    blocks: list[Block] = [
+        Paragraph(told),
+        facts("Course of the collapse", _course(rest_of(results), progress), "collapse"),
+    ]
+    if spans:
+        blocks += [
+            Picture(
+                partial(span_heights, times_s=results.times_s, spans=spans, impact_s=run.hit_s),
+                "Height of every span over time.",
+            ),
+            _span_table(spans),
+        ]
+    blocks += [
+        Picture(
+            partial(progress_history, times_s=results.times_s, progress=progress, impact_s=run.hit_s),
+            "Progress of the collapse.",
+            75.0,
+        ),
+        Picture(
+            partial(energy_history, energy=energy, impact_s=run.hit_s),
+            "Energy of shards and ball, the potential one above its least in this run. Dissipated is what is missing "
+            "of the energy at the beginning: by impacts, friction, damping and breaking. It goes down where something "
+            "else than gravity does work.",
+        ),
+        _energy_table(energy),
+    ]
+    return Section("Collapse", tuple(blocks))
+
+
+def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
+    began = "never" if rest.first_motion_s is None else f"{rest.first_motion_s:.3f} s"
+    if rest.first_motion_s is None:
+        ended = "nothing moved"
+    elif rest.at_rest_s is None:
+        ended = f"not within this run: {rest.moving_at_end} shards still move at the end"
+    else:
+        ended = f"{rest.at_rest_s:.3f} s, {rest.at_rest_s - rest.first_motion_s:.3f} s after the first motion"
+    return [
+        ("First shard moves", began),
+        ("All shards at rest", ended),
+        ("Progress of the collapse at the end", f"{100.0 * progress[-1]:.1f} %"),
+    ]
+
+
+def _span_table(spans: tuple[Span, ...]) -> DataTable:
+    columns = (
+        Column("span", "span"),
+        Column("shards", "shards", "d"),
+        Column("height at first (m)", "height_first_m", ".2f"),
+        Column("at the end (m)", "height_last_m", ".2f"),
+        Column("came down by (m)", "drop_m", ".2f"),
+    )
+    rows = [
+        (span.name, len(span.bodies), float(span.heights_m[0]), float(span.heights_m[-1]), span.drop_m)
+        for span in spans
+    ]
+    return DataTable("spans", "Spans: height of the centre of mass", columns, rows)
+
+
+def _energy_table(energy: Energy) -> DataTable:
+    columns = (
+        Column("time (s)", "time_s", ".2f"),
+        Column("potential (MJ)", "potential_MJ", ".3f"),
+        Column("kinetic (MJ)", "kinetic_MJ", ".3f"),
+        Column("of it in rotation (MJ)", "rotation_MJ", ".3f"),
+        Column("dissipated (MJ)", "dissipated_MJ", ".3f"),
+    )
+    count = len(energy.times_s)
+    steps = sorted({round(share * (count - 1) / 8) for share in range(9)} | {int(energy.kinetic_j.argmax())})
+    rows = [
+        (
+            float(energy.times_s[step]),
+            *(
+                float(values[step]) / 1e6
+                for values in (energy.potential_j, energy.kinetic_j, energy.rotation_j, energy.dissipated_j)
+            ),
+        )
+        for step in steps
+    ]
+    return DataTable("energy", "Energy over time, the largest kinetic energy among it", columns, rows)

@@ -1,0 +1,172 @@
+"""The first section of a report: what was run, where its numbers come from, and how far to trust them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...core.results.arrays import Results
+from ...core.results.collapse import rest_of
+from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
+from ..findings import IMPACT, findings
+from ..run_folder import Run
+
+SOURCES = (
+    ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
+    ("Loads on bodies and connections", "read from Bullet after its steps; in the tests they agree with statics"),
+    ("Stresses", "mean over each shard, from the forces on it; equivalent stress after von Mises"),
+    ("Estimated forces of the ball's hits", "impulse and contact time after Hertz: Johnson, Contact Mechanics (1985)"),
+    ("Blast waves", "Kingery and Bulmash, or Kinney and Graham; explosives in TNT after Swisdak and Baker et al."),
+    ("Thresholds of damage", "Clancey (1972), Richmond et al. (1989)"),
+    ("Ground vibration", "Nicholls, Johnson and Duvall, USBM Bulletin 656 (1971), with handbook constants"),
+)
+
+TRUST = (
+    ("Energy and throw of a body in free flight", "formulas of ballistics: 0.5 %"),
+    ("Forces of connections at rest", "statics: 1e-6 (hanging block, chain, cantilever)"),
+    ("Forces on the bodies of a falling pile", "change of momentum: 1e-6 of the largest impulse"),
+    (
+        "Load at which a deck comes down, by strength of material",
+        "beam theory: 20 %; in 40 and 90 shards: 15 %",
+    ),
+    ("Blast: peak, duration, impulse, arrival", "published tables and formulas: their last digit"),
+)
+
+LIMITS = (
+    "Bodies are rigid: nothing bends, and stiffness comes from the solver, its steps and iterations.",
+    "No piece is smaller than a shard. Splinters and what flies off at an impact are not modelled; they fly farther "
+    "than any throw given here, and only the buffer of the exclusion zone accounts for them.",
+    "Peak forces of impacts depend on the time step, their impulses do not.",
+    "Where and how a bridge breaks depends on its connections. One breaking force for all of them makes the result "
+    "depend on how finely the bridge is cut.",
+    "Soil, friction of bearings, and pressures of blast behind or inside members are not modelled.",
+    "One run is one possible course of events. Another seed, another number of shards or another strength shows how "
+    "much of it is chance: run several before relying on a distance.",
+    "Nothing here has been calibrated against a measured demolition.",
+)
+
+
+def cover_section(run: Run, version: str) -> Section:
+    """What was run, and whether all of it is there."""
+    blocks: list[Block] = [Paragraph(text, is_notice=True) for text in run.shortcomings]
+    blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
+    if run.results is not None:
+        blocks += [Paragraph(text, is_notice=True) for text in _doubts(run)]
+        blocks.append(facts("Main findings", list(_findings(run)), "findings"))
+    blocks += [Photo(path, _caption(run, name)) for name, path in run.pictures.items()]
+    return Section("The run", tuple(blocks))
+
+
+def trust_section(run: Run) -> Section:
+    """Where the numbers come from, and how far to trust them."""
+    modelled = (
+        "A bridge of rigid shards that connections hold together until they break, contact with friction, gravity"
+    )
+    if run.scenario and run.scenario.ball:
+        modelled += ", a wrecking ball"
+    if run.scenario and run.scenario.placed_charges and run.scenario.blast.explosion:
+        modelled += ", the air blast of charges on the outsides of the shards"
+    blocks: list[Block] = [
+        Paragraph(f"What is modelled: {modelled[0].lower()}{modelled[1:]}."),
+        facts("Where the numbers come from", SOURCES),
+        facts("What has been checked, against what and how closely it agrees", TRUST),
+        *(Paragraph(text) for text in LIMITS),
+    ]
+    return Section("What is modelled, and how far to trust it", tuple(blocks))
+
+
+def scenario_section(run: Run, text: str) -> Section:
+    """The whole scenario, so that the run can be repeated."""
+    told = "With this file and the versions above the run can be repeated: the same scenario gives the same logs."
+    return Section("The scenario", (Paragraph(told), Listing(text)))
+
+
+def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
+    yield "Scenario", run.title
+    yield "Folder", run.name
+    summary, results = run.summary or {}, run.results
+    if results is not None:
+        yield "Simulated", f"{results.times_s[-1]:.3f} s in {len(results.frames)} frames"
+        steps = results.substep_s[results.substep_s > 0.0]
+        if len(steps):
+            yield "Physics step", _range_text(1e3 * steps.min(), 1e3 * steps.max(), "ms")
+        yield "Loads read", str(results.reading)
+    elif run.logged_forces is not None:
+        yield "Simulated", f"{run.logged_forces.times_s[-1]:.3f} s as far as logged"
+    if run.scenario:
+        time = run.scenario.time
+        yield (
+            "Frames, steps, iterations",
+            (
+                f"{time.frames_per_second / time.frames_per_second_base:g} frames a second, "
+                f"{time.substeps_per_frame} steps a frame, {time.solver_iterations} iterations a step"
+            ),
+        )
+    if results is not None:
+        yield from _model_facts(results)
+    if "density_kg_m3" in summary:
+        yield "Density", f"{summary['density_kg_m3']:.0f} kg/m³"
+    if run.scenario:
+        yield "Connections break", _breaking_text(run)
+        yield "Seed", str(run.scenario.seed)
+    if "blender" in summary:
+        yield "Blender", str(summary["blender"])
+    yield "Bridge Demolition Add-on", version
+
+
+def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
+    shards, balls = results.of_kind("shard"), results.of_kind("ball")
+    yield "Shards", f"{len(shards)}, together {results.masses_kg[shards].sum() / 1e3:.1f} t"
+    for ball in balls:
+        yield str(results.body_names[ball]), f"{results.masses_kg[ball] / 1e3:.1f} t"
+    yield "Connections", str(len(results.connection_names))
+
+
+def _breaking_text(run: Run) -> str:
+    settings = run.scenario.connections
+    others = "; differently between some members, see the scenario" if settings.between else ""
+    if settings.breaking_force_newton is not None:
+        return f"at one force, {settings.breaking_force_newton / 1e3:.1f} kN{others}"
+    return f"by the strength of {settings.material}{others}"
+
+
+def _range_text(low: float, high: float, unit: str) -> str:
+    return f"{low:.3g} {unit}" if high - low < 1e-3 * high else f"{low:.3g} to {high:.3g} {unit}"
+
+
+def _doubts(run: Run) -> Iterator[str]:
+    results = run.results
+    if len(results.frames) < 2:
+        yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
+    rest = rest_of(results)
+    if rest.moving_at_end:
+        yield (
+            f"{rest.moving_at_end} of {len(results.of_kind('shard'))} shards still move at the end of the run: throws, "
+            "footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
+        )
+    if np.isnan(results.body_sums_n[1:]).any():
+        yield (
+            "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
+            "what needs them is empty."
+        )
+    if str(results.reading).startswith("last sub-step"):
+        yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."
+
+
+def _findings(run: Run) -> Iterator[tuple[str, str]]:
+    has_ball = len(run.results.of_kind("ball")) > 0
+    yield from ((each.label, each.text) for each in findings(run) if has_ball or each.label != IMPACT)
+
+
+def _caption(run: Run, picture: str) -> str:
+    """What a picture shows; that in the middle is of the moment that `core.telling_moment` chooses."""
+    if picture != "impact":
+        return {"before": "Before", "after": "At the end"}[picture]
+    summary = run.summary or {}
+    if run.impact_s is not None:
+        return "At the impact of the ball"
+    if summary.get("blast"):
+        return "Shortly after the blast"
+    broken = summary.get("connections", {}).get("broken")
+    return "When half of the connections that broke had broken" if broken else "At the largest force"

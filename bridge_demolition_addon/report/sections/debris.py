@@ -1,0 +1,227 @@
+"""Debris in a report: map, footprint, throws, pile, zones, and the exclusion zone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from ...charts.histories import throw_distribution
+from ...charts.plan_maps import debris_map, exclusion_map, pile_map
+from ...core.results.arrays import Results
+from ...core.results.debris import MOVED_M, PERCENTS, Debris, HeightMap, debris_of, height_map, percentiles_by_mass
+from ...core.results.exclusion import ExclusionZone, exclusion_zone
+from ...core.results.footprint import outlines
+from ...core.results.zones import ZoneWatch, watch_zone
+from ...core.scenario import Zone
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+from ..run_folder import Run
+
+NAMED = 10
+"""Largest throws in the table."""
+
+_SHORTEST_MAP_MM, _TALLEST_MAP_MM = 75.0, 150.0
+
+
+def debris_section(run: Run, *, trajectories: bool) -> Section:
+    """Where the debris went."""
+    results, zones = run.results, run.scenario.zones if run.scenario else ()
+    debris = debris_of(results)
+    told = (
+        f"Debris is every shard that ended more than {MOVED_M:g} m from where it began. The throw is the horizontal "
+        "distance between the first and the last place of its centre of mass; its reach is how far it sticks out of "
+        "the bridge's first outline in plan."
+    )
+    blocks: list[Block] = [Paragraph(told)]
+    if len(debris.bodies):
+        heights = height_map(results, debris.bodies)
+        blocks += _debris_blocks(results, debris, heights, zones, trajectories)
+    else:
+        blocks.append(Paragraph("No shard moved that far: there is no debris.", is_notice=True))
+    blocks += _zone_blocks(run, zones)
+    return Section("Debris", tuple(blocks))
+
+
+def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]) -> Section:
+    """The exclusion zone, or why there is none."""
+    if zone is None:
+        told = (
+            "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to scenario_as_run.toml in "
+            "the folder of the run, and make the report again to have the zone drawn here."
+        )
+        return Section("Exclusion zone", (Paragraph(told, is_notice=True),))
+    settings = run.scenario.exclusion
+    low_x, low_y, high_x, high_y = zone.bounds_m
+    told = (
+        "Plan area of the bridge, designed drop area, predicted debris area, and a buffer around all of them, as "
+        "BS 6187 makes up an exclusion zone. Predicted debris is all that shards and balls covered at any time of this "
+        f"one run. The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's."
+    )
+    rows = [
+        ("Buffer", f"{settings.buffer_m:g} m"),
+        ("Designed drop", f"{settings.designed_drop_m:g} m around the bridge's plan"),
+        ("Plan area of the bridge", f"{zone.plan.area():.1f} m²"),
+        ("Predicted debris area", f"{zone.debris.area():.1f} m²"),
+        ("Exclusion zone", f"{zone.whole.area():.1f} m²"),
+        ("Along the road", f"from x = {low_x:.2f} m to {high_x:.2f} m, {high_x - low_x:.2f} m"),
+        ("Across the road", f"from y = {low_y:.2f} m to {high_y:.2f} m, {high_y - low_y:.2f} m"),
+        ("Farthest from the bridge's plan", f"{zone.largest_distance_m:.2f} m"),
+    ]
+    blocks: list[Block] = [
+        Paragraph(told),
+        Picture(
+            partial(exclusion_map, zone=zone, zones=run.scenario.zones),
+            "Exclusion zone in plan, with its reach beyond the bridge to each side.",
+            _map_height(zone.whole.bounds()),
+        ),
+        facts("Exclusion zone", rows, "exclusion_zone"),
+        Paragraph(f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners.csv."),
+    ]
+    if run.scenario.placed_charges:
+        warning = "Pressure of the charges is not in this zone: see the rings of damage for how far people have to be."
+        blocks.insert(1, Paragraph(warning, is_notice=True))
+    return Section("Exclusion zone", tuple(blocks))
+
+
+def zone_of(run: Run) -> ExclusionZone | None:
+    """The exclusion zone where the scenario asks for one."""
+    if run.results is None or run.scenario is None or run.scenario.exclusion is None:
+        return None
+    if not len(run.results.of_kind("shard")):
+        return None
+    return exclusion_zone(run.results, run.scenario.exclusion)
+
+
+def corner_table(zone: ExclusionZone) -> DataTable:
+    """Corners of the exclusion zone, for its CSV file."""
+    columns = (Column("ring", "ring"), Column("x (m)", "x_m", ".3f"), Column("y (m)", "y_m", ".3f"))
+    rows = [
+        (number, round(float(x), 4), round(float(y), 4))
+        for number, ring in enumerate(outlines(zone.whole), start=1)
+        for x, y in ring
+    ]
+    return DataTable("exclusion_corners", "Corners of the exclusion zone", columns, rows)
+
+
+def _debris_blocks(
+    results: Results, debris: Debris, heights: HeightMap, zones: Sequence[Zone], trajectories: bool
+) -> list[Block]:
+    low, high = np.array(debris.area.bounds()).reshape(2, 2)
+    middle = results.masses_kg[debris.bodies] @ results.places_m[-1, debris.bodies] / debris.masses_kg.sum()
+    solid = float(results.volumes_m3[debris.bodies].sum())
+    rows = [
+        (
+            "Debris",
+            f"{len(debris.bodies)} of {len(results.of_kind('shard'))} shards, {debris.masses_kg.sum() / 1e3:.2f} t",
+        ),
+        (
+            "Footprint",
+            f"{debris.area.area():.1f} m², from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to "
+            f"{high[1]:.2f} m",
+        ),
+        ("Bridge before", f"{debris.outline.area():.1f} m² in plan"),
+        ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {middle[2]:.2f} m above the ground"),
+        ("Highest point of the pile", f"{debris.highest_m:.2f} m above the ground"),
+        ("Volume of the pile", f"{heights.volume_m3:.1f} m³ under its surface, {solid:.1f} m³ of it solid"),
+        ("Farthest beyond the bridge's outline", f"{debris.reaches_m.max():.2f} m"),
+    ]
+    bridge = np.array(debris.outline.bounds()).reshape(2, 2)
+    bounds = (*np.minimum(low, bridge[0]), *np.maximum(high, bridge[1]))
+    return [
+        Picture(
+            partial(debris_map, results=results, debris=debris, zones=zones, trajectories=trajectories),
+            "Debris at the end in plan. Arrows and numbers: the largest throws, from where a shard was to where it "
+            "lies.",
+            _map_height(bounds),
+        ),
+        facts("Debris at the end", rows, "debris"),
+        Picture(partial(pile_map, heights=heights, outline=debris.outline), "Height of the debris.", 85.0),
+        _throw_table(debris),
+        Picture(
+            partial(throw_distribution, throws_m=debris.throws_m, masses_kg=debris.masses_kg),
+            "How much of the debris was thrown farther than a distance.",
+            75.0,
+        ),
+        _largest_throws(results, debris),
+    ]
+
+
+def _throw_table(debris: Debris) -> DataTable:
+    columns = (
+        Column("of the debris (%)", "percent", "d"),
+        Column("by mass, thrown up to (m)", "throw_by_mass_m", ".2f"),
+        Column("by number, thrown up to (m)", "throw_by_number_m", ".2f"),
+        Column("by mass, beyond the outline up to (m)", "reach_by_mass_m", ".2f"),
+    )
+    by_number = np.ones(len(debris.throws_m))
+    values = (
+        percentiles_by_mass(debris.throws_m, debris.masses_kg),
+        percentiles_by_mass(debris.throws_m, by_number),
+        percentiles_by_mass(debris.reaches_m, debris.masses_kg),
+    )
+    rows = [(percent, *map(float, row)) for percent, *row in zip(PERCENTS, *values, strict=True)]
+    return DataTable("throw_percentiles", "Throw and reach: so much of the debris went no farther", columns, rows)
+
+
+def _largest_throws(results: Results, debris: Debris) -> DataTable:
+    columns = (
+        Column("No.", "number", "d"),
+        Column("shard", "shard"),
+        Column("of", "member"),
+        Column("mass (kg)", "mass_kg", ".0f"),
+        Column("throw (m)", "throw_m", ".2f"),
+        Column("reach (m)", "reach_m", ".2f"),
+        Column("to x (m)", "x_m", ".2f"),
+        Column("y (m)", "y_m", ".2f"),
+        Column("z (m)", "z_m", ".2f"),
+    )
+    rows = []
+    for number, row in enumerate(np.argsort(-debris.throws_m, kind="stable")[:NAMED], start=1):
+        body = debris.bodies[row]
+        names = (str(results.body_names[body]), str(results.body_members[body]))
+        numbers = (debris.masses_kg[row], debris.throws_m[row], debris.reaches_m[row], *results.places_m[-1, body])
+        rows.append((number, *names, *map(float, numbers)))
+    return DataTable("largest_throws", "Largest throws", columns, rows)
+
+
+def _zone_blocks(run: Run, zones: Sequence[Zone]) -> list[Block]:
+    if not zones:
+        return [Paragraph("The scenario names no zones, such as a road or a power line, to be watched.")]
+    results = run.results
+    bodies = np.concatenate([results.of_kind("shard"), results.of_kind("ball")])
+    watches = [watch_zone(results, zone, bodies) for zone in zones]
+    columns = (
+        Column("zone", "zone"),
+        Column("kind", "kind"),
+        Column("first entered (s)", "first_entry_s", ".3f"),
+        Column("by", "first_body"),
+        Column("bodies that entered", "bodies_entered", "d"),
+        Column("mass within at the end (t)", "mass_within_t", ".2f"),
+        Column("there before", "bodies_there_before", "d"),
+    )
+    told = (
+        "A zone is entered when the convex hull of a shard or ball first reaches into it. Between two frames bodies "
+        "are taken to move and turn evenly, and the moment is found to a millisecond. Bodies that were in a zone "
+        "from the beginning are counted apart."
+    )
+    return [Paragraph(told), DataTable("zones", "Zones", columns, [_zone_row(results, watch) for watch in watches])]
+
+
+def _zone_row(results: Results, watch: ZoneWatch) -> tuple:
+    first = watch.entries[0] if watch.entries else None
+    return (
+        watch.zone.name,
+        watch.zone.kind,
+        first and float(first.time_s),
+        str(results.body_names[first.body]) if first else "nobody",
+        len(watch.entries),
+        watch.mass_within_kg / 1e3,
+        len(watch.there_before),
+    )
+
+
+def _map_height(bounds: Sequence[float]) -> float:
+    """Height of a map of an area with these bounds, with room for axes and legend, mm."""
+    width, height = bounds[2] - bounds[0], bounds[3] - bounds[1]
+    return float(np.clip(25.0 + 150.0 * height / max(width, 1e-9), _SHORTEST_MAP_MM, _TALLEST_MAP_MM))

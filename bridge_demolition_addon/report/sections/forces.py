@@ -1,0 +1,202 @@
+"""Forces and stresses in a report: histories, the most loaded, the hits of the ball, contours, and what broke."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from ...charts.histories import breaking_history, contact_force_history, load_history, logged_load_history
+from ...charts.stress_elevation import stress_elevation
+from ...core.results.arrays import Results
+from ...core.results.force_history import Peak, breaking_by_kind, contact_forces, most_loaded
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
+from ..run_folder import LoggedForces, Run
+
+_BEYOND_THE_FORCE = (
+    "The force of a connection is the resultant of its three directions. Each direction by itself is held up to the "
+    "breaking force, so that the resultant can be up to √3 times as large."
+)
+
+
+def force_section(run: Run) -> Section:
+    """Loads, hits and breaking of a run that has results."""
+    results = run.results
+    known = np.isfinite(results.body_sums_n).any()
+    blocks: list[Block] = []
+    if known:
+        forces = contact_forces(results)
+        blocks += [
+            Picture(
+                partial(contact_force_history, forces=forces, impact_s=run.hit_s),
+                "Contact forces, each the mean over a frame. Contacts that press a body from two sides cancel "
+                "within it, so that the total is a lower bound. Foundations that hold are not contacts.",
+            ),
+            Picture(
+                partial(load_history, results=results, impact_s=run.hit_s),
+                "Largest load on a shard by its connections and contacts together. Peaks of impacts grow as the step "
+                "of the physics shrinks.",
+            ),
+            _loaded_bodies(results),
+            _loaded_connections(results),
+        ]
+        if run.scenario and run.scenario.connections.breaking_force_newton is not None:
+            blocks.append(Paragraph(_BEYOND_THE_FORCE))
+    else:
+        blocks.append(Paragraph("Forces were not recorded in this run.", is_notice=True))
+    blocks += _hit_blocks(run)
+    if known:
+        blocks += _contour_blocks(run)
+    blocks += _breaking_blocks(run)
+    return Section("Forces and stresses", tuple(blocks))
+
+
+def logged_section(run: Run) -> Section:
+    """What the logs of a killed run still tell of forces and breaking."""
+    blocks: list[Block] = []
+    forces: LoggedForces | None = run.logged_forces
+    if forces is not None:
+        draw = partial(
+            logged_load_history, times_s=forces.times_s, sums_n=forces.sums_n, resultants_n=forces.resultants_n
+        )
+        blocks.append(Picture(draw, "Largest load on a shard or ball, as far as logged."))
+    if run.logged_breaks is not None:
+        blocks.append(Paragraph(f"Connections broken as far as logged: {run.logged_breaks}."))
+    return Section("Forces as far as logged", tuple(blocks))
+
+
+def _loaded_bodies(results: Results) -> DataTable:
+    columns = (
+        Column("shard", "shard"),
+        Column("of", "member"),
+        Column("mass (kg)", "mass_kg", ".0f"),
+        Column("sum of magnitudes (kN)", "peak_force_sum_kN", ".1f"),
+        Column("resultant then (kN)", "peak_force_kN", ".1f"),
+        Column("time (s)", "time_s", ".3f"),
+    )
+    rows = []
+    for peak in most_loaded(results.body_peak_sums_n, results.of_kind("shard")):
+        numbers = (peak.force_n / 1e3, results.body_peaks_n[peak.step, peak.row] / 1e3, results.times_s[peak.step])
+        names = (str(results.body_names[peak.row]), str(results.body_members[peak.row]))
+        rows.append((*names, float(results.masses_kg[peak.row]), *map(float, numbers)))
+    return DataTable("most_loaded_shards", "The ten most loaded shards", columns, rows)
+
+
+def _loaded_connections(results: Results) -> DataTable:
+    columns = (
+        Column("connection", "connection"),
+        Column("between", "first_body"),
+        Column("and", "second_body"),
+        Column("area (m²)", "area_m2", ".3f"),
+        Column("force (kN)", "peak_force_kN", ".1f"),
+        Column("time (s)", "time_s", ".3f"),
+        Column("broken at (s)", "broken_s", ".3f"),
+    )
+    peaks = most_loaded(results.connection_peaks_n, np.arange(len(results.pairs)))
+    rows = [_connection_row(results, peak) for peak in peaks]
+    return DataTable("most_loaded_connections", "The ten most loaded connections", columns, rows)
+
+
+def _connection_row(results: Results, peak: Peak) -> tuple:
+    first, second = results.body_names[results.pairs[peak.row]]
+    broken = np.flatnonzero(~results.intact[:, peak.row])
+    area = float(results.areas_m2[peak.row])
+    return (
+        str(results.connection_names[peak.row]),
+        str(first),
+        str(second),
+        area if area > 0.0 else None,
+        peak.force_n / 1e3,
+        float(results.times_s[peak.step]),
+        float(results.times_s[broken[0]]) if len(broken) else None,
+    )
+
+
+def _hit_blocks(run: Run) -> list[Block]:
+    hits = (run.summary or {}).get("hits_of_the_ball", [])
+    if not len(run.results.of_kind("ball")):
+        return [Paragraph("There is no ball in this run.")]
+    if not hits:
+        return [Paragraph("The ball hit nothing, or its hits were not recorded.")]
+    columns = (
+        Column("ball", "ball"),
+        Column("time (s)", "time_s", ".3f"),
+        Column("lasted (ms)", "lasted_ms", ".1f"),
+        Column("speed (m/s)", "approach_m_s", ".2f"),
+        Column("impulse (kN·s)", "impulse_kNs", ".2f"),
+        Column("raw peak (MN)", "raw_peak_force_MN", ".2f"),
+        Column("half sine (MN)", "half_sine_peak_force_MN", ".2f"),
+        Column("Hertz (MN)", "hertz_peak_force_MN", ".2f"),
+    )
+    scales = (
+        ("time_s", 1.0),
+        ("lasted_s", 1e3),
+        ("approach_m_s", 1.0),
+        ("impulse_Ns", 1e-3),
+        ("raw_peak_force_N", 1e-6),
+        ("half_sine_peak_force_N", 1e-6),
+        ("hertz_peak_force_N", 1e-6),
+    )
+    rows = [(hit["ball"], *(scale * hit[key] if key in hit else None for key, scale in scales)) for hit in hits]
+    told = (
+        "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the impulse "
+        "spread over Hertz's or the given contact time. Hertz: the force of an elastic hit, which steel and concrete "
+        "cannot reach, an upper bound for a ball that flies into something. Where falling debris pushes the ball "
+        "while it touches, the impulse is larger than the speed explains, and Hertz's force says nothing."
+    )
+    return [DataTable("hits_of_the_ball", "Hits of the ball", columns, rows), Paragraph(told)]
+
+
+def _contour_blocks(run: Run) -> list[Block]:
+    results, moments = run.results, []
+    if run.impact_s is not None:
+        moments.append((int(np.abs(results.times_s - run.impact_s).argmin()), "in the frame of the ball's impact"))
+    peaks = most_loaded(results.body_peak_sums_n, results.of_kind("shard"), 1)
+    if peaks:
+        moments.append((peaks[0].step, "in the frame of the largest load"))
+    told = (
+        "Equivalent stress of the shards {}, {:.3f} s, seen from the side, nearer shards in front: the mean over each "
+        "shard, in the sub-step of the frame in which its loads were largest."
+    )
+    return [
+        Picture(
+            partial(stress_elevation, results=results, step=step),
+            told.format(words, results.times_s[step]),
+            85.0,
+        )
+        for step, words in moments
+        if np.nanmax(results.von_mises_pa[step], initial=0.0) > 0.0
+    ]
+
+
+def _breaking_blocks(run: Run) -> list[Block]:
+    results = run.results
+    kinds = breaking_by_kind(results)
+    if not kinds:
+        return [Paragraph("There are no connections, or nothing is known of them.")]
+    columns = (
+        Column("connections", "kind"),
+        Column("there were", "count", "d"),
+        Column("broke", "broken", "d"),
+        Column("broke (%)", "broken_percent", ".1f"),
+        Column("first at (s)", "first_break_s", ".3f"),
+    )
+    rows: Sequence[tuple] = [
+        (
+            kind.kind,
+            kind.count,
+            int(kind.broken[-1]),
+            100.0 * float(kind.broken[-1]) / kind.count,
+            float(results.times_s[(kind.broken > 0).argmax()]) if kind.broken.any() else None,
+        )
+        for kind in kinds
+    ]
+    return [
+        Picture(
+            partial(breaking_history, times_s=results.times_s, kinds=kinds, impact_s=run.hit_s),
+            "Connections broken, by the members that they joined.",
+            100.0,
+        ),
+        DataTable("breaking", "Connections by kind", columns, rows),
+    ]

@@ -1,0 +1,1 @@
+"""Charges and force fields as Blender objects."""

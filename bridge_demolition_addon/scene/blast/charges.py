@@ -1,0 +1,121 @@
+"""Charges as empties that can be moved about, with what they are made of as properties."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+import trimesh
+from mathutils import Matrix
+
+from ...core.blast.charges import EXPLOSIVES, Charge
+from ...core.errors import BlastError
+from ..bodies import mesh_of
+from ..collections import collection_for, find_collection
+
+MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
+"""Properties of an empty that stands for a charge."""
+
+_ROLE = "Charges"
+_SYMBOL_SIZE_M = 0.3
+_SYMBOL_MARK = "bda_charge_symbol"
+_RED = (0.8, 0.05, 0.02, 1.0)
+
+_SHOWN = {
+    MASS: {"min": 0.0, "description": "Mass of the explosive itself, in kg; with 0 nothing goes off"},
+    EXPLOSIVE: {"description": "What it is made of: " + ", ".join(EXPLOSIVES)},
+    DELAY: {
+        "min": 0.0,
+        "precision": 3,
+        "subtype": "TIME_ABSOLUTE",
+        "description": "Time from the start of the blasting to its detonation, in s",
+    },
+    BURST: {"description": "Whether it detonates in the air or on the surface of the ground"},
+}
+"""Limits, units and tooltips of the properties, as Blender shows them."""
+
+
+def create_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
+    """One empty per charge, at its place."""
+    return [_create(collection_for(scene, _ROLE), charge) for charge in charges]
+
+
+def replace_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
+    """One empty per charge, at its place, instead of all charges that there were."""
+    bpy.data.batch_remove(charge_objects(scene))
+    return create_charges(scene, charges)
+
+
+def charge_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """All objects that stand for charges, in the order in which they came into the scene."""
+    return [each for each in scene.objects if is_charge(each)]
+
+
+def is_charge(found: bpy.types.Object) -> bool:
+    """Whether an object stands for a charge."""
+    return MASS in found
+
+
+def charge_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection that charges are put into, once there was one."""
+    return find_collection(scene, _ROLE)
+
+
+def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
+    """The charges as they are now.
+
+    Raises
+    ------
+    BlastError
+        A property of one was set to what no charge can have.
+    """
+    return tuple(_charge(each) for each in charge_objects(scene))
+
+
+def show_until(charge: bpy.types.Object, frame: int) -> None:
+    """Show a charge in pictures, as a red ball, of the frames before the one in which it has gone off."""
+    charge.instance_type, charge.instance_collection = "COLLECTION", _symbol()
+    charge.color = _RED  # which its instances have
+    for hidden, key_frame in ((True, frame), (False, 0)):
+        charge.hide_render = hidden
+        charge.keyframe_insert("hide_render", frame=key_frame)
+
+
+def _symbol() -> bpy.types.Collection:
+    """A red ball for all charges, as pictures show no empties; it is in no scene but by way of them."""
+    found = next((each for each in bpy.data.collections if each.get(_SYMBOL_MARK) and not each.library), None)
+    if found:
+        return found
+    solid = trimesh.creation.icosphere(subdivisions=2, radius=_SYMBOL_SIZE_M)
+    ball = bpy.data.objects.new("Charge symbol", mesh_of("Charge symbol", solid))
+    collection = bpy.data.collections.new("Charge symbol")
+    collection[_SYMBOL_MARK] = True
+    collection.objects.link(ball)
+    return collection
+
+
+def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Object:
+    empty = bpy.data.objects.new(charge.name, None)
+    empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
+    empty.show_in_front = True  # charges mostly sit where concrete hides them
+    empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
+    empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
+    empty[DELAY], empty[BURST] = charge.delay_s, charge.burst.value
+    for name, shown in _SHOWN.items():
+        empty.id_properties_ui(name).update(**shown)
+    collection.objects.link(empty)
+    return empty
+
+
+def _charge(empty: bpy.types.Object) -> Charge:
+    missing = [name for name in (EXPLOSIVE, DELAY, BURST) if name not in empty]
+    if missing:
+        raise BlastError(f"charge {empty.name!r} lacks the property {missing[0]}: delete it and add it anew")
+    return Charge(
+        name=empty.name,
+        place_m=tuple(empty.matrix_world.translation),
+        mass_kg=empty[MASS],
+        explosive=empty[EXPLOSIVE],
+        delay_s=empty[DELAY],
+        burst=empty[BURST],
+    )

@@ -1,0 +1,225 @@
+"""Force-field empties that push one body each.
+
+A field's loads change from frame to frame. They are written into Blender's evaluated copies of the empties, never into
+the empties themselves, whose strength stays 0: so nothing can be left switched on, not by an undo, a crash or a file
+saved in between, and the frames that Blender has cached stay valid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from ...core.errors import SimulationError
+from ..collections import collection_for, find_collection
+from .field_reach import Reaches
+
+_ROLE = "Force objects"
+_BODY = "bda_pushed_body"
+_SYMBOL_SIZE_M = 0.2
+_FLOAT32 = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """How many force objects were made anew, kept, and removed."""
+
+    made: int
+    kept: int
+    removed: int
+
+
+def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Object]) -> Built:
+    """Give each body one force object, and take away those of bodies that are no more.
+
+    Raises
+    ------
+    SimulationError
+        There is no body that could be pushed.
+    """
+    pushed = [body for body in bodies if body.rigid_body.type == "ACTIVE"]
+    if not pushed:
+        raise SimulationError("no active body to push: give the bridge's shards an active rigid body first")
+    existing = force_objects(scene)
+    wanted = set(pushed)
+    gone = [field for body, field in existing.items() if body not in wanted] + _orphans(scene)
+    bpy.data.batch_remove(gone)
+    missing = [body for body in pushed if body not in existing]
+    _make(scene, missing)
+    return Built(len(missing), len(pushed) - len(missing), len(gone))
+
+
+def force_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection that force objects are in, where there is one."""
+    return find_collection(scene, _ROLE)
+
+
+def force_objects(scene: bpy.types.Scene) -> dict[bpy.types.Object, bpy.types.Object]:
+    """The force object of each body that has one."""
+    return {each[_BODY]: each for each in _all(scene) if each[_BODY] is not None}
+
+
+def has_other_fields(scene: bpy.types.Scene) -> bool:
+    """Whether anything else in a scene may push bodies about: a field of the user's own, or particles, which may be."""
+    ours = set(_all(scene))
+    return any(
+        (each.field and each.field.type != "NONE" and each not in ours) or each.particle_systems
+        for each in scene.objects
+    )
+
+
+def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
+    """The force objects of bodies, in their order.
+
+    Raises
+    ------
+    SimulationError
+        A body has none.
+    """
+    existing = force_objects(scene)
+    lacking = [body.name for body in bodies if body not in existing]
+    if lacking:
+        more = f" and {len(lacking) - 1} more" if len(lacking) > 1 else ""
+        raise SimulationError(f"body {lacking[0]!r}{more} has no force object: build the force objects again")
+    return [existing[body] for body in bodies]
+
+
+class ForceFields:
+    """The force objects of n bodies, as they push in the coming frame.
+
+    Parameters
+    ----------
+    scene
+        Scene with the bodies.
+    bodies
+        The n bodies.
+
+    Raises
+    ------
+    SimulationError
+        A body has no force object.
+    """
+
+    def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]):
+        self._scene = scene
+        self._fields = fields_of(scene, bodies)
+        self._pushing: list[tuple[bpy.types.Object, float]] = []
+
+    def push(
+        self, rows: np.ndarray, forces_n: np.ndarray, directions: np.ndarray, centres: np.ndarray, reaches: Reaches
+    ) -> None:
+        """Let some fields push in the coming frame, and no other.
+
+        Parameters
+        ----------
+        rows
+            (k,) which of the bodies.
+        forces_n, directions, centres
+            (k,) forces in N, (k, 3) unit vectors along which, and (k, 3) where the bodies are, m.
+        reaches
+            Of the k fields.
+
+        Raises
+        ------
+        SimulationError
+            A field is not part of what Blender evaluates, and would push nothing.
+        """
+        self.rest()
+        # Blender pushes a rigid body with the strength over the frame rate, whatever its base or the time scale.
+        strengths = forces_n * self._scene.render.fps
+        columns = zip(rows.tolist(), strengths.tolist(), directions, centres, _rows_of(reaches), strict=True)
+        for row, strength, direction, centre, (radius, ahead, behind) in columns:
+            matrix = _along(direction, centre - behind * direction)
+            copies = self._evaluated(self._fields[row])
+            if not copies:
+                raise SimulationError(
+                    f"force object {self._fields[row].name!r} is switched off or excluded from the view layer: "
+                    "switch it on, or apply the blast directly"
+                )
+            for evaluated in copies:
+                evaluated.matrix_world = matrix
+                evaluated.field.radial_max, evaluated.field.distance_max = radius, behind + ahead
+                evaluated.field.strength = strength
+            self._pushing.append((self._fields[row], strength))
+
+    def still_push(self) -> bool:
+        """Whether the fields that were told to push did so to the end of the frame."""
+        return all(
+            abs(evaluated.field.strength - strength) <= _FLOAT32 * strength
+            for field, strength in self._pushing
+            for evaluated in self._evaluated(field)
+        )
+
+    def rest(self) -> None:
+        """Let none push."""
+        for field, _ in self._pushing:
+            for evaluated in self._evaluated(field):
+                evaluated.field.strength = 0.0
+        self._pushing = []
+
+    def _evaluated(self, field: bpy.types.Object) -> list[bpy.types.Object]:
+        graphs = [layer.depsgraph for layer in self._scene.view_layers if layer.depsgraph]
+        copies = [field.evaluated_get(graph) for graph in graphs]
+        return [each for each in copies if each.is_evaluated]  # what a graph leaves out it gives back as it is
+
+
+def _all(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    collection = find_collection(scene, _ROLE)
+    return [each for each in collection.objects if _BODY in each] if collection else []
+
+
+def _orphans(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Force objects without a body, or of a body that has another."""
+    first = set(force_objects(scene).values())
+    return [each for each in _all(scene) if each not in first]
+
+
+def _make(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
+    if not bodies:
+        return
+    collection = collection_for(scene, _ROLE)
+    template = _template(scene)
+    scene.collection.children.unlink(collection)  # linking to a shown collection brings the scene up to date each time
+    for body in bodies:
+        field = template.copy()
+        field.location = body.matrix_world.translation
+        field[_BODY] = body
+        collection.objects.link(field)
+    scene.collection.children.link(collection)
+    bpy.data.objects.remove(template)
+
+
+def _template(scene: bpy.types.Scene) -> bpy.types.Object:
+    """Empty whose field pushes along its own z, within a cylinder, and does not push yet."""
+    selected, active = list(bpy.context.selected_objects), bpy.context.view_layer.objects.active
+    with bpy.context.temp_override(scene=scene):
+        bpy.ops.object.effector_add(type="FORCE")  # the only way to an object with a field
+    template = bpy.context.view_layer.objects.active
+    template.select_set(False)  # its copies would be selected as well, to be moved or deleted by the next key
+    for each in selected:
+        each.select_set(True)
+    bpy.context.view_layer.objects.active = active
+    template.name = "Force object"
+    template.empty_display_type, template.empty_display_size = "SINGLE_ARROW", _SYMBOL_SIZE_M
+    field = template.field
+    field.shape = "PLANE"
+    field.falloff_type, field.z_direction = "TUBE", "POSITIVE"
+    field.falloff_power = field.radial_falloff = 0.0
+    field.use_max_distance = field.use_radial_max = True
+    field.strength = field.flow = field.noise = 0.0
+    return template
+
+
+def _rows_of(reaches: Reaches) -> list[list[float]]:
+    return np.column_stack((reaches.radii_m, reaches.ahead_m, reaches.behind_m)).tolist()
+
+
+def _along(direction: np.ndarray, place: np.ndarray) -> Matrix:
+    """Axes of an object at a place whose z lies along a direction."""
+    matrix = Vector(direction).to_track_quat("Z", "Y").to_matrix().to_4x4()
+    matrix.translation = place
+    return matrix

@@ -1,0 +1,1 @@
+"""Connections as Blender's rigid-body constraints."""

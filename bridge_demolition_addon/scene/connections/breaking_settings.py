@@ -1,0 +1,69 @@
+"""What breaks the connections of a scene besides Blender's own threshold, kept with the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass, fields
+
+import bpy
+import numpy as np
+
+from ...core.mechanics.strength import Ductility, Strength
+
+_STRENGTH = "bda_strength_pa"
+_WARM_UP = "bda_warm_up_s"
+_DAMPING = "bda_warm_up_damping"
+_DUCTILITY = "bda_ductility"
+
+_UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
+"""Strength of a connection that no stress breaks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Breaking:
+    """How connections break.
+
+    Attributes
+    ----------
+    strength
+        Of all connections that stand for an area, or of each; None where Blender's breaking threshold alone decides.
+    warm_up_s
+        Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
+    ductility
+        What is left of connections that their strength did not save; None where nothing is.
+    warm_up_damping
+        Share of their velocities that shards lose in one second of the warm-up, from 0 to 1.
+    """
+
+    strength: Strength | None = None
+    warm_up_s: float = 0.0
+    ductility: Ductility | None = None
+    warm_up_damping: float = 0.0
+
+
+def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
+    """Note it in the scene, which is saved with it."""
+    scene[_WARM_UP], scene[_DAMPING] = breaking.warm_up_s, breaking.warm_up_damping
+    for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility)):
+        if values:
+            scene[name] = astuple(values)
+        elif name in scene:
+            del scene[name]
+
+
+def set_strength(connection: bpy.types.Object, strength: Strength | None) -> None:
+    """Give a connection a strength of its own instead of the scene's; None lets no stress break it."""
+    connection[_STRENGTH] = astuple(strength or _UNBREAKABLE)
+
+
+def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:
+    """What was noted in a scene and with connections; in any other, Blender's threshold and no warm-up.
+
+    Where connections (m,) have strengths of their own, the strength has arrays (m,).
+    """
+    strength = Strength(*scene[_STRENGTH]) if _STRENGTH in scene else None
+    if any(_STRENGTH in each for each in connections):
+        other = astuple(strength or _UNBREAKABLE)
+        strength = Strength(*np.array([tuple(each.get(_STRENGTH, other)) for each in connections]).T)
+    ductility = Ductility(*scene[_DUCTILITY]) if _DUCTILITY in scene else None
+    return Breaking(strength, scene.get(_WARM_UP, 0.0), ductility, scene.get(_DAMPING, 0.0))

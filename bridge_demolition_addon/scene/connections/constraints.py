@@ -1,0 +1,100 @@
+"""Connections between bodies as Blender's rigid-body constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ...core.structure.connections import GROUND, Connections
+from ..bodies import bodies_of
+from ..naming import make_named, numbered_names
+
+_SYMBOL_SIZE_M = 0.1
+_AREA = "bda_area_m2"
+_NORMAL = "bda_normal"
+_IS_CABLE = "bda_is_cable"
+_SECOND_MOMENTS = "bda_second_moments_m4"
+
+
+def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """All objects that hold a constraint of the scene's rigid-body world, but for the cables of balls."""
+    constraints = scene.rigidbody_world.constraints
+    if not constraints:
+        return []
+    return [each for each in constraints.all_objects if each.rigid_body_constraint and not each.get(_IS_CABLE)]
+
+
+def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
+    """The two bodies that a connection holds together, as far as it has them."""
+    constraint = connection.rigid_body_constraint
+    return {constraint.object1, constraint.object2}
+
+
+def loose_connections(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Connections that lack a body of the scene's world, as those of a deleted shard do; Blender simulates none."""
+    bodies = set(bodies_of(scene))
+    return [each for each in connections_of(scene) if not ends_of(each) <= bodies]
+
+
+def mark_cable(constraint: bpy.types.Object) -> None:
+    """Note on a constraint that it is a cable, and no connection whose loads and breaking are followed."""
+    constraint[_IS_CABLE] = True
+
+
+def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sections that connections stand for: areas (m,), unit normals (m, 3), second moments of area (m, 2, 2); m, m⁴.
+
+    Normals point from first to second bodies. A connection that was not made here has no area, and the direction
+    between its bodies' origins for a normal; one with only an area is a square.
+    """
+    areas = np.array([connection.get(_AREA, 0.0) for connection in connections], float)
+    normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
+    square = np.eye(2).ravel() / 12.0
+    moments = [
+        connection.get(_SECOND_MOMENTS, area**2 * square) for connection, area in zip(connections, areas, strict=True)
+    ]
+    return areas, normals, np.array([list(each) for each in moments], float).reshape(-1, 2, 2)
+
+
+def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
+    if _NORMAL in connection:
+        return tuple(connection[_NORMAL])
+    constraint = connection.rigid_body_constraint
+    between = constraint.object2.matrix_world.translation - constraint.object1.matrix_world.translation
+    return tuple(between.normalized()) if between.length else (0.0, 0.0, 1.0)
+
+
+def create_connections(
+    collection: bpy.types.Collection,
+    connections: Connections,
+    shards: Sequence[bpy.types.Object],
+    ground: bpy.types.Object | None,
+    second_moments_m4: np.ndarray,
+) -> list[bpy.types.Object]:
+    """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical.
+
+    Parameters
+    ----------
+    collection
+        Where they go: that of a rigid-body world's constraints, best while `off_scene`.
+    connections, second_moments_m4
+        The m connections, and (m, 2, 2) second moments of their areas.
+    shards, ground
+        The bodies that they hold together.
+    """
+    # Sorted behind the shards, of which there are many, see `make_named`.
+    names = numbered_names("Shard connection", len(connections), bpy.data.objects)
+    objects = make_named(bpy.data.objects, names, lambda name, _: bpy.data.objects.new(name, None))
+    sections = (connections.areas.tolist(), connections.normals.tolist(), second_moments_m4.reshape(-1, 4).tolist())
+    columns = (connections.pairs.tolist(), connections.points.tolist(), *sections)
+    for connection, (first, second), point, area, normal, moments in zip(objects, *columns, strict=True):
+        connection.empty_display_size = _SYMBOL_SIZE_M
+        connection.location = point
+        connection[_AREA], connection[_NORMAL], connection[_SECOND_MOMENTS] = area, normal, moments
+        collection.objects.link(connection)
+        constraint = connection.rigid_body_constraint
+        constraint.object1 = shards[first]
+        constraint.object2 = ground if second == GROUND else shards[second]
+    return objects

@@ -1,0 +1,60 @@
+"""What kind of connection holds two bodies together, and what breaks it, as properties of Blender's constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ...core.mechanics.joint import MOTIONS, Joint
+from ...core.timing.time_step import TimeStep
+from .breaking_settings import set_strength
+from .breaking_thresholds import set_breaking_force
+
+
+def set_joints(
+    connections: Sequence[bpy.types.Object], joints: Sequence[Joint], joint_of_connection: np.ndarray, step: TimeStep
+) -> None:
+    """Give every connection its kind, and what breaks it.
+
+    Parameters
+    ----------
+    connections
+        The m connections.
+    joints
+        The kinds of connections that there are. The strength of the first is the scene's, see `keep_breaking`.
+    joint_of_connection
+        (m,) which of them each connection is.
+    step
+        How the scene cuts time.
+    """
+    for connection, row in zip(connections, joint_of_connection.tolist(), strict=True):
+        joint = joints[row]
+        _set_type(connection.rigid_body_constraint, joint)
+        if joint.breaking_force_n is not None:
+            set_breaking_force(connection, joint.breaking_force_n, step)
+        if joint.strength is not joints[0].strength:
+            set_strength(connection, joint.strength)
+
+
+def _set_type(constraint: bpy.types.RigidBodyConstraint, joint: Joint) -> None:
+    if joint.type not in ("GENERIC", "GENERIC_SPRING"):
+        constraint.type = joint.type
+        return
+    # Blender's own GENERIC holds nothing in the first sub-step and takes it out on the second, with 2.2 times the
+    # weight that hangs from it. A spring of the second kind, with no springs in it, has no such start. The springs of
+    # the first kind give way twice as far as their stiffness says.
+    constraint.type, constraint.spring_type = "GENERIC_SPRING", "SPRING2"
+    springs = joint.springs
+    along = ("lin", "", springs.stiffness_n_m, springs.damping_ns_m)
+    about = ("ang", "ang_", springs.turning_stiffness_nm_rad, springs.turning_damping_nms_rad)
+    for motion in MOTIONS:
+        verb, axis = motion.split()
+        limit, spring, stiffness, damping = along if verb == "move" else about
+        setattr(constraint, f"use_limit_{limit}_{axis}", motion not in joint.free)
+        setattr(constraint, f"limit_{limit}_{axis}_lower", 0.0)
+        setattr(constraint, f"limit_{limit}_{axis}_upper", 0.0)
+        setattr(constraint, f"use_spring_{spring}{axis}", motion in joint.free and stiffness > 0.0)
+        setattr(constraint, f"spring_stiffness_{spring}{axis}", stiffness)
+        setattr(constraint, f"spring_damping_{spring}{axis}", damping)

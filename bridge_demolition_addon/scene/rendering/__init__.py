@@ -1,0 +1,1 @@
+"""Camera, pictures, films and body colours."""

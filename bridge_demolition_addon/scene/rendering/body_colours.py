@@ -1,0 +1,177 @@
+"""Colours of contours on bodies, and the look of a scene that shows them as they are.
+
+Colours are written into Blender's evaluated copies of the bodies, never into the bodies themselves: that costs a tenth
+of what it does to change the objects, as Blender has nothing to bring up to date; it works in a render, which has
+copies of its own; and the bodies' own colours and materials are always there, whatever ends the showing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from ...core.display.colour_scale import linear
+
+_ROLE = "bda_role"
+_MATERIAL = "Contours"
+_LOOK = "bda_look_before"
+_HAD_MATERIAL, _MATERIAL_BEFORE = "bda_contours", "bda_material_before"
+
+_PLAIN = {
+    "view_settings": {"view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0},
+    "display.shading": {
+        "light": "FLAT",
+        "color_type": "OBJECT",
+        "show_shadows": False,
+        "show_cavity": False,
+        "show_object_outline": True,
+    },
+}
+"""Settings with which a colour comes out of a render as it went in."""
+
+
+def paint(
+    scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, rows: Mapping[str, int], screen_colours: np.ndarray
+) -> None:
+    """Give bodies a colour, until Blender evaluates them anew or they are painted again.
+
+    Parameters
+    ----------
+    scene, depsgraph
+        Scene with a rigid-body world, and whose evaluated copies are painted.
+    rows
+        Which colour, by the bodies' names; a body that is missing keeps its own.
+    screen_colours
+        (n, 3) colours as a screen has them; a body with a nan keeps its own.
+    """
+    painted = np.column_stack((linear(screen_colours), np.ones(len(screen_colours))))
+    wanted = [tuple(colour) if known else None for colour, known in zip(painted.tolist(), _known(painted), strict=True)]
+    for body in _bodies(scene):
+        row = rows.get(body.name)
+        colour = body.color if row is None else wanted[row]
+        if colour is not None:
+            _set_colour(body, depsgraph, colour)
+
+
+def place(
+    scene: bpy.types.Scene,
+    depsgraph: bpy.types.Depsgraph,
+    rows: Mapping[str, int],
+    places_m: np.ndarray,
+    rotations: np.ndarray,
+) -> None:
+    """Show bodies where they were recorded, until Blender evaluates them anew, as `paint` shows colours.
+
+    Blender forgets the frames it played with any change to a setting of the scene, be it one of the sidebar.
+
+    Parameters
+    ----------
+    scene, depsgraph
+        Scene with a rigid-body world, and whose evaluated copies are placed.
+    rows
+        Which place, by the names of the bodies that are to be placed.
+    places_m, rotations
+        (n, 3) and (n, 3, 3) of their origins.
+    """
+    for body in _bodies(scene):
+        row = rows.get(body.name)
+        if row is None:
+            continue
+        evaluated = body.evaluated_get(depsgraph)
+        if evaluated.is_evaluated:
+            rotation = Matrix(rotations[row]).to_quaternion()
+            evaluated.matrix_world = Matrix.LocRotScale(Vector(places_m[row]), rotation, body.scale)
+
+
+def unpaint(scene: bpy.types.Scene) -> None:
+    """Show the bodies' own colours again."""
+    for layer in scene.view_layers:
+        if layer.depsgraph:
+            for body in _bodies(scene):
+                _set_colour(body, layer.depsgraph, body.color)
+
+
+def show_colours(scene: bpy.types.Scene) -> None:
+    """Let every renderer show the objects' colours as they are: one material for all, no light, no tone mapping.
+
+    What there was is kept in the scene itself, so that it goes wherever the scene goes: through undo and into files.
+    """
+    if _LOOK not in scene:
+        scene[_LOOK] = {
+            f"{path}.{name}": getattr(scene.path_resolve(path), name)
+            for path, settings in _PLAIN.items()
+            for name in settings
+        }
+    for path, settings in _PLAIN.items():
+        for name, value in settings.items():
+            setattr(scene.path_resolve(path), name, value)
+    for layer in scene.view_layers:
+        if _HAD_MATERIAL not in layer:
+            layer[_HAD_MATERIAL] = True
+            if layer.material_override:
+                layer[_MATERIAL_BEFORE] = layer.material_override
+        layer.material_override = _material()
+
+
+def show_materials(scene: bpy.types.Scene) -> None:
+    """Put back what `show_colours` has replaced; nothing where it has not."""
+    if _LOOK in scene:
+        for name, value in scene[_LOOK].to_dict().items():
+            path, _, last = name.rpartition(".")
+            setattr(scene.path_resolve(path), last, value)
+        del scene[_LOOK]
+    for layer in scene.view_layers:
+        if _HAD_MATERIAL in layer:
+            layer.material_override = layer.get(_MATERIAL_BEFORE)
+            for name in (_HAD_MATERIAL, _MATERIAL_BEFORE):
+                if name in layer:
+                    del layer[name]
+    ours = _find_material()
+    if ours and not ours.users:
+        bpy.data.materials.remove(ours)
+
+
+def colours_are_shown(scene: bpy.types.Scene) -> bool:
+    """Whether `show_colours` was the last of the two."""
+    return _LOOK in scene
+
+
+def _bodies(scene: bpy.types.Scene) -> bpy.types.bpy_prop_collection | tuple:
+    world = scene.rigidbody_world
+    return world.collection.all_objects if world and world.collection else ()
+
+
+def _set_colour(body: bpy.types.Object, depsgraph: bpy.types.Depsgraph, colour: tuple[float, ...]) -> None:
+    evaluated = body.evaluated_get(depsgraph)
+    if evaluated.is_evaluated:  # otherwise it is hidden, and this is the body itself
+        evaluated.color = colour
+
+
+def _known(painted: np.ndarray) -> list[bool]:
+    return np.isfinite(painted).all(axis=1).tolist()
+
+
+def _find_material() -> bpy.types.Material | None:
+    return next((each for each in bpy.data.materials if each.get(_ROLE) == _MATERIAL), None)
+
+
+def _material() -> bpy.types.Material:
+    """Material that shines in the colour of its object."""
+    material = _find_material()
+    if material:
+        return material
+    material = bpy.data.materials.new(_MATERIAL)
+    material[_ROLE] = _MATERIAL
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    info, shine, output = (
+        tree.nodes.new(kind) for kind in ("ShaderNodeObjectInfo", "ShaderNodeEmission", "ShaderNodeOutputMaterial")
+    )
+    tree.links.new(info.outputs["Color"], shine.inputs["Color"])
+    tree.links.new(shine.outputs["Emission"], output.inputs["Surface"])
+    return material

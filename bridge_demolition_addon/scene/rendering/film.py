@@ -1,0 +1,151 @@
+"""Pictures of frames that were played already, and films made of pictures, by Blender's own renderer and encoder."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ...core.errors import OutputError
+from ..bodies import bodies_of
+from .camera import aim_camera
+
+_RENDER_SETTINGS = ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage", "dither_intensity")
+_SMOOTHING = "FXAA"
+"""Of Workbench; its default takes three times as long, and flat colours need no better."""
+
+_IMAGE_SETTINGS = ("media_type", "file_format", "color_mode", "color_depth")
+
+
+@dataclass(frozen=True, slots=True)
+class PictureSettings:
+    """What pictures are like.
+
+    Attributes
+    ----------
+    width_px, height_px
+        Size; even, as films cannot have odd ones.
+    engine
+        Blender's name of the renderer: BLENDER_WORKBENCH is by far the fastest.
+
+    Raises
+    ------
+    OutputError
+        A size is not a positive even number.
+    """
+
+    width_px: int = 1280
+    height_px: int = 720
+    engine: str = "BLENDER_WORKBENCH"
+
+    def __post_init__(self) -> None:
+        for size in (self.width_px, self.height_px):
+            if size < 2 or size % 2:
+                raise OutputError(f"film: its size has to be even, as 1280 × 720 is, not {size} pixels")
+
+
+@contextmanager
+def set_up_for_pictures(scene: bpy.types.Scene, settings: PictureSettings) -> Iterator[None]:
+    """Render PNG pictures of a size; afterwards the scene is at its frame, and as it was.
+
+    A scene without a camera has one, beside the road, for the time being.
+    """
+    render, frame, camera = scene.render, scene.frame_current, scene.camera
+    kept = [(render, name, getattr(render, name)) for name in _RENDER_SETTINGS]
+    image = render.image_settings
+    kept += [(image, name, getattr(image, name)) for name in _IMAGE_SETTINGS if hasattr(image, name)]
+    kept.append((scene.display, "render_aa", scene.display.render_aa))
+    ours = None if camera else aim_camera(scene, _corners(scene), settings.width_px / settings.height_px)
+    try:
+        render.engine = settings.engine
+        render.resolution_x, render.resolution_y = settings.width_px, settings.height_px
+        render.resolution_percentage = 100
+        render.dither_intensity = 0.0  # noise that hides steps of colour, and those of contours are meant
+        scene.display.render_aa = _SMOOTHING
+        if hasattr(image, "media_type"):  # from Blender 5.0 on it decides which formats there are
+            image.media_type = "IMAGE"
+        image.file_format, image.color_mode, image.color_depth = "PNG", "RGB", "8"
+        yield
+    finally:
+        for owner, name, value in kept:
+            setattr(owner, name, value)
+        if ours:
+            data = ours.data
+            bpy.data.objects.remove(ours)
+            bpy.data.cameras.remove(data)
+        scene.frame_set(frame)
+
+
+def encode_film(pictures: Sequence[Path], film: Path, pictures_per_second: float) -> None:
+    """Make an MP4 film (H.264) of pictures, all of one size and in one folder; one may come several times.
+
+    Raises
+    ------
+    OutputError
+        There are no pictures, or Blender was built without its encoder, or wrote no film.
+    """
+    if not pictures:
+        raise OutputError(f"{film}: there are no pictures to make a film of")
+    if not bpy.app.build_options.codec_ffmpeg:
+        raise OutputError(f"{film}: this Blender was built without FFmpeg and makes no films; render pictures instead")
+    width_px, height_px = _size(pictures[0])
+    scene = bpy.data.scenes.new("Film")
+    try:
+        _set_up_encoder(scene.render, film, pictures_per_second)
+        scene.render.resolution_x, scene.render.resolution_y = width_px, height_px
+        scene.render.resolution_percentage = 100
+        scene.view_settings.view_transform = "Standard"
+        _lay_out(scene, pictures)
+        bpy.ops.render.render(animation=True, scene=scene.name)
+    finally:
+        bpy.data.scenes.remove(scene)
+    if not film.exists():
+        raise OutputError(f"{film}: Blender wrote no film; see what it says on its console")
+
+
+def _set_up_encoder(render: bpy.types.RenderSettings, film: Path, pictures_per_second: float) -> None:
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "VIDEO"
+    render.image_settings.file_format = "FFMPEG"
+    render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
+    render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "HIGH", "GOOD"
+    render.fps = max(1, math.ceil(pictures_per_second - 1e-9))
+    render.fps_base = render.fps / pictures_per_second
+    render.filepath, render.use_file_extension = str(film), False
+    render.use_sequencer, render.use_compositing = True, False
+
+
+def _lay_out(scene: bpy.types.Scene, pictures: Sequence[Path]) -> None:
+    """One strip of all pictures, from the first frame on; it grows with each."""
+    editor = scene.sequence_editor_create()
+    strips = editor.strips if hasattr(editor, "strips") else editor.sequences  # their name before Blender 4.4
+    strip = strips.new_image("Pictures", str(pictures[0]), 1, 1)
+    for picture in pictures[1:]:
+        strip.elements.append(picture.name)
+    scene.frame_start, scene.frame_end = 1, len(pictures)
+
+
+def _size(picture: Path) -> tuple[int, int]:
+    image = bpy.data.images.load(str(picture))
+    try:
+        return tuple(image.size)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _corners(scene: bpy.types.Scene) -> np.ndarray:
+    """Corners (c, 3) of the boxes around all bodies that move, m."""
+    corners = [
+        body.matrix_world @ type(body.location)(corner)
+        for body in bodies_of(scene)
+        if body.rigid_body.type == "ACTIVE"
+        for corner in body.bound_box
+    ]
+    if not corners:
+        raise OutputError(f"scene {scene.name!r} has neither a camera nor a body that moves: add a camera")
+    return np.array(corners)

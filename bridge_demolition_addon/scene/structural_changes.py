@@ -1,0 +1,63 @@
+"""Changes to the structure in the course of time, kept with the scene, and the members that they name."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+
+import bpy
+import numpy as np
+
+from ..core.scenario import Change, Removal, SawCut, Weakening
+from ..core.sequence.events import Event, Structure, schedule
+from .bodies import Kind, kind_of, member_of
+from .inventory import Inventory
+
+_CHANGES = "bda_changes"
+_TABLES = {each.table: each for each in (Removal, SawCut, Weakening)}
+
+
+def keep_changes(scene: bpy.types.Scene, changes: Sequence[Change]) -> None:
+    """Note changes in the scene, which is saved with it; a recording of the scene makes them happen."""
+    if changes:
+        scene[_CHANGES] = json.dumps([{"table": each.table, **asdict(each)} for each in changes])
+    elif _CHANGES in scene:
+        del scene[_CHANGES]
+
+
+def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
+    """Changes that were noted in a scene.
+
+    Raises
+    ------
+    ScenarioError
+        A note holds a value that no change can have.
+    """
+    notes = json.loads(scene.get(_CHANGES, "[]"))
+    return tuple(
+        _TABLES[note["table"]](**{name: value for name, value in note.items() if name != "table"}) for note in notes
+    )
+
+
+def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory) -> tuple[Event, ...]:
+    """The scene's changes as events on its bodies and connections, in order of time.
+
+    Raises
+    ------
+    ScenarioError
+        A change concerns nothing in the scene.
+    """
+    changes = changes_of(scene)
+    if not changes:
+        return ()
+    members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
+    structure = Structure(
+        centres_m=np.array([body.matrix_world.translation for body in bodies]).reshape(-1, 3),
+        member_names=members[:, 0],
+        member_kinds=members[:, 1],
+        is_shard=np.array([kind_of(body) is Kind.SHARD and body.rigid_body.type == "ACTIVE" for body in bodies], bool),
+        pairs=inventory.pairs,
+        points_m=inventory.points_m,
+    )
+    return schedule(changes, structure)

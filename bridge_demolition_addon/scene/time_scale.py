@@ -1,0 +1,68 @@
+"""A scene's time scale through its frames: animated, where frames differ in length."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core.timing.time_step import TimeStep
+from ..core.timing.timeline import Timeline
+from .world import START_FRAME, scene_time_step
+
+_PATH = "rigidbody_world.time_scale"
+
+
+def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: int) -> None:
+    """Give every frame its length, from the first to which time leads; frames that do not differ need no animation."""
+    world = scene.rigidbody_world
+    normal = world.time_scale
+    scales = timeline.frame_lengths_s * scene.render.fps / scene.render.fps_base
+    if np.allclose(scales, normal, rtol=1e-9):
+        return
+    changes = np.flatnonzero(np.diff(scales, prepend=np.nan))
+    # No time passes before the first step, in the frame in which Blender makes its world.
+    keys = {START_FRAME: normal, START_FRAME + 1: 0.0} | {first_frame + row: scales[row] for row in changes.tolist()}
+    for frame, scale in keys.items():
+        world.time_scale = scale
+        scene.keyframe_insert(_PATH, frame=frame)
+    for point in _curve(scene).keyframe_points:
+        point.interpolation = "CONSTANT"
+    world.time_scale = normal
+
+
+def stop_animation(scene: bpy.types.Scene) -> None:
+    """Give all frames the same length again."""
+    curve = _curve(scene)
+    if curve:
+        for frame in [point.co.x for point in curve.keyframe_points]:
+            scene.keyframe_delete(_PATH, frame=frame)
+
+
+def time_is_animated(scene: bpy.types.Scene) -> bool:
+    """Whether frames may differ in length."""
+    return _curve(scene) is not None
+
+
+def time_step_at(scene: bpy.types.Scene, frame: int) -> TimeStep:
+    """How the scene cuts the time that leads to a frame."""
+    step = scene_time_step(scene)
+    curve = _curve(scene)
+    if curve is None:
+        return step
+    scale = curve.evaluate(frame)
+    return TimeStep(step.frames_per_second, step.frames_per_second_base, step.substeps_per_frame, scale)
+
+
+def _curve(scene: bpy.types.Scene) -> bpy.types.FCurve | None:
+    """The curve of the scene's time scale, if that is animated."""
+    animation = scene.animation_data
+    if animation is None or animation.action is None:
+        return None
+    return next((curve for curve in _curves(animation) if curve.data_path == _PATH), None)
+
+
+def _curves(animation: bpy.types.AnimData) -> list[bpy.types.FCurve]:
+    if not hasattr(animation, "action_slot"):  # Blender before 4.4
+        return list(animation.action.fcurves)
+    bags = [bag for layer in animation.action.layers for strip in layer.strips for bag in strip.channelbags]
+    return [curve for bag in bags if bag.slot == animation.action_slot for curve in bag.fcurves]

@@ -1,0 +1,1 @@
+"""Ball, cable and jackhammer, with their keyframes."""

@@ -1,0 +1,127 @@
+"""The wrecking ball: let go, lifted by animation, let go again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+import trimesh
+from mathutils import Matrix
+
+from ...core.scenario import Ball
+from ...core.sequence.lifting import lift_path
+from ...core.timing.timeline import Timeline
+from ..bodies import Kind, create_body, mesh_of, set_surface
+from ..world import START_FRAME
+from .keyframes import key_values
+
+_LIFTS = "bda_lifts"
+_BALL_SEGMENTS = (32, 64)
+_STEEL = (0.08, 0.09, 0.10, 1.0)
+
+
+def create_ball(
+    world: bpy.types.RigidBodyWorld, settings: Ball, deck_top_m: float, start_frame: int, release_frame: int
+) -> bpy.types.Object:
+    """Wrecking ball above its target: held by animation up to its release, then free.
+
+    In the release frame it is free for the first time, so that it falls in the step towards that frame.
+    """
+    radius = settings.diameter_m / 2.0
+    solid = trimesh.creation.uv_sphere(radius, count=_BALL_SEGMENTS)
+    ball = create_body(world, mesh_of("Wrecking ball", solid), Kind.BALL, "SPHERE")
+    ball.location = settings.start_m(deck_top_m)
+    ball.color = _STEEL
+    rigid = ball.rigid_body
+    rigid.mass = settings.mass_kg
+    set_surface(rigid, settings.friction, settings.restitution, 0.0)
+    # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
+    rigid.linear_damping, rigid.angular_damping = 0.0, settings.angular_damping
+    rigid.use_deactivation = False
+    for frame, held in ((start_frame, True), (release_frame, False)):
+        rigid.kinematic = held
+        ball.keyframe_insert("rigid_body.kinematic", frame=frame)
+    rigid.kinematic = True
+    # Blender animates a body before it simulates it only where its place is animated; otherwise it may let go of the
+    # ball a frame late, as its threads happen to run.
+    ball.keyframe_insert("location", frame=start_frame)
+    return ball
+
+
+def create_hits(
+    ball: bpy.types.Object, settings: Ball, surfaces_m: Sequence[float], first_step_frame: int, timeline: Timeline
+) -> None:
+    """Animate all hits of a ball but the first, which `create_ball` has animated.
+
+    Parameters
+    ----------
+    surfaces_m
+        Heights of what lies under the targets of all drops, the first one's too.
+    first_step_frame
+        First frame that time leads to.
+    timeline
+        The frames from there on.
+    """
+    if not settings.hits:
+        return
+    radius = settings.diameter_m / 2.0
+    held = tuple(ball.location)
+    release_frame = first_step_frame + timeline.frames_until(settings.release_time_s)
+    key_values(ball, "location", [START_FRAME, release_frame], [held, held])
+    key_values(ball, "rotation_euler", [START_FRAME], [ball.rotation_euler], constant=True)
+    lying = (*settings.target_m, surfaces_m[0] + radius)
+    for hit, surface in zip(settings.hits, surfaces_m[1:], strict=True):
+        end = (*hit.target_m, surface + hit.drop_height_m + radius)
+        first, last = (timeline.frames_until(time_s) for time_s in (hit.lift_time_s, hit.lift_end_s))
+        times = np.concatenate(([0.0], np.cumsum(timeline.frame_lengths_s[first:last])))
+        plan_lift(ball, first_step_frame + first, times / times[-1], lying, end)
+        release_frame = first_step_frame + timeline.frames_until(hit.release_time_s)
+        frames = [first_step_frame + first, release_frame]
+        key_values(ball, "rigid_body.kinematic", frames, [1.0, 0.0], constant=True)
+        key_values(ball, "location", [release_frame], [end])
+        lying = (*hit.target_m, surface + radius)
+
+
+def plan_lift(
+    ball: bpy.types.Object,
+    lift_frame: int,
+    shares: np.ndarray,
+    start_m: tuple[float, float, float],
+    end_m: tuple[float, float, float],
+) -> None:
+    """Have a ball lifted to a place, led by animation for the first time in the step towards a frame.
+
+    Where the ball will lie by then is not known: the way begins at a guess until `lift_from` says better.
+
+    Parameters
+    ----------
+    shares
+        (k,) share of the lift's time that has passed in the frame before `lift_frame` and in those that follow it,
+        from 0 to 1.
+    """
+    lifts = json.loads(ball.get(_LIFTS, "[]"))
+    ball[_LIFTS] = json.dumps([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
+    key_values(ball, "location", _frames(lift_frame, shares), lift_path(start_m, end_m, shares))
+
+
+def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
+    """First frame, shares of time (k,) and end (3,) of every lift that was planned."""
+    return [(frame, np.array(shares), np.array(end)) for frame, shares, end in json.loads(ball.get(_LIFTS, "[]"))]
+
+
+def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:
+    """Have a lift begin where the ball is in the frame before it, as its matrix says.
+
+    A body that animation begins to lead is taken by Blender to its animated place within one frame, at whatever speed
+    that needs, and turned as well.
+    """
+    place, rotation, _ = matrix.decompose()
+    frames = _frames(lift_frame, shares)
+    key_values(ball, "location", frames, lift_path(np.array(place), end_m, shares))
+    key_values(ball, "rotation_euler", frames[:1], [rotation.to_euler(ball.rotation_mode)], constant=True)
+
+
+def _frames(lift_frame: int, shares: np.ndarray) -> np.ndarray:
+    return lift_frame - 1 + np.arange(len(shares))

@@ -1,0 +1,51 @@
+"""Showing and hiding the empties that stand for connections and forces."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import bpy
+
+from .blast.force_fields import force_collection
+
+
+def symbols_are_hidden(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
+    """Whether all that there are of these empties are hidden; False where there are none."""
+    if not has_symbols(layer, scene):
+        return False
+    of_collections = (each.hide_viewport for each in _collections(layer, scene))
+    return all(of_collections) and all(each.hide_get(view_layer=layer) for each in _loose(layer, scene))
+
+
+def has_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
+    """Whether there are such empties."""
+    return any(True for _ in itertools.chain(_collections(layer, scene), _loose(layer, scene)))
+
+
+def hide_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene, hidden: bool) -> None:
+    """Hide the connections and force objects from view, or show them; they work all the same."""
+    for each in _collections(layer, scene):
+        each.hide_viewport = hidden
+    for each in _loose(layer, scene):
+        each.hide_set(hidden, view_layer=layer)
+
+
+def _collections(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator[bpy.types.LayerCollection]:
+    world = scene.rigidbody_world
+    wanted = [each for each in (world and world.constraints, force_collection(scene)) if each]
+    return (each for each in _all(layer.layer_collection) if each.collection in wanted)
+
+
+def _loose(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator[bpy.types.Object]:
+    """Empties of connections whose own collection is not in the scene: Blender's own buttons leave it out."""
+    constraints = scene.rigidbody_world and scene.rigidbody_world.constraints
+    if not constraints or any(each.collection == constraints for each in _all(layer.layer_collection)):
+        return
+    yield from (each for each in constraints.objects if each.type == "EMPTY" and each.name in layer.objects)
+
+
+def _all(layer_collection: bpy.types.LayerCollection) -> Iterator[bpy.types.LayerCollection]:
+    yield layer_collection
+    for child in layer_collection.children:
+        yield from _all(child)

@@ -1,0 +1,1 @@
+"""What keeps Blender from crashing."""

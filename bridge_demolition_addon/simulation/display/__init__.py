@@ -1,0 +1,1 @@
+"""Contours that follow the timeline, and films."""

@@ -1,0 +1,216 @@
+"""Contours as pictures and as a film, in a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ...core.display.contours import ContourSeries, ContourSettings
+from ...core.display.film_frames import film_rows
+from ...core.errors import ContourError, OutputError
+from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
+from ...scene.rendering.film import PictureSettings, encode_film, set_up_for_pictures
+from . import contours
+
+_PICTURE = "contours_{:06d}.png"
+
+
+class FilmKind(StrEnum):
+    """What is made."""
+
+    PICTURES = "pictures"
+    FILM = "film"
+
+
+@dataclass(frozen=True, slots=True)
+class FilmSettings:
+    """A film, or the pictures of one.
+
+    Attributes
+    ----------
+    kind
+        Whether pictures are made into a film and then removed.
+    pictures_per_second
+        Of the film.
+    slowness
+        Seconds of film for a second of the simulation: 1 is real time.
+    slow_motion
+        Seconds of a second film, made of the same pictures, for a second of the simulation; no such film for None.
+    first_frame, last_frame
+        Which frames; all that were recorded for None.
+    legend
+        Whether pictures have a colour bar.
+    picture
+        Size and renderer.
+    """
+
+    kind: FilmKind = FilmKind.FILM
+    pictures_per_second: float = 25.0
+    slowness: float = 1.0
+    slow_motion: float | None = None
+    first_frame: int | None = None
+    last_frame: int | None = None
+    legend: bool = True
+    picture: PictureSettings = field(default_factory=PictureSettings)
+
+    @property
+    def rendered(self) -> PictureSettings:
+        """The part of a picture that is rendered: all but the colour bar."""
+        if not self.legend:
+            return self.picture
+        from ...charts.contour_legend import legend_width  # matplotlib, which switching the add-on on need not wait for
+
+        return replace(self.picture, width_px=self.picture.width_px - legend_width(self.picture.height_px))
+
+
+def render_film(
+    scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
+) -> list[Path]:
+    """Render all of it at once: the files written."""
+    rendering = FilmRendering(scene, folder, contour_settings, film_settings)
+    for _ in rendering.pictures():
+        pass
+    return rendering.finish()
+
+
+class FilmRendering:
+    """A film in the making, picture by picture.
+
+    Parameters
+    ----------
+    scene
+        Scene whose frames were played already; Blender plays them back from its cache.
+    folder
+        Where to; made if new.
+    contour_settings, film_settings
+        What the pictures show, and how they are put together.
+
+    Raises
+    ------
+    ContourError
+        Nothing was recorded.
+    OutputError
+        The folder cannot be written; or there are no frames.
+    """
+
+    def __init__(
+        self, scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
+    ):
+        series = contours.series_of(scene)
+        if series is None:
+            raise ContourError(f"scene {scene.name!r} has no recording to show: record one, or load its results")
+        self._scene, self._folder = scene, folder
+        self._contours, self._film = contour_settings, film_settings
+        self._films = _frames_of_films(series, film_settings)
+        self._frames = sorted(set().union(*self._films.values()))
+        self._series = series
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            pictures = folder.glob("contours_[0-9][0-9][0-9][0-9][0-9][0-9].png")
+            for old in (*pictures, folder / FILM_FILE, folder / SLOW_FILM_FILE):
+                old.unlink(missing_ok=True)
+        except OSError as error:
+            raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
+
+    @property
+    def picture_count(self) -> int:
+        """How many pictures are to be rendered."""
+        return len(self._frames)
+
+    def pictures(self) -> Iterator[Path]:
+        """Render one picture after the other; the scene is put back when the last is done, or none is wanted any more.
+
+        Raises
+        ------
+        OutputError
+            A picture could not be rendered.
+        """
+        from ...charts.contour_legend import add_legend  # matplotlib, which switching the add-on on need not wait for
+
+        scene = self._scene
+        with (
+            _contours_shown(scene, self._contours),
+            _simulation_at_rest(scene),
+            set_up_for_pictures(scene, self._film.rendered),
+        ):
+            for frame in self._frames:
+                path = self._path(frame)
+                scene.frame_set(frame)
+                scene.render.filepath = str(path)
+                bpy.ops.render.render(write_still=True, scene=scene.name)
+                if error := contours.error_of(scene):
+                    raise error
+                if not path.exists():
+                    raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
+                if self._film.legend:
+                    shown = self._series.show(self._series.row_at(frame), self._contours)
+                    add_legend(path, self._contours, shown)
+                yield path
+
+    def finish(self) -> list[Path]:
+        """Make the films, if any are wanted, and tell which files were written."""
+        pictures = [self._path(frame) for frame in self._frames]
+        if self._film.kind == FilmKind.PICTURES:
+            return pictures
+        for film, frames in self._films.items():
+            encode_film([self._path(frame) for frame in frames], self._folder / film, self._film.pictures_per_second)
+        for picture in pictures:
+            picture.unlink()
+        return [self._folder / film for film in self._films]
+
+    def _path(self, frame: int) -> Path:
+        return self._folder.resolve() / _PICTURE.format(frame)
+
+
+def _frames_of_films(series: ContourSeries, settings: FilmSettings) -> dict[str, list[int]]:
+    """The frame of every picture of each film; those of a series of pictures count as a film's."""
+    frames, times = np.array(series.frames), series.times_s
+    first = frames[0] if settings.first_frame is None else settings.first_frame
+    last = frames[-1] if settings.last_frame is None else settings.last_frame
+    wanted = np.flatnonzero((frames >= first) & (frames <= last))
+    if not len(wanted):
+        raise OutputError(f"film: of the recorded frames {frames[0]} to {frames[-1]} none is within {first} to {last}")
+    if settings.kind == FilmKind.PICTURES:
+        return {FILM_FILE: frames[wanted].tolist()}
+    films = {FILM_FILE: settings.slowness}
+    if settings.slow_motion is not None:
+        films[SLOW_FILM_FILE] = settings.slow_motion
+    rows = {film: film_rows(times[wanted], settings.pictures_per_second, slow) for film, slow in films.items()}
+    return {film: frames[wanted][each].tolist() for film, each in rows.items()}
+
+
+@contextmanager
+def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
+    """Have the bodies placed as they were recorded where the played frames are forgotten.
+
+    A render would simulate them anew, beside the simulation of the 3D view in one and the same world, and crash.
+    """
+    world = scene.rigidbody_world
+    if not contours.is_placed(scene) or not world.enabled:
+        yield
+        return
+    world.enabled = False
+    try:
+        yield
+    finally:
+        world.enabled = True
+
+
+@contextmanager
+def _contours_shown(scene: bpy.types.Scene, settings: ContourSettings) -> Iterator[None]:
+    """Colour the bodies by these settings, and afterwards as before."""
+    before = contours.settings_of(scene)
+    contours.show(scene, settings)
+    try:
+        yield
+    finally:
+        if before is None:
+            contours.hide(scene)
+        else:
+            contours.show(scene, before)

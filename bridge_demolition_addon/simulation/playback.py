@@ -1,0 +1,111 @@
+"""Playing a scene's timeline once, from its start frame to its last, and recording it, a frame at a time."""
+
+from __future__ import annotations
+
+import time
+
+import bpy
+
+from ..core.errors import SimulationError
+from ..core.sequence.rest import Rest
+from .recording import handlers
+from .recording.recorder import Recording
+
+
+class Playing:
+    """One pass through a scene's timeline.
+
+    Parameters
+    ----------
+    recording
+        What follows it, not started yet.
+    last_frame
+        Frame to end with; the last one of the scene, or of its simulation where that ends before, unless given.
+    stop_at
+        The rest at which to end before that.
+
+    Attributes
+    ----------
+    recording
+        As given.
+    total
+        Frames to play, without the start frame.
+    done
+        Frames played.
+    seconds, longest_frame_s
+        Wall time of all of them, and of the one that took longest.
+
+    Raises
+    ------
+    SimulationError
+        The scene has no frames to play.
+    """
+
+    def __init__(self, recording: Recording, last_frame: int | None = None, stop_at: Rest | None = None):
+        self.recording = recording
+        self._rest = stop_at
+        self._scene = recording.scene
+        cache = self._scene.rigidbody_world.point_cache
+        last = min(self._scene.frame_end, cache.frame_end) if last_frame is None else last_frame
+        if last <= cache.frame_start + 1:
+            raise SimulationError(
+                f"nothing to play: the last frame, {last}, is not after frame {cache.frame_start + 1}"
+            )
+        self.total = last - cache.frame_start
+        self.done = 0
+        self.longest_frame_s = 0.0
+        self.seconds = 0.0
+        handlers.start(recording)
+        start_over(self._scene)
+
+    @property
+    def finished(self) -> bool:
+        """Whether the last frame has been played, or everything rests."""
+        return self.done == self.total or self.at_rest
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether everything rests as it was waited for."""
+        return self._rest is not None and self._rest.is_reached
+
+    @property
+    def remaining_s(self) -> float:
+        """Wall time that the frames still to come take, if they take as long as those so far."""
+        return self.seconds / self.done * (self.total - self.done) if self.done else 0.0
+
+    def step(self) -> None:
+        """Play the next frame.
+
+        Raises
+        ------
+        DemolitionError
+            The recording has ended, for the reason that is raised.
+        """
+        self._see_whether_recorded()
+        began = time.perf_counter()
+        self._scene.frame_set(self._scene.rigidbody_world.point_cache.frame_start + self.done + 1)
+        took = time.perf_counter() - began
+        self.seconds += took
+        self.longest_frame_s = max(self.longest_frame_s, took)
+        self.done += 1
+        self._see_whether_recorded()
+        if self._rest and self.recording.recorded_frames:
+            self._rest.observe(*self.recording.motion())
+
+    def end(self) -> None:
+        """End the recording, and leave it at its logs."""
+        if handlers.current() is self.recording:
+            handlers.stop()
+
+    def _see_whether_recorded(self) -> None:
+        if self.recording.error:
+            raise self.recording.error
+        if handlers.current() is not self.recording:
+            raise SimulationError("the recording was ended by someone else")
+
+
+def start_over(scene: bpy.types.Scene) -> None:
+    """Go to the start frame, and have frames that were played before simulated anew instead of played back."""
+    world = scene.rigidbody_world
+    world.substeps_per_frame = world.substeps_per_frame  # Blender takes any setting for a change
+    scene.frame_set(world.point_cache.frame_start)

@@ -1,0 +1,1 @@
+"""From Bullet to logs and arrays."""

@@ -1,0 +1,250 @@
+"""Blast loads in a simulation: every body gets the exact integral of its pressure in every step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ...bullet.field_filter import heed_fields, ignore_fields
+from ...bullet.world import BulletWorld
+from ...core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
+from ...core.errors import LayoutError, SimulationError
+from ...core.geometry.hulls import convex_hulls
+from ...scene.blast.charges import charges_of
+from ...scene.blast.field_reach import Reaches, isolating_reaches
+from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
+from ...scene.blast.settings import Apply, explosion_of
+from ...scene.bodies import hull_points
+from ...scene.inventory import Inventory
+
+
+class FieldBlast:
+    """Loads through force-field empties: in each frame one steady force per body, whose impulse is exact.
+
+    Parameters
+    ----------
+    scene, bodies
+        The scene and those n of its bodies that can be pushed.
+    explosion
+        The charges and these bodies.
+
+    Attributes
+    ----------
+    left
+        How often a body has left the reach of its field within a frame, and lost a part of its load.
+    """
+
+    def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], explosion: Explosion):
+        self.left = 0
+        self._scene = scene
+        self._fields = ForceFields(scene, bodies)
+        self._explosion = explosion
+        self._loads = no_loads()
+        self._pushed = np.zeros(0, int)
+        self._directions = np.zeros((0, 3))
+        self._reaches: Reaches | None = None
+        self._centres: np.ndarray | None = None
+
+    def before_frame(self, start_s: float, frame_s: float, centres: np.ndarray, rotations: np.ndarray) -> None:
+        """Aim and load the fields for a frame that begins at a time and is that long.
+
+        Raises
+        ------
+        LayoutError
+            Blender cannot be told to heed the fields again.
+        """
+        self._fields.rest()
+        heed_fields(self._scene)
+        self._loads, self._pushed = no_loads(), np.zeros(0, int)
+        if frame_s > 0.0 and not self._explosion.is_quiet(start_s, start_s + frame_s):
+            self._loads = self._explosion.loads(start_s, start_s + frame_s, centres, rotations)
+        if len(self._loads):
+            self._push(frame_s, centres)
+        else:
+            self._spare_blender_the_fields()
+
+    def _push(self, frame_s: float, centres: np.ndarray) -> None:
+        impulses = self._loads.vectors(len(centres))
+        sizes = np.linalg.norm(impulses, axis=1)
+        self._pushed = np.flatnonzero(sizes > 0.0)
+        self._directions = impulses[self._pushed] / sizes[self._pushed, None]
+        self._reaches = isolating_reaches(self._pushed, self._directions, centres)
+        self._centres = centres
+        forces = sizes[self._pushed] / frame_s
+        self._fields.push(self._pushed, forces, self._directions, centres[self._pushed], self._reaches)
+
+    def after_frame(self, centres: np.ndarray) -> StepLoads:
+        """The loads of the frame, after which the bodies are at centres (n, 3).
+
+        Raises
+        ------
+        SimulationError
+            Somebody meddled with the fields while they pushed.
+        """
+        if not self._fields.still_push():
+            raise SimulationError(
+                "a force object was changed while it pushed: leave them alone while the blast goes on"
+            )
+        if len(self._pushed):
+            moves = (centres - self._centres)[self._pushed]
+            self.left += int((~self._reaches.hold(moves, self._directions)).sum())
+        return self._loads
+
+    def rest(self) -> None:
+        """Push nothing any more."""
+        self._fields.rest()
+        with suppress(LayoutError):  # until Blender makes its evaluated copy anew
+            heed_fields(self._scene)
+
+    def _spare_blender_the_fields(self) -> None:
+        """Let it pass over them in the coming frame, where all are ours."""
+        if not has_other_fields(self._scene):
+            with suppress(LayoutError):  # it only takes longer
+                ignore_fields(self._scene)
+
+
+class DirectBlast:
+    """Loads as forces in Bullet, anew in every sub-step.
+
+    Parameters
+    ----------
+    world
+        The bound world.
+    rows
+        (n,) which of its bodies can be pushed.
+    explosion
+        The charges and these bodies.
+    """
+
+    left = 0
+
+    def __init__(self, world: BulletWorld, rows: np.ndarray, explosion: Explosion):
+        self._world, self._rows, self._explosion = world, rows, explosion
+        self._elapsed_s = 0.0
+        self._loads: list[StepLoads] = []
+
+    def begin_frame(self, start_s: float) -> None:
+        """Set the time at which the coming frame begins."""
+        self._elapsed_s = start_s
+
+    def before_substep(self, substep_s: float) -> None:
+        """Push the bodies in the coming sub-step."""
+        start_s, self._elapsed_s = self._elapsed_s, self._elapsed_s + substep_s
+        if self._explosion.is_quiet(start_s, self._elapsed_s):
+            return
+        centres, rotations = self._world.places()
+        loads = self._explosion.loads(start_s, self._elapsed_s, centres[self._rows], rotations[self._rows])
+        if not len(loads):
+            return
+        pushed = np.flatnonzero(np.bincount(loads.bodies, minlength=len(self._rows)))
+        forces = loads.vectors(len(self._rows))[pushed] / substep_s
+        self._world.wake(self._rows[pushed])
+        self._world.add_forces(self._rows[pushed], forces)
+        self._loads.append(loads)
+
+    def after_frame(self) -> StepLoads:
+        """The loads of the frame."""
+        loads, self._loads = sum_of_loads(self._loads), []
+        return loads
+
+
+class Blast:
+    """The explosion of a scene while it is simulated.
+
+    Parameters
+    ----------
+    scene
+        The scene, with charges that go off.
+    bodies, inventory
+        All its bodies.
+    world
+        The bound world; None where Bullet's memory is not to be trusted.
+
+    Raises
+    ------
+    BlastError, GeometryError, SimulationError
+        A charge is not as it should be, a body has no volume, or loads cannot be applied in the way that is asked for.
+    """
+
+    def __init__(
+        self,
+        scene: bpy.types.Scene,
+        bodies: Sequence[bpy.types.Object],
+        inventory: Inventory,
+        world: BulletWorld | None,
+    ):
+        settings = explosion_of(scene)
+        self.charges = charges_of(scene)
+        self._rows = np.flatnonzero(inventory.masses_kg > 0.0)
+        self._count = len(bodies)
+        pushed = [bodies[row] for row in self._rows]
+        explosion = Explosion(
+            self.charges,
+            convex_hulls([hull_points(body) for body in pushed], [body.name for body in pushed]),
+            settings.options,
+        )
+        self._fields: FieldBlast | None = None
+        self._direct: DirectBlast | None = None
+        if settings.apply is Apply.FIELDS:
+            self._fields = FieldBlast(scene, pushed, explosion)
+        elif world is not None:
+            self._direct = DirectBlast(world, self._rows, explosion)
+        else:
+            raise SimulationError(
+                "blast cannot be applied directly, as Bullet's memory is not as expected: apply it by force fields"
+            )
+
+    @property
+    def left(self) -> int:
+        """How often a body has left the reach of its field within a frame, and lost a part of its load."""
+        return self._fields.left if self._fields else 0
+
+    def before_frame(self, start_s: float, frame_s: float, places: np.ndarray, rotations: np.ndarray) -> None:
+        """Prepare a frame that begins at a time, is that long, and finds all bodies at these places."""
+        if self._fields:
+            self._fields.before_frame(start_s, frame_s, places[self._rows], rotations[self._rows])
+        else:
+            self._direct.begin_frame(start_s)
+
+    def before_substep(self, substep_s: float) -> None:
+        """Prepare a sub-step of a length in s."""
+        if self._direct:
+            self._direct.before_substep(substep_s)
+
+    def after_frame(self, places: np.ndarray) -> tuple[StepLoads, np.ndarray]:
+        """Loads of the frame, after which all bodies are at these places, and the impulse (n, 3) on each, N·s."""
+        loads = self._fields.after_frame(places[self._rows]) if self._fields else self._direct.after_frame()
+        loads = replace(loads, bodies=self._rows[loads.bodies])
+        return loads, loads.vectors(self._count)
+
+    def rest(self) -> None:
+        """Push nothing any more."""
+        if self._fields:
+            self._fields.rest()
+
+
+def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
+    """See whether charges and force objects of a scene are as they should be, before anything is simulated.
+
+    Raises
+    ------
+    BlastError, SimulationError
+        A charge is not as it should be, or an active body lacks the force object that is to push it.
+    """
+    if goes_off(scene) and explosion_of(scene).apply is Apply.FIELDS:
+        fields_of(scene, [body for body in bodies if body.rigid_body.type == "ACTIVE"])
+
+
+def goes_off(scene: bpy.types.Scene) -> bool:
+    """Whether anything explodes in a scene: the explosion is asked for, and some charge has a mass.
+
+    Raises
+    ------
+    BlastError
+        A charge is not as it should be.
+    """
+    return explosion_of(scene).explosion and any(charge.mass_kg > 0.0 for charge in charges_of(scene))

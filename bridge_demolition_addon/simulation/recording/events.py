@@ -1,0 +1,78 @@
+"""Removals, saw cuts and weakenings, put into Bullet's world when their time has come."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...bullet.world import BulletWorld
+from ...core.sequence.events import Event
+
+_ROUNDING = 1e-3
+"""Part of a sub-step by which adding up sub-steps may be off."""
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """An event that has happened: when, and which bodies (b,) and connections (c,) it found still there."""
+
+    time_s: float
+    kind: str
+    bodies: np.ndarray
+    connections: np.ndarray
+
+
+class Events:
+    """All events of a world, each before the first sub-step that begins at its time or later.
+
+    Parameters
+    ----------
+    world
+        The bound world.
+    pairs
+        (m, 2) bodies of the connections.
+    events
+        In order of time.
+
+    Attributes
+    ----------
+    remaining_strength
+        (m,) part of its strength that each connection has left.
+    happened
+        What has happened so far.
+    """
+
+    def __init__(self, world: BulletWorld, pairs: np.ndarray, events: Sequence[Event]):
+        self.remaining_strength = np.ones(len(world.connections))
+        self.happened: list[Happening] = []
+        self._world, self._pairs = world, pairs
+        self._coming = list(events)
+        self._begins_s = 0.0
+
+    def before_substep(self, elapsed_s: float, substep_s: float) -> None:
+        """Let happen what is due before a sub-step of a length in s; simulated time is known once a frame at least."""
+        self._begins_s = max(self._begins_s, elapsed_s)
+        while self._coming and self._coming[0].time_s <= self._begins_s + _ROUNDING * substep_s:
+            self._apply(self._coming.pop(0))
+        self._begins_s += substep_s
+
+    def _apply(self, event: Event) -> None:
+        connections = event.connections[self._world.intact()[event.connections]]
+        # What broke before may still hold by its reinforcement, which is weakened or cut with the rest.
+        self.remaining_strength[event.connections] *= event.factor
+        if event.factor > 0.0:
+            self._world.weaken_connections(connections, event.factor)
+        else:
+            self._world.break_connections(connections)
+        bodies = event.bodies[~self._world.removed[event.bodies]]
+        self._world.wake(self._concerned(bodies, connections))
+        self._world.remove_bodies(bodies)
+        self.happened.append(Happening(self._begins_s, event.kind, bodies, connections))
+
+    def _concerned(self, bodies: np.ndarray, connections: np.ndarray) -> np.ndarray:
+        """Bodies whose support may be gone: all, where some are taken away on which others may lie unconnected."""
+        if len(bodies):
+            return np.arange(len(self._world.bodies))
+        return np.unique(self._pairs[connections])

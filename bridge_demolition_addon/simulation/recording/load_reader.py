@@ -1,0 +1,68 @@
+"""Loads of one sub-step, read from Bullet as it left them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...bullet.world import BulletWorld
+from ...core.mechanics import forces
+from ...core.mechanics.frame_loads import SubstepLoads
+from ...core.mechanics.section_forces import axes_in_bodies, carried_axes, section_axes
+
+
+class LoadReader:
+    """Reads the loads of a world that was bound just now, before any time passes.
+
+    Parameters
+    ----------
+    world
+        The bound world.
+    pairs
+        (m, 2) bodies of the connections.
+    can_move
+        (n,) whether each body can move at all.
+    points_m, normals
+        (m, 3) where the connections are now, and unit vectors from their first to their second bodies.
+    """
+
+    def __init__(
+        self, world: BulletWorld, pairs: np.ndarray, can_move: np.ndarray, points_m: np.ndarray, normals: np.ndarray
+    ):
+        self._world = world
+        # Of a hinge on a fixed body, Bullet leaves out a part of the torque on that body: loads are read on the other.
+        side = np.where(can_move[pairs[:, 0]], 0, 1)
+        rows = np.arange(len(pairs))
+        self._feedback_rows = 2 * rows + np.where(world.first_is_body_a(), side, 1 - side)
+        self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
+        self._bodies = pairs[rows, side]
+        centres, rotations = world.places()
+        bodies = self._bodies
+        self._local_points = np.einsum("mji,mj->mi", rotations[bodies], points_m - centres[bodies])
+        self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
+
+    def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """Axes (r, 3, 3) of some connections (r,), turned with their bodies."""
+        return carried_axes(self._local_axes[rows], self._bodies[rows], rotations)
+
+    def normals(self, rotations: np.ndarray) -> np.ndarray:
+        """Unit normals (m, 3) of the connections, turned with their bodies."""
+        return np.einsum("mij,mj->mi", rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
+
+    def read(self, substep_s: float) -> SubstepLoads:
+        """Loads of the last sub-step, whose length is given in s."""
+        centres, rotations = self._world.places()
+        force, torque = self._world.joint_feedback(self._feedback_rows)
+        points = forces.carried_points(self._local_points, self._bodies, centres, rotations)
+        moment = forces.moments_at(points, force, torque, centres[self._bodies])
+        contacts = self._world.contacts()
+        return SubstepLoads(
+            connection_forces_n=self._sign * force,
+            connection_moments_nm=self._sign * moment,
+            connection_points_m=points,
+            signed_2019_n=self._world.applied_impulses() / substep_s,
+            contact_pairs=contacts.pairs,
+            contact_forces_n=contacts.impulses_ns / substep_s,
+            contact_points_m=contacts.places_m,
+            centres_m=centres,
+            rotations=rotations,
+        )

@@ -1,0 +1,404 @@
+"""Recording a simulation while Blender's timeline runs: loads, motion and breaking, frame by frame."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...bullet.time_control import release_time, set_time_scale, time_is_held
+from ...bullet.world import BulletWorld, WorldState
+from ...core.errors import LayoutError, SimulationError
+from ...core.results.arrays import Results
+from ...scene.bodies import bodies_of
+from ...scene.connections.breaking_settings import breaking_of
+from ...scene.connections.breaking_thresholds import rewrite_thresholds
+from ...scene.connections.constraints import connections_of, loose_connections
+from ...scene.inventory import Inventory, take_inventory
+from ...scene.structural_changes import changes_of, events_of
+from ...scene.time_scale import time_is_animated, time_step_at
+from ...scene.tools.ball import lift_from, lifts_of
+from ..crash_guards.standstill import stand_still
+from ..crash_guards.world_objects import WorldObjects
+from .blast import Blast, check_blast, goes_off
+from .events import Events
+from .logs import LogFiles, Logs
+from .motion_reader import READING as READING_OF_MOTION
+from .motion_reader import MomentumReader
+from .substeps import SubstepRecorder, no_ball_history
+
+
+def check_recordable(scene: bpy.types.Scene) -> None:
+    """See whether a scene can be recorded as it is.
+
+    Raises
+    ------
+    SimulationError
+        It has no rigid-body world or one in which nothing moves, other units than metres, or connections without a
+        body.
+    """
+    if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
+        raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+    if not scene.rigidbody_world.enabled:
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
+    if scene.rigidbody_world.time_scale == 0.0:
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} has a speed of 0: set it to 1 first")
+    unit_scale = scene.unit_settings.scale_length
+    if unit_scale != 1.0:
+        raise SimulationError(
+            f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
+            "set the unit scale to 1 and build the scene in metres"
+        )
+    if loose := loose_connections(scene):
+        more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""
+        raise SimulationError(
+            f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
+        )
+
+
+class Recording:
+    """What happens in one scene from its start frame on; a simulation that starts anew is recorded anew.
+
+    Parameters
+    ----------
+    scene
+        Scene with a rigid-body world.
+    folder
+        Folder for the logs, which has to exist once it is recorded.
+    every_substep
+        Whether loads are taken down after every sub-step, or only after the last one of each frame.
+    log_files
+        Logs that do not go to the folder; all do by default.
+
+    Raises
+    ------
+    BlastError, SimulationError
+        The scene, a charge or the force objects are not as they should be.
+
+    Attributes
+    ----------
+    scene, folder
+        As given.
+    scene_uid
+        What tells the scene from others as long as Blender runs, also when it is gone.
+    error
+        Why the recording ended before its time, or None.
+    distrust
+        Why Bullet's memory is not read, or None. Then only the motion of bodies is recorded, and the net force on each
+        from its change of momentum.
+    """
+
+    def __init__(
+        self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True, log_files: LogFiles | None = None
+    ):
+        check_recordable(scene)
+        rewrite_thresholds(scene)  # the step may have changed since the scene was built
+        self.scene = scene
+        self.scene_uid = scene.session_uid
+        self.folder = folder
+        self.error: Exception | None = None
+        self.distrust: LayoutError | None = None
+        self._every_substep = every_substep
+        self._log_files = log_files or LogFiles()
+        self._seconds = 0.0
+        self._bodies, self._connections = bodies_of(scene), connections_of(scene)
+        check_blast(scene, self._bodies)
+        self._lifted = [body for body in self._bodies if lifts_of(body)]
+        self._objects = WorldObjects(scene)
+        self._world = BulletWorld(scene, self._bodies, self._connections)
+        self._inventory: Inventory | None = None
+        self._substeps: SubstepRecorder | None = None
+        self._events: Events | None = None
+        self._momentum: MomentumReader | None = None
+        self._logs: Logs | None = None
+        self._blast: Blast | None = None
+        self._frames: list[dict[str, np.ndarray | float]] = []
+
+    def before_frame(self) -> None:
+        """Set how much time passes in the coming frame, and what explodes in it.
+
+        Raises
+        ------
+        SimulationError
+            As for `before_update`; or time is animated and cannot be set.
+        """
+        self.before_update()
+        self._set_time()
+        self._prepare_blast()
+
+    def before_update(self) -> None:
+        """See whether all that is recorded is still there, while Bullet still has what was removed just now.
+
+        Raises
+        ------
+        SimulationError
+            Bodies or connections were added or removed, or the whole world was.
+        """
+        world = self.scene.rigidbody_world
+        if world is None or world.collection is None:
+            raise SimulationError("the rigid-body world was removed while it was recorded")
+        if not self._objects.are_the_same():
+            if self._objects.any_is_gone():
+                stand_still(self.scene, self._world)
+            changes = self._objects.changes()
+            raise SimulationError(f"rigid-body world changed, {changes}: go to the start frame and record anew")
+
+    def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Take down the frame.
+
+        Raises
+        ------
+        LayoutError, SimulationError
+            The world cannot be read any more.
+        """
+        began = time.perf_counter()
+        try:
+            if not self.distrust:
+                self._follow_bullet(depsgraph)
+            if self.distrust:
+                self._follow_motion(depsgraph)
+            self._lift_balls(depsgraph)
+        finally:
+            self._seconds += time.perf_counter() - began
+
+    def fail(self, error: Exception) -> None:
+        """End the recording for a reason."""
+        self.error = error
+        self.close()
+
+    def close(self) -> None:
+        """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
+        if self._blast:
+            self._blast.rest()
+        self._world.release()
+        if self._logs:
+            self._logs.close(self._frames[-1] if self._frames else None)
+            self._logs = None
+
+    @property
+    def frames(self) -> Sequence[Mapping[str, np.ndarray | float]]:
+        """What was recorded of each frame so far; begun anew with every simulation."""
+        return self._frames
+
+    @property
+    def inventory(self) -> Inventory | None:
+        """The bodies and connections; None before the first frame."""
+        return self._inventory
+
+    @property
+    def recorded_frames(self) -> int:
+        """Frames recorded so far."""
+        return len(self._frames)
+
+    def has_frame(self, frame: int) -> bool:
+        """Whether a frame was recorded, or lies before those that are."""
+        return frame <= (self._frames[-1]["frames"] if self._frames else self._start_frame)
+
+    def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+        """Time in s of the last frame, and places (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""
+        return tuple(self._frames[-1][name] for name in ("times_s", "places_m", "rotations", "asleep"))
+
+    @property
+    def broken(self) -> int:
+        """Connections broken by now."""
+        return int((~self._frames[-1]["intact"]).sum()) if self._frames else 0
+
+    @property
+    def lost_blast_loads(self) -> int:
+        """How often a body has left the reach of its force field within a frame, and lost a part of its load."""
+        return self._blast.left if self._blast else 0
+
+    @property
+    def happenings(self) -> list[dict[str, Any]]:
+        """Removals, saw cuts and weakenings so far, ready for JSON: shards taken away, connections concerned."""
+        names = self._inventory.body_names if self._inventory else ()
+        return [
+            {
+                "time_s": each.time_s,
+                "kind": each.kind,
+                "shards": [str(names[body]) for body in each.bodies],
+                "connections": len(each.connections),
+            }
+            for each in (self._events.happened if self._events else ())
+        ]
+
+    @property
+    def seconds(self) -> float:
+        """Wall time that recording has taken so far."""
+        # Read once a frame, the sub-step is read within the frame's own time.
+        return self._seconds + (self.reading_seconds if self._every_substep else 0.0)
+
+    @property
+    def reading_seconds(self) -> float:
+        """The part of it that went into reading loads from Bullet and gathering them."""
+        return self._substeps.seconds if self._substeps else 0.0
+
+    def results(self) -> Results:
+        """Everything recorded.
+
+        Raises
+        ------
+        SimulationError
+            Nothing was recorded.
+        """
+        if not self._frames:
+            raise SimulationError("nothing was recorded: play the timeline from its start frame")
+        series = {name: np.array([frame[name] for frame in self._frames]) for name in self._frames[0]}
+        inventory = {name: getattr(self._inventory, name) for name in Inventory.__dataclass_fields__}
+        balls = self._substeps.ball_history() if self._substeps else no_ball_history()
+        return Results(reading=np.array(self._reading), **inventory, **series, **balls)
+
+    @property
+    def _start_frame(self) -> int:
+        return self.scene.rigidbody_world.point_cache.frame_start
+
+    @property
+    def _reading(self) -> str:
+        if self.distrust:
+            return READING_OF_MOTION
+        return "every sub-step" if self._every_substep else "last sub-step of each frame"
+
+    def _follow_bullet(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Record the frame from Bullet's memory, or note why that cannot be trusted."""
+        try:
+            if self.scene.frame_current > self._start_frame:
+                self._record(self._world.bind(depsgraph), time_is_held(depsgraph))
+        except LayoutError as error:
+            if self._frames:  # it was trusted, and parts of it are recorded
+                raise
+            self.distrust = error
+        finally:
+            release_time(self.scene)
+
+    def _follow_motion(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Record the frame from where the bodies are."""
+        frame = self.scene.frame_current
+        if frame == self._start_frame or not self._momentum:
+            self._begin_with_motion()
+        elif frame != self._frames[-1]["frames"] + 1:
+            return  # not a step forward in time, but a frame that was recorded already or will be
+        self._keep(self._momentum.read_frame(depsgraph))
+
+    def _begin_with_motion(self) -> None:
+        if changes_of(self.scene):
+            raise SimulationError(
+                "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
+                f"({self.distrust}): take them out of the scenario, or run it in another Blender"
+            )
+        self._frames.clear()
+        self._inventory = take_inventory(self._bodies, ())
+        self._momentum = MomentumReader(self.scene, self._bodies, self._inventory)
+        self._begin_blast(None)
+
+    def _begin_blast(self, world: BulletWorld | None) -> None:
+        """Set up what explodes, and the logs of it and of everything else."""
+        if self._blast:
+            self._blast.rest()
+        self._blast = Blast(self.scene, self._bodies, self._inventory, world) if goes_off(self.scene) else None
+        charges = [charge.name for charge in self._blast.charges] if self._blast else ()
+        self._logs = Logs(self.folder, self._inventory, charges, self._log_files)
+
+    def _set_time(self) -> None:
+        """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""
+        coming, animated = self.scene.frame_current, time_is_animated(self.scene)
+        world_is_made = coming == self._start_frame + 1 and not self.distrust
+        if not world_is_made and not animated:
+            return
+        try:
+            set_time_scale(self.scene, 0.0 if world_is_made else time_step_at(self.scene, coming).time_scale)
+        except LayoutError as error:
+            if animated:
+                raise SimulationError(f"an animated time scale cannot be followed, as {error}: remove it") from error
+            self.distrust = error
+
+    def _prepare_blast(self) -> None:
+        """Load the coming frame, if it follows on the last one recorded."""
+        if not self._blast:
+            return
+        last, coming = self._frames[-1] if self._frames else None, self.scene.frame_current
+        if last is None or coming != last["frames"] + 1:
+            self._blast.rest()
+            return
+        frame_s = time_step_at(self.scene, coming).frame_s
+        self._blast.before_frame(last["times_s"], frame_s, last["places_m"], last["rotations"])
+
+    def _lift_balls(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Have a ball that is lifted from the next frame on go up from where it is."""
+        for ball in self._lifted:
+            for lift_frame, shares, end in lifts_of(ball):
+                if self.scene.frame_current == lift_frame - 1:
+                    lift_from(ball, lift_frame, shares, end, ball.evaluated_get(depsgraph).matrix_world)
+
+    def _record(self, state: WorldState, held: bool) -> None:
+        if state is WorldState.ABSENT:
+            return
+        substep = self._world.take_substep()
+        if state is WorldState.NEW:
+            self._begin()
+            # The solver of a new world names a default step before it has taken any.
+            self._record_first_frame(0.0 if held else substep)
+        elif substep > 0.0:
+            self._record_frame(substep)
+        # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
+
+    def _begin(self) -> None:
+        """Note what stays the same throughout, and start anew."""
+        self._frames.clear()
+        self._inventory = take_inventory(self._bodies, self._connections)
+        self._begin_blast(self._world)
+        coming = events_of(self.scene, self._bodies, self._inventory)
+        self._events = Events(self._world, self._inventory.pairs, coming)
+        normal_substep_s = time_step_at(self.scene, self._start_frame).substep_s
+        breaking = breaking_of(self.scene, self._connections)
+        self._substeps = SubstepRecorder(
+            self._world, self._inventory, breaking, self._events, self._blast, normal_substep_s
+        )
+        after = self._substeps.after_substep if self._every_substep else None
+        self._world.call_around_substeps(self._substeps.before_substep, after)
+
+    def _record_first_frame(self, substep_s: float) -> None:
+        """A frame in which no time passed, or else one whose loads were not asked for in time."""
+        self._substeps.skip(substep_s * self.scene.rigidbody_world.substeps_per_frame)
+        loads, _ = self._substeps.finish_frame()
+        if substep_s > 0.0:
+            loads = {name: np.full_like(values, np.nan) for name, values in loads.items()}
+        self._keep_frame(substep_s, loads)
+
+    def _record_frame(self, substep_s: float) -> None:
+        if not self._every_substep:
+            self._substeps.after_substep(substep_s)
+            self._substeps.skip(substep_s * (self.scene.rigidbody_world.substeps_per_frame - 1))
+        if self._substeps.error:
+            raise self._substeps.error
+        loads, breaks = self._substeps.finish_frame()
+        self._keep_frame(substep_s, loads)
+        self._logs.write_breaks(self.scene.frame_current, breaks)
+
+    def _keep_frame(self, substep_s: float, loads: dict[str, np.ndarray]) -> None:
+        places, rotations = self._world.places()
+        frame = {
+            "frames": self.scene.frame_current,
+            "times_s": self._substeps.elapsed_s,
+            "substep_s": substep_s,
+            "places_m": places,
+            "rotations": rotations,
+            "velocities_m_s": self._world.velocities(),
+            "spins_rad_s": self._world.spins(),
+            "asleep": self._world.asleep(),
+            "intact": self._world.intact(),
+            **loads,
+        }
+        self._keep(frame)
+
+    def _keep(self, frame: dict[str, np.ndarray | float]) -> None:
+        frame["blast_impulses_ns"] = np.zeros_like(frame["places_m"])
+        frame_s = frame["times_s"] - (self._frames[-1]["times_s"] if self._frames else 0.0)
+        self._frames.append(frame)
+        self._logs.write_frame(frame)
+        if self._blast and frame_s > 0.0:
+            loads, frame["blast_impulses_ns"] = self._blast.after_frame(frame["places_m"])
+            self._logs.write_blast(frame, loads, frame_s)

@@ -1,0 +1,75 @@
+"""The second stage of connections that broke by their strength: ductile ties, put into Bullet as forces."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...bullet.world import BulletWorld
+from ...core.mechanics.reinforcement import effective_masses, parting, tie_forces
+from ...core.mechanics.strength import Ductility
+from ...scene.inventory import Inventory
+
+
+class Ties:
+    """All ductile ties of a world.
+
+    Parameters
+    ----------
+    world
+        The bound world.
+    inventory
+        Its bodies and connections.
+    ductility
+        What is left of a connection, and how far that stretches.
+    tension_pa
+        Strength of the intact connections in tension.
+    remaining_strength
+        (m,) part of it that each connection has left, kept up to date by whoever gives it.
+    """
+
+    def __init__(
+        self,
+        world: BulletWorld,
+        inventory: Inventory,
+        ductility: Ductility,
+        tension_pa: float,
+        remaining_strength: np.ndarray,
+    ):
+        self._world, self._inventory, self._ductility = world, inventory, ductility
+        self._remaining_strength = remaining_strength
+        self._yield_n = ductility.strength_share * tension_pa * inventory.areas_m2
+        self._rows = np.zeros(0, int)
+        self._anchors = np.zeros((0, 2, 3))
+        self._held_n = np.zeros(0)
+        self.forces_n = np.zeros((len(inventory.pairs), 3))
+
+    def add(self, rows: np.ndarray, points_m: np.ndarray) -> None:
+        """Let connections (r,), broken just now at points (r, 3), go on as ties."""
+        places, rotations = self._world.places()
+        pairs = self._inventory.pairs[rows]
+        levers = points_m[:, None] - places[pairs]
+        anchors = np.einsum("rsji,rsj->rsi", rotations[pairs], levers)
+        self._rows = np.concatenate((self._rows, rows))
+        self._anchors = np.concatenate((self._anchors, anchors))
+        self._held_n = np.concatenate((self._held_n, np.zeros(len(rows))))
+
+    def before_substep(self, substep_s: float) -> None:
+        """Let go what has stretched too far, and pull with the rest in the coming sub-step."""
+        self.forces_n[:] = 0.0
+        if not len(self._rows):
+            return
+        pairs = self._inventory.pairs[self._rows]
+        places, rotations = self._world.places()
+        levers = np.einsum("tsij,tsj->tsi", rotations[pairs], self._anchors)
+        points = places[pairs] + levers
+        speeds = self._world.velocities()[pairs] + np.cross(self._world.spins()[pairs], levers)
+        distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
+        masses = effective_masses(self._inventory.masses_kg, pairs)
+        yield_n = (self._remaining_strength * self._yield_n)[self._rows]
+        tensions, self._held_n = tie_forces(self._held_n, rates, masses, yield_n, substep_s)
+        holds = distances <= self._ductility.elongation_m
+        pulls = np.where(holds, tensions, 0.0)[:, None] * directions
+        self.forces_n[self._rows] = pulls
+        both = np.stack((pulls, -pulls), axis=1).reshape(-1, 3)
+        self._world.add_forces(pairs.ravel(), both, np.cross(levers.reshape(-1, 3), both))
+        self._rows, self._anchors, self._held_n = self._rows[holds], self._anchors[holds], self._held_n[holds]

@@ -1,0 +1,234 @@
+"""What is taken down after every sub-step: loads, breaking, and the hits of the ball."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...bullet.world import BulletWorld
+from ...core.mechanics.frame_loads import FrameLoads, SubstepLoads
+from ...core.mechanics.section_cuts import Cuts, worst_around
+from ...core.mechanics.section_forces import SectionForces, section_forces
+from ...core.mechanics.strength import rectangular_sections, strength_at, utilisation
+from ...scene.connections.breaking_settings import Breaking
+from ...scene.inventory import Inventory
+from .blast import Blast
+from .events import Events
+from .load_reader import LoadReader
+from .reinforcement import Ties
+
+_SINGLE_PRECISION = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Breaks:
+    """Connections (b,) that broke in one sub-step, its time, and the loads they broke under, in their own axes."""
+
+    time_s: float
+    connections: np.ndarray
+    loads: SectionForces
+
+
+class SubstepRecorder:
+    """Follows a world sub-step by sub-step and gathers each frame.
+
+    Parameters
+    ----------
+    world
+        The bound world, before any time passes.
+    inventory
+        Its bodies and connections.
+    breaking
+        How connections break.
+    events
+        What happens to them besides.
+    blast
+        What explodes, or None.
+    threshold_step_s
+        Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
+
+    Attributes
+    ----------
+    elapsed_s
+        Simulated time so far.
+    seconds
+        Wall time that taking down has cost so far.
+    error
+        What went wrong in a sub-step; nothing is taken down after it.
+    """
+
+    def __init__(
+        self,
+        world: BulletWorld,
+        inventory: Inventory,
+        breaking: Breaking,
+        events: Events,
+        blast: Blast | None,
+        threshold_step_s: float,
+    ):
+        self.elapsed_s = 0.0
+        self.seconds = 0.0
+        self.error: Exception | None = None
+        self._world, self._inventory, self._breaking = world, inventory, breaking
+        self._events = events
+        self._blast, self._threshold_step_s = blast, threshold_step_s
+        self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
+        self._ties = None
+        if breaking.ductility:
+            remaining = events.remaining_strength
+            self._ties = Ties(world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining)
+        self._is_warming_up = breaking.warm_up_s > 0.0
+        if self._is_warming_up:
+            world.hold_connections()
+        can_move = inventory.masses_kg > 0.0
+        self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
+        self._cuts = Cuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
+        self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3, self._reader.normals)
+        self._intact = world.intact()
+        self._breaks: list[Breaks] = []
+        self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
+        self._balls = np.flatnonzero(inventory.body_kinds == "ball")
+        self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
+
+    def before_substep(self, substep_s: float) -> None:
+        """Prepare a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
+        if self.error:
+            return
+        try:
+            if self._is_warming_up and self._breaking.warm_up_damping:
+                # As Bullet's own damping: a share of the velocity in a second, whatever the step.
+                self._world.slow_down(self._shards, (1.0 - self._breaking.warm_up_damping) ** substep_s)
+            self._events.before_substep(self.elapsed_s, substep_s)
+            self._world.scale_thresholds(self._threshold_factor(substep_s))
+            if self._ties:
+                self._ties.before_substep(substep_s)
+            if self._blast:
+                self._blast.before_substep(substep_s)
+        except Exception as error:  # whoever follows the frames raises it there
+            self.error = error
+
+    def _threshold_factor(self, substep_s: float) -> float:
+        """Impulse of a steady force in this sub-step over that in the one that thresholds were made for."""
+        factor = substep_s / self._threshold_step_s
+        return 1.0 if abs(factor - 1.0) < _SINGLE_PRECISION else factor  # Blender reckons steps in single precision
+
+    def after_substep(self, substep_s: float) -> None:
+        """Take down a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
+        if self.error:
+            return
+        began = time.perf_counter()
+        try:
+            self._take_down(substep_s)
+        except Exception as error:  # whoever follows the frames raises it there
+            self.error = error
+        self.seconds += time.perf_counter() - began
+
+    def skip(self, duration_s: float) -> None:
+        """Let time pass of which nothing is known."""
+        self.elapsed_s += duration_s
+
+    def finish_frame(self) -> tuple[dict[str, np.ndarray], list[Breaks]]:
+        """Loads of the frame and the connections that broke in it; the next frame begins."""
+        loads, breaks = self._frame.finish(), self._breaks
+        self._frame.begin()
+        self._breaks = []
+        return loads, breaks
+
+    def ball_history(self) -> dict[str, np.ndarray]:
+        """Times (s,), contact impulses (s, b, 3) and velocities (s, b, 3) of the b balls after every sub-step."""
+        if not self._hits:
+            return no_ball_history()
+        times, impulses, velocities = zip(*self._hits, strict=True)
+        return _ball_history(self._balls, times, impulses, velocities)
+
+    def _take_down(self, substep_s: float) -> None:
+        self.elapsed_s += substep_s
+        loads = self._reader.read(substep_s)
+        if self._ties:
+            loads.connection_forces_n[:] += self._ties.forces_n
+        self._frame.add(loads, substep_s)
+        self._break_overloaded(loads)
+        self._note_breaks(loads)
+        self._world.let_broken_collide()
+        if len(self._balls):
+            self._note_balls(loads, substep_s)
+
+    def _break_overloaded(self, loads: SubstepLoads) -> None:
+        """Break what its strength does not bear; Bullet's own threshold has been at work within the sub-step."""
+        if self._is_warming_up:
+            if self.elapsed_s < self._breaking.warm_up_s:
+                return
+            self._is_warming_up = False
+            self._world.release_connections()
+        if self._breaking.strength:
+            rows = self._overloaded(loads)
+            self._world.break_connections(rows)
+            if self._ties and len(rows):
+                self._ties.add(rows, loads.connection_points_m[rows])
+
+    def _overloaded(self, loads: SubstepLoads) -> np.ndarray:
+        """Connections (k,) to break: overloaded by themselves and as parts of their cuts, and each the worst around.
+
+        When one breaks, its neighbours share its load anew: they are judged again after the next sub-step.
+        """
+        strength, inventory, left = self._breaking.strength, self._inventory, self._events.remaining_strength
+        forces = self._section_forces(loads, np.arange(len(self._intact)))
+        rows = np.flatnonzero((utilisation(forces, self._sections, strength) > left) & self._intact)
+        if not len(rows):
+            return rows
+        cut_loads, areas, second_moments = self._cuts.sections(
+            rows,
+            self._intact,
+            loads.connection_forces_n,
+            loads.connection_moments_nm,
+            loads.connection_points_m,
+            self._reader.section_axes(loads.rotations, rows),
+            inventory.areas_m2,
+            inventory.second_moments_m4,
+        )
+        of_both_cuts = strength_at(strength, np.concatenate((rows, rows)))
+        used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
+        used = used.reshape(2, -1).mean(axis=0) / left[rows]
+        return rows[(used > 1.0) & worst_around(inventory.pairs[rows], used, inventory.masses_kg > 0.0)]
+
+    def _section_forces(self, loads: SubstepLoads, rows: np.ndarray) -> SectionForces:
+        """Loads of some connections (r,) in their own axes."""
+        axes = self._reader.section_axes(loads.rotations, rows)
+        return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
+
+    def _note_breaks(self, loads: SubstepLoads) -> None:
+        intact = self._world.intact()
+        rows = np.flatnonzero(self._intact & ~intact)
+        self._intact = intact
+        if len(rows):
+            self._breaks.append(Breaks(self.elapsed_s, rows, self._section_forces(loads, rows)))
+
+    def _note_balls(self, loads: SubstepLoads, substep_s: float) -> None:
+        pairs, forces = loads.contact_pairs, loads.contact_forces_n
+        impulses = [
+            substep_s * (forces[pairs[:, 0] == ball].sum(axis=0) - forces[pairs[:, 1] == ball].sum(axis=0))
+            for ball in self._balls
+        ]
+        # A ball that is lifted moves as animation says: what it pushes off does not hit it.
+        free = self._world.can_move()[self._balls, None]
+        self._hits.append((self.elapsed_s, np.where(free, impulses, 0.0), self._world.velocities()[self._balls]))
+
+
+def no_ball_history() -> dict[str, np.ndarray]:
+    """What `SubstepRecorder.ball_history` gives where nothing is known of any ball."""
+    return _ball_history(np.zeros(0, int), (), (), ())
+
+
+def _ball_history(
+    balls: np.ndarray, times: Sequence, impulses: Sequence, velocities: Sequence
+) -> dict[str, np.ndarray]:
+    shape = (len(times), len(balls), 3)
+    return {
+        "balls": balls,
+        "ball_times_s": np.array(times, float),
+        "ball_impulses_ns": np.array(impulses, float).reshape(shape),
+        "ball_velocities_m_s": np.array(velocities, float).reshape(shape),
+    }

@@ -1,0 +1,1 @@
+"""Sidebar of charges and explosions."""

@@ -1,0 +1,1 @@
+"""Sidebar of contours, and what they draw in the viewport."""

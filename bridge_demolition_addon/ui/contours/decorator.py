@@ -1,0 +1,252 @@
+"""Drawn over the 3D view: colour bar, force vectors, charges and their stand-off rings.
+
+Nothing here changes any data, and nothing raises: what cannot be drawn is told in the sidebar.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import blf
+import bpy
+import gpu
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from gpu_extras.batch import batch_for_shader
+
+from ...core.blast.damage import THRESHOLDS, ring_radii
+from ...core.display.colour_scale import colours
+from ...core.display.contours import ContourFrame, ContourSettings, unit_of
+from ...core.display.force_arrows import arrows, body_forces, connection_forces, contact_forces
+from ...core.display.number_text import tick_text
+from ...scene.blast.charges import charges_of
+from ...simulation.display import contours
+from ..viewport import covered_px
+from . import view as contour_view
+
+_FONT, _FONT_PX = 0, 12.0
+_LINE_PX = 17.0
+_MARGIN_PX = 16.0
+_BAR_PX = (18.0, 240.0)
+_PANEL_PX = 172.0
+_BOTTOM_PX = 40.0
+_PANEL_COLOUR = (0.1, 0.1, 0.1, 0.8)
+_TEXT_COLOUR = (1.0, 1.0, 1.0, 1.0)
+_TICK_PX = 5.0
+_STEPS = 64
+_RING_POINTS = 128
+_RING_COLOUR = (1.0, 0.35, 0.1, 0.9)
+_VECTOR_COLOURS = {
+    "BODIES": (1.0, 0.6, 0.0, 1.0),
+    "CONNECTIONS": (0.0, 0.75, 1.0, 1.0),
+    "CONTACTS": (1.0, 0.2, 0.8, 1.0),
+}
+_VECTOR_WIDTH_PX = 2.0
+_LEAST_SHARE = 0.02
+"""Arrows shorter than this share of the longest are left out, as they would be dots."""
+
+_draw_handles: list[object] = []
+_trouble: dict[str, str] = {}
+_rings: dict[tuple, np.ndarray] = {}
+
+
+def register() -> None:
+    """Draw from now on; what is drawn depends on the settings."""
+    space = bpy.types.SpaceView3D
+    for name, draw, when in (("view", _draw_in_space, "POST_VIEW"), ("pixels", _draw_on_screen, "POST_PIXEL")):
+        _draw_handles.append(space.draw_handler_add(_kept_from_raising(name, draw), (), "WINDOW", when))
+
+
+def unregister() -> None:
+    """Draw no more."""
+    while _draw_handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_draw_handles.pop(), "WINDOW")
+    _trouble.clear()
+    _rings.clear()
+
+
+def trouble() -> str:
+    """Why something could not be drawn the last time; empty where everything was."""
+    return next(iter(_trouble.values()), "")
+
+
+def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
+    """Lines of the arrows (6 k, 3), m, for each kind of force that is to be shown."""
+    settings, series = scene.bda, contours.series_of(scene)
+    row = series.row_at(scene.frame_current) if series else None
+    if not settings.show_vectors or row is None:
+        return {}
+    frame, first = series.arrays(row), series.arrays(0)
+    frame_s = float(series.times_s[row] - series.times_s[row - 1]) if row else 0.0
+    forces = {
+        "BODIES": lambda: _of_moving(series.moves, *body_forces(frame)),
+        "CONNECTIONS": lambda: connection_forces(frame, first, series.pairs, series.points_m),
+        "CONTACTS": lambda: _of_moving(series.moves, *contact_forces(frame, frame_s)),
+    }
+    found = {name: make() for name, make in forces.items() if name in settings.vectors}
+    lengths = [np.linalg.norm(force, axis=1) for _, force in found.values()]
+    largest = max((np.nanmax(each, initial=0.0) for each in lengths), default=0.0)
+    if largest <= 0.0:
+        return {}
+    longest_m = settings.vector_length_m
+    return {
+        name: arrows(starts, force, longest_m / largest, _LEAST_SHARE * longest_m)
+        for name, (starts, force) in found.items()
+    }
+
+
+def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
+    """For each charge whose damage reaches the ground, its ring as lines (2 p, 3) in m at height 0, and its radius."""
+    charges, number = charges_of(scene), int(scene.bda.ring_damage)
+    key = (charges, number)
+    if key not in _rings:
+        _rings.clear()
+        _rings[key] = ring_radii(charges, 0.0, [THRESHOLDS[number]])[0]
+    angles = np.linspace(0.0, 2.0 * math.pi, _RING_POINTS + 1)
+    circle = np.column_stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)))
+    rings = []
+    for charge, radius in zip(charges, _rings[key].tolist(), strict=True):
+        if radius > 0.0:
+            points = np.array((charge.place_m[0], charge.place_m[1], 0.0)) + radius * circle
+            rings.append((np.stack((points[:-1], points[1:]), axis=1).reshape(-1, 3), radius))
+    return rings
+
+
+def _kept_from_raising(name: str, draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
+    def guarded() -> None:
+        try:
+            draw(bpy.context)
+            _trouble.pop(name, None)
+        except Exception as error:  # would go to the console with every redraw: the sidebar tells it
+            _trouble[name] = str(error)
+
+    return guarded
+
+
+def _draw_in_space(context: bpy.types.Context) -> None:
+    scene = context.scene
+    contour_view.follow_later(scene)
+    for name, lines in vector_lines(scene).items():
+        _draw_lines(context, lines, _VECTOR_COLOURS[name], _VECTOR_WIDTH_PX)
+    if scene.bda.show_rings:
+        for lines, _ in ring_lines(scene):
+            _draw_lines(context, lines, _RING_COLOUR, _VECTOR_WIDTH_PX)
+
+
+def _draw_on_screen(context: bpy.types.Context) -> None:
+    scene = context.scene
+    settings = contours.settings_of(scene)
+    if settings and scene.bda.colour_bar:
+        found = contours.shown_frame(scene)
+        if found:
+            _draw_colour_bar(context, settings, found[0])
+    if scene.bda.show_charges:
+        _draw_charges(context)
+    if scene.bda.show_rings:
+        _draw_ring_labels(context)
+
+
+def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, frame: ContourFrame) -> None:
+    scale = context.preferences.system.ui_scale
+    line, margin = _LINE_PX * scale, _MARGIN_PX * scale
+    width, height = _BAR_PX[0] * scale, _BAR_PX[1] * scale
+    unit = unit_of(settings.quantity, max(abs(frame.scale.low), abs(frame.scale.high)))
+    name, _, more = settings.title.partition(", ")
+    heading = [name, *([more] if more else []), f"({unit.name})"]
+    left, bottom = _tools_width(context) + margin, _BOTTOM_PX * scale
+    foot = bottom + margin + 2.0 * line
+    top = foot + height
+    _draw_rectangle(
+        left - margin / 2.0, bottom, left + _PANEL_PX * scale, top + margin * 1.5 + len(heading) * line, _PANEL_COLOUR
+    )
+    _draw_gradient(left, foot, width, height, settings)
+    ticks = frame.scale.ticks()
+    for tick, share in zip(ticks, frame.scale.shares(ticks), strict=True):
+        y = foot + share * height
+        _draw_rectangle(left + width, y - 0.5, left + width + _TICK_PX * scale, y + 0.5, _TEXT_COLOUR)
+        _write(context, left + width + 2.0 * _TICK_PX * scale, y - 0.35 * _FONT_PX * scale, tick_text(tick / unit.size))
+    for number, text in enumerate(heading):
+        _write(context, left, top + margin + (len(heading) - 1 - number) * line, text)
+    _write(context, left, bottom + margin / 2.0 + line, f"frame {frame.frame}")
+    _write(context, left, bottom + margin / 2.0, f"{frame.time_s:.3f} s")
+
+
+def _draw_charges(context: bpy.types.Context) -> None:
+    for charge in charges_of(context.scene):
+        _write_at(context, charge.place_m, f"{charge.name}: {charge.mass_kg:g} kg {charge.explosive}", dot=True)
+
+
+def _draw_ring_labels(context: bpy.types.Context) -> None:
+    damage = THRESHOLDS[int(context.scene.bda.ring_damage)].damage
+    for lines, radius in ring_lines(context.scene):
+        _write_at(context, lines[0], f"{damage}: {radius:.1f} m")
+
+
+def _draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, width_px: float) -> None:
+    if not len(lines):
+        return
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    batch = batch_for_shader(shader, "LINES", {"pos": lines.astype(np.float32)})
+    shader.bind()
+    shader.uniform_float("viewportSize", (context.region.width, context.region.height))
+    shader.uniform_float("lineWidth", width_px * context.preferences.system.ui_scale)
+    shader.uniform_float("color", colour)
+    batch.draw(shader)
+
+
+def _draw_gradient(left: float, bottom: float, width: float, height: float, settings: ContourSettings) -> None:
+    levels = np.linspace(0.0, 1.0, _STEPS + 1)
+    edges = bottom + height * levels
+    strip = np.column_stack((np.tile((left, left + width), _STEPS + 1), np.repeat(edges, 2))).astype(np.float32)
+    screen = np.column_stack((colours(settings.colour_map, levels), np.ones(_STEPS + 1)))
+    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
+    content = {"pos": strip, "color": np.repeat(screen, 2, axis=0).astype(np.float32)}
+    batch_for_shader(shader, "TRI_STRIP", content).draw(shader)
+
+
+def _draw_rectangle(left: float, bottom: float, right: float, top: float, colour: tuple) -> None:
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    corners = ((left, bottom), (right, bottom), (left, top), (right, top))
+    gpu.state.blend_set("ALPHA")
+    shader.bind()
+    shader.uniform_float("color", colour)
+    batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
+    gpu.state.blend_set("NONE")
+
+
+def _write(context: bpy.types.Context, x: float, y: float, text: str) -> None:
+    blf.size(_FONT, _FONT_PX * context.preferences.system.ui_scale)
+    blf.color(_FONT, *_TEXT_COLOUR)
+    blf.position(_FONT, round(x), round(y), 0.0)
+    blf.draw(_FONT, text)
+
+
+def _write_at(context: bpy.types.Context, place_m: tuple, text: str, dot: bool = False) -> None:
+    """Text beside a place in space, on a ground of its own, so that it is seen before any colour."""
+    where = location_3d_to_region_2d(context.region, context.region_data, place_m)
+    if where is None:
+        return
+    scale = context.preferences.system.ui_scale
+    blf.size(_FONT, _FONT_PX * scale)
+    width, height = blf.dimensions(_FONT, text)
+    edge = 4.0 * scale
+    x, y = min(where.x + 2.0 * edge, _right_end(context) - width - 2.0 * edge), where.y + 2.0 * edge
+    if dot:
+        _draw_rectangle(where.x - edge, where.y - edge, where.x + edge, where.y + edge, _RING_COLOUR)
+    _draw_rectangle(x - edge, y - edge, x + width + edge, y + height + edge, _PANEL_COLOUR)
+    _write(context, x, y, text)
+
+
+def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return starts[moves], forces[moves]
+
+
+def _tools_width(context: bpy.types.Context) -> float:
+    """How much of the view's left the toolbar covers, px."""
+    return covered_px(context, "TOOLS")
+
+
+def _right_end(context: bpy.types.Context) -> float:
+    """Where the sidebar begins to cover the view, px."""
+    return context.region.width - covered_px(context, "UI")

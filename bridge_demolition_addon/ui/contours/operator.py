@@ -1,0 +1,156 @@
+"""What the buttons for contours, films and symbols do."""
+
+from pathlib import Path
+
+import bpy
+
+from ...core.errors import DemolitionError
+from ...core.results.arrays import load_results
+from ...scene.rendering.film import PictureSettings
+from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
+from ...simulation.display import contours
+from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
+from ...simulation.recording import handlers
+from ..operators import Refusing, absolute, refused
+from . import view as contour_view
+
+_TICK_S = 0.01
+
+
+class BDA_OT_load_results(Refusing, bpy.types.Operator):
+    """Show contours of an earlier recording of this scene, kept in a file results.npz"""
+
+    bl_idname = "bda.load_results"
+    bl_label = "Load Results"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if handlers.current():
+            return "A recording runs: unregister the handler first"
+        if not context.scene.bda.results_path:
+            return "Choose a file results.npz first"
+        return None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene = context.scene
+        try:
+            results = load_results(absolute(scene.bda.results_path))
+            contours.use_results(scene, results)
+        except DemolitionError as error:
+            return refused(self, error)
+        contour_view.follow(scene)
+        self.report({"INFO"}, f"{len(results.frames)} frames of {len(results.body_names)} bodies")
+        return {"FINISHED"}
+
+
+class BDA_OT_render_contours(Refusing, bpy.types.Operator):
+    """Render the recorded frames with their contours, as a film or as pictures, to the folder; Esc stops"""
+
+    bl_idname = "bda.render_contours"
+    bl_label = "Render Contours"
+
+    _rendering: FilmRendering
+    _pictures = None
+    _timer = None
+    _done = 0
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if handlers.current():
+            return "A recording runs: unregister the handler first"
+        if not context.scene.bda.film_directory:
+            return "Choose a folder for the film first"
+        if contours.series_of(context.scene) is None:
+            return "Nothing was recorded in this scene: record it, or load its results"
+        return None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            self._begin(context.scene)
+            for _ in self._pictures:
+                pass
+            return self._finish()
+        except (DemolitionError, OSError) as error:  # a full disk, for one
+            return refused(self, error)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        try:
+            self._begin(context.scene)
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        manager = context.window_manager
+        manager.progress_begin(0, self._rendering.picture_count)
+        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"WARNING"}, f"Stopped after {self._done} of {self._rendering.picture_count} pictures")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            if next(self._pictures, None) is not None:
+                self._done += 1
+                context.window_manager.progress_update(self._done)
+                return {"RUNNING_MODAL"}
+            self._end(context)
+            return self._finish()
+        except (DemolitionError, OSError) as error:
+            self._end(context)
+            return refused(self, error)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends the film itself, as it does before another file is loaded."""
+        self._end(context)
+
+    def _begin(self, scene: bpy.types.Scene) -> None:
+        self._rendering = FilmRendering(
+            scene, absolute(scene.bda.film_directory), contour_view.settings_of(scene), _film_settings(scene)
+        )
+        self._pictures = self._rendering.pictures()
+
+    def _end(self, context: bpy.types.Context) -> None:
+        self._pictures.close()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+
+    def _finish(self) -> set[str]:
+        paths = self._rendering.finish()
+        place: Path = paths[0] if len(paths) == 1 else paths[0].parent
+        self.report({"INFO"}, f"{self._rendering.picture_count} pictures rendered: {place}")
+        return {"FINISHED"}
+
+
+class BDA_OT_toggle_symbols(Refusing, bpy.types.Operator):
+    """Hide the empties of all connections and force objects, or show them; they work all the same"""
+
+    bl_idname = "bda.toggle_symbols"
+    bl_label = "Hide Connections and Forces"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if not has_symbols(context.view_layer, context.scene):
+            return "This scene has neither connections nor force objects"
+        return None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene, layer = context.scene, context.view_layer
+        hide_symbols(layer, scene, hidden=not symbols_are_hidden(layer, scene))
+        return {"FINISHED"}
+
+
+CLASSES = (BDA_OT_load_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)
+
+
+def _film_settings(scene: bpy.types.Scene) -> FilmSettings:
+    settings = scene.bda
+    return FilmSettings(
+        kind=FilmKind[settings.film_kind],
+        pictures_per_second=settings.film_rate,
+        slowness=settings.film_slowness,
+        picture=PictureSettings(settings.film_width, settings.film_height),
+    )

@@ -1,0 +1,154 @@
+"""Settings of contours, vectors and films, kept in the scene as part of ``scene.bda``."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+
+from ...core.blast.damage import THRESHOLDS
+from ...core.display.colour_scale import ColourMap
+from ...core.display.contours import TITLES, Quantity, RangeKind
+from ...simulation.display.film import FilmKind
+from ..sidebar import RELATIVE_PATHS
+from . import view as contour_view
+
+_QUANTITIES = (
+    (Quantity.RESULTANT.name, TITLES[Quantity.RESULTANT], "Magnitude of the sum of all contact and connection forces"),
+    (Quantity.SUM.name, TITLES[Quantity.SUM], "Sum of the magnitudes of all contact and connection forces"),
+    (Quantity.VON_MISES.name, TITLES[Quantity.VON_MISES], "Equivalent stress, averaged over the body"),
+    (Quantity.PRINCIPAL.name, TITLES[Quantity.PRINCIPAL], "Largest tension, averaged over the body"),
+    (Quantity.SIGNED_2019.name, TITLES[Quantity.SIGNED_2019], "What the add-on of 2019 logged: for comparison only"),
+)
+_RANGES = (
+    (RangeKind.RUN.name, "Whole Run", "From the lowest to the highest value of all frames recorded so far"),
+    (RangeKind.FRAME.name, "Each Frame", "From the lowest to the highest value of each frame by itself"),
+    (RangeKind.FIXED.name, "Fixed", "The range given below"),
+)
+_MAPS = (
+    (ColourMap.BLUE_TO_RED.name, "2019", "Blue for low, over green, to red for high"),
+    (ColourMap.VIRIDIS.name, "Viridis", "Even to the eye, from violet over green to yellow"),
+    (ColourMap.CIVIDIS.name, "Cividis", "Even to the eye, also for those that take red for green"),
+    (ColourMap.INFERNO.name, "Inferno", "Even to the eye, from black over red to yellow"),
+)
+_VECTORS = (
+    ("BODIES", "Bodies", "Resultant of all connections and contacts of each body, without gravity"),
+    ("CONNECTIONS", "Connections", "Force of each connection that holds, on its first body"),
+    ("CONTACTS", "Contacts", "Mean force of all contacts of each body"),
+)
+_DAMAGES = tuple(
+    (str(number), threshold.damage, f"{threshold.overpressure_pa / 1e3:g} kPa, {threshold.source}")
+    for number, threshold in enumerate(THRESHOLDS)
+)
+_KINDS = (
+    (FilmKind.FILM.name, "Film", "One MP4 film"),
+    (FilmKind.PICTURES.name, "Pictures", "One PNG picture for each recorded frame"),
+)
+
+
+def _follow(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    contour_view.follow(_settings.id_data)
+
+
+def _redraw(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+    contour_view.redraw()
+
+
+class ContourProperties:
+    """What contours, vectors and films are like; a part of the scene's settings."""
+
+    contours: BoolProperty(
+        name="Contours",
+        description="Colour the bodies by their forces or stresses while the timeline plays and afterwards",
+        default=False,
+        update=_follow,
+    )
+    contour_quantity: EnumProperty(
+        name="Quantity", description="What the bodies are coloured by", items=_QUANTITIES, update=_follow
+    )
+    contour_peak: BoolProperty(
+        name="Peak So Far",
+        description="Show the largest value up to the frame instead of that of the frame",
+        update=_follow,
+    )
+    contour_range: EnumProperty(
+        name="Range", description="What the lowest and highest colour stand for", items=_RANGES, update=_follow
+    )
+    contour_low: FloatProperty(
+        name="Lowest", description="Low end of the fixed range, kN or N/mm²", default=0.0, update=_follow
+    )
+    contour_high: FloatProperty(
+        name="Highest", description="High end of the fixed range, kN or N/mm²", default=1000.0, update=_follow
+    )
+    contour_logarithmic: BoolProperty(
+        name="Logarithmic",
+        description="Equal steps of colour stand for equal ratios; signs are left out",
+        update=_follow,
+    )
+    contour_decades: FloatProperty(
+        name="Decades",
+        description="Powers of ten from the lowest to the highest value of an automatic logarithmic range",
+        default=3.0,
+        min=0.5,
+        max=12.0,
+        update=_follow,
+    )
+    contour_map: EnumProperty(name="Colours", description="Colour map", items=_MAPS, update=_follow)
+    colour_bar: BoolProperty(
+        name="Colour Bar", description="Show the colour bar in the 3D view", default=True, update=_redraw
+    )
+    results_path: StringProperty(
+        name="Kept Results",
+        description="File results.npz of an earlier recording of this scene",
+        subtype="FILE_PATH",
+        options=RELATIVE_PATHS,
+    )
+    show_vectors: BoolProperty(
+        name="Force Vectors", description="Show forces as arrows in the 3D view", default=False, update=_redraw
+    )
+    vectors: EnumProperty(
+        name="Vectors",
+        description="Which forces",
+        items=_VECTORS,
+        options={"ENUM_FLAG"},
+        default={"BODIES"},
+        update=_redraw,
+    )
+    vector_length_m: FloatProperty(
+        name="Longest",
+        description="Length of the arrow of the largest force of the frame, over all kinds of vectors",
+        default=2.0,
+        min=0.01,
+        unit="LENGTH",
+        update=_redraw,
+    )
+    show_charges: BoolProperty(
+        name="Charges", description="Show names and masses of the charges in the 3D view", default=False, update=_redraw
+    )
+    show_rings: BoolProperty(
+        name="Stand-off Rings",
+        description="Show how far from each charge a kind of damage reaches, on the ground at height 0",
+        default=False,
+        update=_redraw,
+    )
+    ring_damage: EnumProperty(
+        name="Damage", description="What the rings stand for", items=_DAMAGES, default="1", update=_redraw
+    )
+    film_directory: StringProperty(
+        name="Film",
+        description="Folder for the pictures or the film; it is made if new",
+        subtype="DIR_PATH",
+        options=RELATIVE_PATHS,
+    )
+    film_kind: EnumProperty(name="Make", description="What is rendered", items=_KINDS)
+    film_slowness: FloatProperty(
+        name="Slower By",
+        description="Seconds of film for a second of the simulation: 1 is real time",
+        default=1.0,
+        min=0.01,
+        max=1000.0,
+    )
+    film_rate: IntProperty(
+        name="Pictures a Second", description="Pictures in a second of the film", default=25, min=1, max=120
+    )
+    film_width: IntProperty(name="Width", description="Width of the film, even", default=1280, min=320, subtype="PIXEL")
+    film_height: IntProperty(
+        name="Height", description="Height of the film, even", default=720, min=180, subtype="PIXEL"
+    )

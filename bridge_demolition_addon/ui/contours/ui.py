@@ -1,0 +1,88 @@
+"""Panel Post Processing: contours, what is drawn over the 3D view, and films."""
+
+import bpy
+
+from ...core.display.contours import STRESSES, Quantity
+from ...scene.visibility import symbols_are_hidden
+from ..sidebar import SidebarPanel, draw_sentence
+from . import decorator as overlay
+from . import view as contour_view
+
+
+class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
+    """Contours of what was recorded."""
+
+    bl_label = "Contours"
+    bl_parent_id = "BDA_PT_post_processing"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, layout = context.scene.bda, self.layout
+        layout.prop(settings, "contours")
+        if trouble := contour_view.trouble(context.scene) or overlay.trouble():
+            draw_sentence(layout, context, trouble)
+        column = layout.column()
+        column.enabled = settings.contours
+        column.use_property_split, column.use_property_decorate = True, False
+        column.prop(settings, "contour_quantity")
+        column.prop(settings, "contour_peak")
+        column.prop(settings, "contour_range")
+        if settings.contour_range == "FIXED":
+            unit = "N/mm²" if Quantity[settings.contour_quantity] in STRESSES else "kN"
+            ends = column.column(align=True)
+            ends.prop(settings, "contour_low", text=f"Lowest, {unit}")
+            ends.prop(settings, "contour_high", text=f"Highest, {unit}")
+        column.prop(settings, "contour_logarithmic")
+        if settings.contour_logarithmic and settings.contour_range != "FIXED":
+            column.prop(settings, "contour_decades")
+        column.prop(settings, "contour_map")
+        column.prop(settings, "colour_bar")
+        layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")
+        layout.operator("bda.load_results")
+
+
+class BDA_PT_overlay(SidebarPanel, bpy.types.Panel):
+    """What is drawn over the 3D view."""
+
+    bl_label = "Vectors and Charges"
+    bl_parent_id = "BDA_PT_post_processing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  Blender wants a plain set
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, layout = context.scene.bda, self.layout
+        layout.prop(settings, "show_vectors")
+        column = layout.column()
+        column.enabled = settings.show_vectors
+        column.prop(settings, "vectors")
+        column.prop(settings, "vector_length_m")
+        layout.prop(settings, "show_charges")
+        layout.prop(settings, "show_rings")
+        row = layout.row()
+        row.enabled = settings.show_rings
+        row.prop(settings, "ring_damage", text="")
+        hidden = symbols_are_hidden(context.view_layer, context.scene)
+        text = "Show Connections and Forces" if hidden else "Hide Connections and Forces"
+        layout.operator("bda.toggle_symbols", text=text)
+
+
+class BDA_PT_film(SidebarPanel, bpy.types.Panel):
+    """Contours as a film or as pictures."""
+
+    bl_label = "Film"
+    bl_parent_id = "BDA_PT_post_processing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  Blender wants a plain set
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, layout = context.scene.bda, self.layout
+        layout.prop(settings, "film_directory", text="", placeholder="Folder for the film")
+        layout.row().prop(settings, "film_kind", expand=True)
+        column = layout.column(align=True)
+        column.prop(settings, "film_width")
+        column.prop(settings, "film_height")
+        if settings.film_kind == "FILM":
+            column = layout.column(align=True)
+            column.prop(settings, "film_rate")
+            column.prop(settings, "film_slowness")
+        layout.operator("bda.render_contours")
+
+
+CLASSES = (BDA_PT_contours, BDA_PT_overlay, BDA_PT_film)

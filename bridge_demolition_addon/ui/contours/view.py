@@ -1,0 +1,131 @@
+"""Contours as the sidebar's settings ask for them, and the 3D views that show them."""
+
+from collections.abc import Iterator
+
+import bpy
+
+from ...core.display.colour_scale import ColourMap
+from ...core.display.contours import STRESSES, ContourSettings, Quantity, RangeKind
+from ...core.errors import DemolitionError
+from ...simulation.display import contours
+
+_COLOURS_BEFORE = "bda_colours_before"
+
+_refusals: dict[int, str] = {}
+"""By scenes, why their settings cannot be shown."""
+
+
+def settings_of(scene: bpy.types.Scene) -> ContourSettings:
+    """What the sidebar's settings ask for.
+
+    Raises
+    ------
+    ContourError
+        They cannot be shown.
+    """
+    settings = scene.bda
+    quantity = Quantity[settings.contour_quantity]
+    size = 1e6 if quantity in STRESSES else 1e3
+    return ContourSettings(
+        quantity=quantity,
+        peak=settings.contour_peak,
+        range_kind=RangeKind[settings.contour_range],
+        low=settings.contour_low * size,
+        high=settings.contour_high * size,
+        logarithmic=settings.contour_logarithmic,
+        decades=settings.contour_decades,
+        colour_map=ColourMap[settings.contour_map],
+    )
+
+
+def follow(scene: bpy.types.Scene) -> None:
+    """Show contours, or stop showing them, as the scene's settings are now."""
+    _refusals.pop(scene.session_uid, None)
+    if scene.bda.contours:
+        try:
+            contours.show(scene, settings_of(scene))
+        except DemolitionError as error:
+            _refusals[scene.session_uid] = str(error)
+        _show_colours_in_views(scene)
+    else:
+        contours.hide(scene)
+        _show_materials_in_views(scene)
+    redraw()
+
+
+def trouble(scene: bpy.types.Scene) -> str:
+    """Why contours cannot be shown as they are asked for; empty where they can."""
+    error = contours.error_of(scene)
+    return _refusals.get(scene.session_uid) or (str(error) if error else "")
+
+
+def follow_later(scene: bpy.types.Scene) -> None:
+    """Have undone, redone or loaded settings followed, as soon as Blender has drawn what it is drawing now."""
+    if scene.bda.contours != contours.is_shown(scene) and scene.session_uid not in _refusals:
+        _schedule()
+
+
+def redraw() -> None:
+    """Draw the 3D views anew."""
+    for area in _views(None):
+        area.tag_redraw()
+
+
+def register() -> None:
+    """Nothing is shown until the box is ticked."""
+
+
+def unregister() -> None:
+    """Show everything as it was, in all scenes."""
+    if bpy.app.timers.is_registered(_follow_all):
+        bpy.app.timers.unregister(_follow_all)
+    for scene in bpy.data.scenes:
+        contours.hide(scene)
+        _show_materials_in_views(scene)
+    contours.stop()
+    contours.forget_all()
+    _refusals.clear()
+
+
+def _schedule() -> None:
+    if not bpy.app.timers.is_registered(_follow_all):
+        bpy.app.timers.register(_follow_all, first_interval=0.0)
+
+
+def _follow_all() -> None:
+    for scene in bpy.data.scenes:
+        if scene.bda.contours != contours.is_shown(scene):
+            follow(scene)
+
+
+def _show_colours_in_views(scene: bpy.types.Scene) -> None:
+    """Let solid 3D views show the objects' colours, without light; each keeps in its screen how it was."""
+    for area in _views(scene):
+        screen, number = area.id_data, str(list(area.id_data.areas).index(area))
+        before = screen.get(_COLOURS_BEFORE, {})
+        before = before if isinstance(before, dict) else before.to_dict()
+        shading = area.spaces.active.shading
+        if number not in before:
+            screen[_COLOURS_BEFORE] = {**before, number: [shading.color_type, shading.light]}
+        shading.color_type, shading.light = "OBJECT", "FLAT"
+
+
+def _show_materials_in_views(scene: bpy.types.Scene) -> None:
+    for area in _views(scene):
+        screen, number = area.id_data, str(list(area.id_data.areas).index(area))
+        before = screen[_COLOURS_BEFORE].to_dict() if _COLOURS_BEFORE in screen else {}
+        if number in before:
+            shading = area.spaces.active.shading
+            shading.color_type, shading.light = before.pop(number)
+        if before:
+            screen[_COLOURS_BEFORE] = before
+        elif _COLOURS_BEFORE in screen:
+            del screen[_COLOURS_BEFORE]
+
+
+def _views(scene: bpy.types.Scene | None) -> Iterator[bpy.types.Area]:
+    """The 3D views that show a scene, or any for None."""
+    for manager in bpy.data.window_managers:
+        for window in manager.windows:
+            if scene is None or window.scene == scene:
+                yield from (area for area in window.screen.areas if area.type == "VIEW_3D")

@@ -1,0 +1,1 @@
+"""Sidebar of recording and running a simulation."""

@@ -1,0 +1,212 @@
+"""The panel Frame Change Event Handler: recording while the timeline plays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from weakref import WeakKeyDictionary
+
+import bpy
+import numpy as np
+
+from ...core.errors import DemolitionError, OutputError, ScenarioError, SimulationError
+from ...core.results.files import SCENARIO_FILE
+from ...core.scenario import RecordingSettings, Scenario
+from ...core.scenario.file import scenario_from_text, scenario_text
+from ...core.sequence.rest import Rest
+from ...simulation.playback import start_over
+from ...simulation.recording import handlers
+from ...simulation.recording.logs import LogFiles
+from ...simulation.recording.recorder import Recording, check_recordable
+from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
+from ...simulation.run_summary import Subject, rest_watch, run_summary
+from ..blast.operator import keep_blast
+from ..operators import Refusing, absolute, refused
+from ..scenario.values import scenario_of, table_of
+from ..sidebar import SidebarPanel, draw_sentence
+from . import last_recording, redraw, running
+
+_TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
+
+_subjects: WeakKeyDictionary[Recording, Subject] = WeakKeyDictionary()
+"""What each recording is of."""
+
+
+class BDA_OT_register_handler(Refusing, bpy.types.Operator):
+    """Go to the start frame, and record forces and debris from there while the timeline plays"""
+
+    bl_idname = "bda.register_handler"
+    bl_label = "Register Handler"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return why_not_recorded(context.scene)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            recording = new_recording(context.scene)
+            handlers.start(recording)
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        start_over(context.scene)
+        redraw.follow_recording()
+        self.report({"INFO"}, f"Recording to {recording.folder}: play the timeline")
+        return {"FINISHED"}
+
+
+class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
+    """End the recording and write its results"""
+
+    bl_idname = "bda.unregister_handler"
+    bl_label = "Unregister Handler"
+
+    @classmethod
+    def why_not(cls, _context: bpy.types.Context) -> str | None:
+        if not handlers.current():
+            return "No handler is registered"
+        return "Run is at work: Esc stops it" if running.goes_on() else None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        return end_with_results(self, handlers.stop())
+
+
+class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
+    """Recording while the timeline plays."""
+
+    bl_label = "Frame Change Event Handler"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, recording = context.scene.bda, handlers.current()
+        column = self.layout.column()
+        column.enabled = recording is None
+        column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
+        column.prop(settings, "overwrite")
+        column = self.layout.column(align=True)
+        column.operator("bda.register_handler")
+        column.operator("bda.unregister_handler")
+        column = self.layout.column(align=True)
+        column.operator("bda.run", icon="PLAY")
+        row = column.row(align=True)
+        row.operator("bda.bake")
+        row.operator("bda.delete_bake")
+        if recording:
+            self._draw_state(context, recording)
+
+    def _draw_state(self, context: bpy.types.Context, recording: Recording) -> None:
+        if recording.error:
+            draw_sentence(self.layout, context, f"Recording ended early: {recording.error}")
+            return
+        self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
+        if recording.distrust:
+            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
+
+
+CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler, BDA_PT_handler)
+
+
+def why_not_recorded(scene: bpy.types.Scene) -> str | None:
+    """What keeps a scene from being recorded now, in a sentence; None where nothing does."""
+    if not scene.rigidbody_world:
+        return "This scene has no rigid-body world: build a scenario first"
+    if scene.rigidbody_world.point_cache.is_baked:
+        return "The simulation is baked and only played back: delete the bake first"
+    if handlers.current():
+        return "A recording runs already: unregister its handler first"
+    if not scene.bda.output_directory:
+        return "Choose a folder for the results first"
+    return None
+
+
+def new_recording(scene: bpy.types.Scene) -> Recording:
+    """A recording of a scene as the sidebar asks for it, into a folder that is made or cleared for it.
+
+    Raises
+    ------
+    DemolitionError, OSError
+        A value, the folder or a file for a log cannot be used, or the scene cannot be recorded.
+    """
+    settings = scene.bda
+    check_recordable(scene)
+    table = table_of(settings.scenario.recording, RecordingSettings)
+    scenario = _scenario_as_recorded(settings)
+    keep_blast(scene)
+    forces, debris = (
+        _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
+    )
+    if forces is not None and forces == debris:
+        raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
+    folder = absolute(settings.output_directory)
+    recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
+    prepared_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
+    if scenario:
+        (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
+    _subjects[recording] = Subject.of(scene, settings.title or scene.name, scenario)
+    return recording
+
+
+def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:
+    """Write what a recording that has ended has, keep it for the panel of results, and tell what came of it.
+
+    Where nothing was recorded the folder is gone as well, if nothing else is in it: the next try finds it free.
+
+    Parameters
+    ----------
+    operator
+        What ended it, which this is the result of.
+    recording
+        The recording.
+    stopped
+        In a sentence, that the user has stopped it before its time; empty where that is not so.
+    """
+    try:
+        _keep_recording(recording, completed=not (recording.error or stopped))
+    except (DemolitionError, OSError) as error:  # a full disk, for one
+        return refused(operator, recording.error or error)
+    if recording.error:
+        operator.report({"WARNING"}, f"The recording ended early: {recording.error}")
+    elif stopped:
+        operator.report({"WARNING"}, stopped)
+    if recording.distrust:
+        operator.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
+    operator.report({"INFO"}, f"Results are in {recording.folder}")
+    return {"FINISHED"}
+
+
+def _keep_recording(recording: Recording, *, completed: bool) -> None:
+    try:
+        results = recording.results()
+    except SimulationError:
+        withdraw_folder(recording.folder)
+        raise
+    summary = run_summary(recording, results, _subjects[recording], completed=completed)
+    keep_results(recording.folder, results, summary)
+    last_recording.keep(recording.folder, results, summary)
+
+
+def rest_to_stop_at(recording: Recording) -> Rest | None:
+    """The rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
+    scenario = _subjects[recording].scenario
+    return rest_watch(scenario) if scenario and scenario.time.stop_at_rest else None
+
+
+def _scenario_as_recorded(settings: bpy.types.PropertyGroup) -> Scenario | None:
+    """What the scene was built from, with the charges and the time to stop at that it has now; None if from nothing."""
+    if not settings.built_scenario:
+        return None
+    built = scenario_from_text(settings.built_scenario)
+    try:
+        now = scenario_of(settings)
+    except ScenarioError:  # panels that were changed since, and would not build: the report tells of what was built
+        return built
+    time = replace(built.time, **{name: getattr(now.time, name) for name in _TIME_TO_STOP_AT})
+    recorded = replace(built, charges=now.charges, blast=now.blast, time=time)
+    if not np.array_equal(recorded.timeline.frame_lengths_s, built.timeline.frame_lengths_s):
+        raise ScenarioError(
+            "slow motion was animated for the charges that the scene was built with: remove the demolition and build "
+            "it again; the charges stay where they are"
+        )
+    return recorded
+
+
+def _log_file(path: str, overwrite: bool) -> Path | None:
+    return checked_log(absolute(path), overwrite=overwrite) if path else None

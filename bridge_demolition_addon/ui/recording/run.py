@@ -1,0 +1,171 @@
+"""The buttons that simulate a scene in one go, keep it as a bake, and throw the bake away."""
+
+import bpy
+
+from ...core.errors import DemolitionError
+from ...scene.world import keep_played_frames
+from ...simulation.crash_guards.safe_render import frames_are_known
+from ...simulation.playback import Playing
+from ...simulation.recording import handlers
+from ...simulation.results_folder import withdraw_folder
+from ..operators import Refusing, no_world
+from . import redraw, running
+from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded
+
+_TICK_S = 0.001
+"""Between two frames: Blender takes in mouse and keyboard, and draws."""
+
+_LOOKING_ROUND = {
+    "MOUSEMOVE",
+    "INBETWEEN_MOUSEMOVE",
+    "MIDDLEMOUSE",
+    "WHEELUPMOUSE",
+    "WHEELDOWNMOUSE",
+    "WINDOW_DEACTIVATE",
+}
+"""Events that Blender gets as ever; all others would change what is simulated, or undo it."""
+
+_SLOW_FRAME_S = 0.5
+
+
+class BDA_OT_run(Refusing, bpy.types.Operator):
+    """Simulate and record from the start frame to the last one, and write the results; Esc stops"""
+
+    bl_idname = "bda.run"
+    bl_label = "Run"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return why_not_recorded(context.scene)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """The whole run in one call, for scripts."""
+        if not self._begin(context):
+            return {"CANCELLED"}
+        try:
+            while not self._playing.finished:
+                self._playing.step()
+        except DemolitionError:
+            pass  # the recording knows why, and is reported with what it has
+        return self._end()
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if context.screen.is_animation_playing:
+            bpy.ops.screen.animation_cancel(restore_frame=False)
+        if not self._begin(context):
+            return {"CANCELLED"}
+        running.begin(context, _TICK_S, self._playing.total)
+        context.window_manager.modal_handler_add(self)
+        redraw.follow_recording()
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "ESC":
+            return self._leave(context)
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in _LOOKING_ROUND else {"RUNNING_MODAL"}
+        try:
+            self._playing.step()
+        except (DemolitionError, ReferenceError):
+            return self._leave(context)
+        if self._playing.finished:
+            return self._leave(context)
+        self._show(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends the run itself, as it does before another file is loaded."""
+        self._playing.end()
+        running.end(context)
+
+    def _begin(self, context: bpy.types.Context) -> bool:
+        try:
+            recording = new_recording(context.scene)
+        except (DemolitionError, OSError) as error:
+            return self._not_begun(error)
+        try:
+            self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
+        except (DemolitionError, OSError) as error:
+            withdraw_folder(recording.folder)
+            return self._not_begun(error)
+        return True
+
+    def _not_begun(self, error: Exception) -> bool:
+        self.report({"ERROR"}, str(error))
+        return False
+
+    def _show(self, context: bpy.types.Context) -> None:
+        playing = self._playing
+        context.window_manager.progress_update(playing.done)
+        context.workspace.status_text_set(progress_text(playing))
+
+    def _leave(self, context: bpy.types.Context) -> set[str]:
+        running.end(context)
+        return self._end()
+
+    def _end(self) -> set[str]:
+        playing = self._playing
+        playing.end()
+        stopped = "" if playing.finished else f"Stopped after {playing.done} of {playing.total} frames"
+        return end_with_results(self, playing.recording, stopped=stopped)
+
+
+class BDA_OT_bake(Refusing, bpy.types.Operator):
+    """Keep the frames simulated so far as a bake: saved with the file, and played back instead of simulated"""
+
+    bl_idname = "bda.bake"
+    bl_label = "Bake"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        world = context.scene.rigidbody_world
+        if reason := no_world(context):
+            return reason
+        if world.point_cache.is_baked:
+            return "The simulation is baked already"
+        if handlers.current():
+            return "A recording runs: unregister its handler first"
+        if not frames_are_known(context.scene):
+            return "Nothing has been simulated since the last change: run or play it first"
+        return None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        keep_played_frames(context.scene)
+        self.report({"INFO"}, f"Baked: {context.scene.rigidbody_world.point_cache.info}")
+        return {"FINISHED"}
+
+
+class BDA_OT_delete_bake(Refusing, bpy.types.Operator):
+    """Delete the bake, so that the scene is simulated again"""
+
+    bl_idname = "bda.delete_bake"
+    bl_label = "Delete Bake"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        world = context.scene.rigidbody_world
+        return None if world and world.point_cache.is_baked else "There is no bake"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        cache = context.scene.rigidbody_world.point_cache
+        with bpy.context.temp_override(scene=context.scene, point_cache=cache):
+            bpy.ops.ptcache.free_bake()
+        context.scene.frame_set(cache.frame_start)
+        return {"FINISHED"}
+
+
+CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
+
+
+def progress_text(playing: Playing) -> str:
+    """How far a run is, for the status bar."""
+    left = round(playing.remaining_s)
+    parts = [
+        f"Running: {playing.done} of {playing.total} frames",
+        f"{playing.recording.broken} connections broken",
+        f"{left // 60}:{left % 60:02d} min left",
+        "Esc: stop",
+    ]
+    if playing.longest_frame_s > _SLOW_FRAME_S:
+        parts.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
+    return " | ".join(parts)

@@ -1,0 +1,1 @@
+"""Sidebar of results and reports."""

@@ -1,0 +1,1 @@
+"""Sidebar of the scenario: bridge, fracture, ball and the rest."""

@@ -1,0 +1,184 @@
+"""Loading, saving and building scenarios."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import StringProperty
+
+from ...core.errors import DemolitionError, OutputError
+from ...core.scenario import Scenario
+from ...core.scenario.file import read_scenario, scenario_text
+from ...core.sequence.checked_model import runnable_model
+from ...scene.bodies import Kind, bodies_of, kind_of
+from ...scene.demolition import build_demolition
+from ..operators import Refusing, absolute, refused
+from ..sidebar import RELATIVE_PATHS
+from ..viewport import look_at_selected, select_only
+from .prop import PRESETS, default_scenario
+from .values import scenario_of, show_scenario
+
+_SUFFIX = ".toml"
+
+
+class BDA_OT_load_scenario(Refusing, bpy.types.Operator):
+    """Show the scenario file's values in the panels, and its charges in the scene; nothing is built yet"""
+
+    bl_idname = "bda.load_scenario"
+    bl_label = "Load Scenario"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return None if context.scene.bda.scenario_path else "Choose a scenario file first"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            scenario = _load(context.scene.bda)
+        except DemolitionError as error:
+            return refused(self, error)
+        self.report({"INFO"}, f"Loaded {scenario.title}")
+        return {"FINISHED"}
+
+
+class BDA_OT_save_scenario(bpy.types.Operator):
+    """Save what the panels show, and the charges of the scene, as a scenario file"""
+
+    bl_idname = "bda.save_scenario"
+    bl_label = "Save Scenario"
+    bl_options = {"REGISTER"}  # noqa: RUF012
+
+    filepath: StringProperty(
+        name="File", description="Scenario file to write", subtype="FILE_PATH", options=RELATIVE_PATHS
+    )
+    filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})
+    check_existing: bpy.props.BoolProperty(
+        name="Check Existing", description="Warn before a file is replaced", default=True, options={"HIDDEN"}
+    )
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        self.filepath = context.scene.bda.scenario_path or "scenario" + _SUFFIX
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = context.scene.bda
+        try:
+            text = scenario_text(scenario_of(settings))
+            path = absolute(bpy.path.ensure_ext(self.filepath, _SUFFIX))
+            _write(path, text)
+        except DemolitionError as error:
+            return refused(self, error)
+        settings.scenario_path = settings.loaded_path = str(path)
+        self.report({"INFO"}, f"Saved {path}")
+        return {"FINISHED"}
+
+
+class BDA_OT_new_scenario(bpy.types.Operator):
+    """Set all values in the panels to their defaults, and remove the charges"""
+
+    bl_idname = "bda.new_scenario"
+    bl_label = "New Scenario"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        _show(context.scene.bda, default_scenario())
+        return {"FINISHED"}
+
+
+class BDA_OT_load_preset(bpy.types.Operator):
+    """Show the values of this preset in the panels, and its charges in the scene"""
+
+    bl_idname = "bda.load_preset"
+    bl_label = "Load Preset"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+
+    preset: StringProperty(name="Preset", description="Name of the preset")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            _show(context.scene.bda, read_scenario(PRESETS / (self.preset + _SUFFIX)))
+        except DemolitionError as error:
+            return refused(self, error)
+        return {"FINISHED"}
+
+
+class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
+    """Build the bridge that the panels show, its shards, connections, ground and ball in this scene"""
+
+    bl_idname = "bda.build_scenario"
+    bl_label = "Build Scenario"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if context.scene.rigidbody_world:
+            return "This scene has a rigid-body world already: remove its demolition first, or use a new scene"
+        return None
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Build it, and let the view show the bridge: its ground is too large for Blender's View All."""
+        done = self.execute(context)
+        if "FINISHED" in done and context.mode == "OBJECT":
+            selected = list(context.selected_objects)
+            select_only(context, [body for body in bodies_of(context.scene) if kind_of(body) == Kind.SHARD])
+            look_at_selected(context)
+            select_only(context, selected)
+        return done
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = context.scene.bda
+        is_new = settings.scenario_path not in ("", settings.loaded_path)
+        try:
+            scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
+            model = runnable_model(scenario)
+            build_demolition(context.scene, scenario, model)
+        except DemolitionError as error:
+            return refused(self, error)
+        if is_new:
+            show_scenario(settings, scenario)
+            settings.loaded_path = settings.scenario_path
+        settings.title, settings.total_mass = scenario.title, ""
+        settings.built_scenario = scenario_text(scenario)
+        self.report({"INFO"}, f"{len(model.shards)} shards, {len(model.connections)} connections")
+        return {"FINISHED"}
+
+
+class BDA_MT_presets(bpy.types.Menu):
+    """Scenarios to start from."""
+
+    bl_label = "Presets"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        for path in sorted(PRESETS.glob("*" + _SUFFIX)):
+            label = path.stem.replace("_", " ").capitalize()
+            self.layout.operator("bda.load_preset", text=label).preset = path.stem
+
+
+CLASSES = (
+    BDA_OT_load_scenario,
+    BDA_OT_save_scenario,
+    BDA_OT_new_scenario,
+    BDA_OT_load_preset,
+    BDA_OT_build_scenario,
+    BDA_MT_presets,
+)
+
+
+def _load(settings: bpy.types.PropertyGroup) -> Scenario:
+    scenario = read_scenario(absolute(settings.scenario_path))
+    show_scenario(settings, scenario)
+    settings.loaded_path = settings.scenario_path
+    return scenario
+
+
+def _show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
+    """Show a scenario that comes from no file of the user's."""
+    show_scenario(settings, scenario)
+    settings.scenario_path = settings.loaded_path = ""
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

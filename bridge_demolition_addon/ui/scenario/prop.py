@@ -1,0 +1,268 @@
+"""A property of Blender for every key of a scenario, made from the dataclasses that check them.
+
+There is one property group for each table, nested as the tables are. An optional key or table has a check box beside
+it, ``use_`` and its name; a list of tables is a collection with the index of its active one, its name and ``_index``.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import MISSING, Field
+from functools import cache
+from pathlib import Path
+from types import NoneType
+from typing import Any, get_args, get_origin
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    IntVectorProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from ...core.scenario import ChargeSettings, Scenario
+from ...core.scenario.file import read_scenario, toml_value
+from ...core.scenario.schema import (
+    Key,
+    Table,
+    expected,
+    holds_many,
+    is_required,
+    key_fields,
+    key_name,
+    subtable_class,
+    subtable_fields,
+    value_type,
+)
+
+PRESETS = Path(__file__).parent / "presets"
+DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"
+
+USE = "use_"
+INDEX = "_index"
+GIVEN = "given"
+"""Of a group: the numbers of its table as they were loaded, in JSON, as Blender keeps single precision only."""
+
+BLENDER_UNITS = {
+    "m": "LENGTH",
+    "m²": "AREA",
+    "m³": "VOLUME",
+    "kg": "MASS",
+    "s": "TIME_ABSOLUTE",
+    "m/s": "VELOCITY",
+    "m/s²": "ACCELERATION",
+}
+"""Units that Blender shows beside a number itself, and turns into others where the user prefers them."""
+
+_PER_SECOND = "1/s"
+"""A unit that the names of its keys say in words."""
+
+_DECIMALS = 3
+_SMALL_WORDS = {"a", "and", "at", "by", "for", "in", "of", "on", "or", "per", "the", "to"}
+
+
+def is_optional(item: Field) -> bool:
+    """Whether a key or table may be absent, so that it has a check box."""
+    return NoneType in get_args(item.type)
+
+
+def vector_length(item: Field) -> int | None:
+    """Numbers of a key that holds so many, None for any other."""
+    kinds = get_args(value_type(item))
+    plain = get_origin(value_type(item)) is tuple and Ellipsis not in kinds and set(kinds) <= {int, float}
+    return len(kinds) if plain else None
+
+
+def is_written_out(item: Field) -> bool:
+    """Whether a key's value is shown as a text in the syntax of TOML: a list of any length."""
+    return get_origin(value_type(item)) is tuple and vector_length(item) is None
+
+
+def shown_tables(table_class: type[Table]) -> list[Field]:
+    """Fields of the tables in a table, but for the charges, which are objects of the scene."""
+    return [item for item in subtable_fields(table_class) if subtable_class(item) is not ChargeSettings]
+
+
+def label_of(table_class: type[Table], item: Field) -> str:
+    """What a key is called in the sidebar, with its unit where Blender does not show that itself."""
+    if subtable_class(item):
+        return _titled(item.name)
+    unit = item.metadata["key"].unit
+    name = item.name.removesuffix("_" + _in_names(unit)) if unit else item.name
+    text = _titled(name)
+    return f"{text} ({unit})" if unit and unit != _PER_SECOND and unit_of(item) == "NONE" else text
+
+
+def unit_of(item: Field) -> str:
+    """Blender's name for the unit of a key, NONE where it has none."""
+    kinds = get_args(value_type(item)) or (value_type(item),)
+    return BLENDER_UNITS.get(item.metadata["key"].unit, "NONE") if set(kinds) == {float} else "NONE"
+
+
+def group_name(table_class: type[Table]) -> str:
+    """Name of the property group for a table."""
+    return "BDA_PG_" + re.sub(r"\W", "_", table_class.table)
+
+
+@cache
+def all_tables() -> tuple[type[Table], ...]:
+    """All tables that have a property group, inner ones first."""
+    found: list[type[Table]] = []
+    _gather(Scenario, found)
+    return tuple(found)
+
+
+@cache
+def default_scenario() -> Scenario:
+    """What the properties of a new scene say."""
+    return read_scenario(DEFAULT_PRESET)
+
+
+def register() -> type[bpy.types.PropertyGroup]:
+    """Make all groups known to Blender and give that of a whole scenario."""
+    defaults: dict[type[Table], Table] = {}
+    _gather_defaults(default_scenario(), defaults)
+    groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
+    for table_class in all_tables():
+        groups[table_class] = _group(table_class, defaults.get(table_class), groups)
+        bpy.utils.register_class(groups[table_class])
+    return groups[Scenario]
+
+
+def unregister() -> None:
+    """Take all groups away."""
+    for table_class in reversed(all_tables()):
+        bpy.utils.unregister_class(registered_group(group_name(table_class)))
+
+
+def registered_group(name: str) -> type[bpy.types.PropertyGroup]:
+    """The property group of that name that Blender knows."""
+    return bpy.types.PropertyGroup.bl_rna_get_subclass_py(name)
+
+
+def _gather(table_class: type[Table], found: list[type[Table]]) -> None:
+    for item in shown_tables(table_class):
+        _gather(subtable_class(item), found)
+    if table_class not in found:
+        found.append(table_class)
+
+
+def _gather_defaults(table: Table, found: dict[type[Table], Table]) -> None:
+    found[type(table)] = table
+    for item in shown_tables(type(table)):
+        inner = getattr(table, item.name)
+        if isinstance(inner, Table):
+            _gather_defaults(inner, found)
+
+
+def _group(
+    table_class: type[Table], defaults: Table | None, groups: dict[type[Table], type[bpy.types.PropertyGroup]]
+) -> type[bpy.types.PropertyGroup]:
+    properties: dict[str, Any] = {GIVEN: StringProperty(options={"HIDDEN"})}
+    for item in key_fields(table_class):
+        properties.update(_key_properties(table_class, item, _default(item, defaults)))
+    for item in shown_tables(table_class):
+        properties.update(_table_properties(item, defaults, groups[subtable_class(item)]))
+    contents = {"__doc__": table_class.__doc__, "__annotations__": properties}
+    return type(group_name(table_class), (bpy.types.PropertyGroup,), contents)
+
+
+def _table_properties(item: Field, defaults: Table | None, group: type[bpy.types.PropertyGroup]) -> dict[str, Any]:
+    meaning = _tooltip(" ".join(subtable_class(item).__doc__.split()))
+    if holds_many(item):
+        return {
+            item.name: CollectionProperty(type=group, name=_titled(item.name), description=meaning),
+            item.name + INDEX: IntProperty(name="Active", description="Which of the list is shown below it", min=0),
+        }
+    properties: dict[str, Any] = {item.name: PointerProperty(type=group, name=_titled(item.name), description=meaning)}
+    if is_optional(item):
+        is_used = defaults is not None and getattr(defaults, item.name) is not None
+        properties[USE + item.name] = BoolProperty(name=_titled(item.name), description=meaning, default=is_used)
+    return properties
+
+
+def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict[str, Any]:
+    label = label_of(table_class, item)
+    rule: Key = item.metadata["key"]
+    name = key_name(table_class, item)
+    meaning = _tooltip(f"{rule.description} In a scenario file: {name}, {expected(item)}")
+    properties = {item.name: _property(item, default, {"name": label, "description": meaning})}
+    if is_optional(item):
+        properties[USE + item.name] = BoolProperty(name=label, description=meaning, default=default is not None)
+    return properties
+
+
+def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
+    rule: Key = item.metadata["key"]
+    held = value_type(item)
+    if held is bool:
+        return BoolProperty(default=bool(default), **words)
+    if rule.choices and held is str:
+        items = [(each, each, "") for each in rule.choices]
+        return EnumProperty(items=items, default=default or rule.choices[0], **words)
+    if held is str:
+        is_path = item.name == "file" or item.name.endswith("_file")
+        return StringProperty(default=default or "", subtype="FILE_PATH" if is_path else "NONE", **words)
+    if is_written_out(item):
+        return StringProperty(default="" if default is None else toml_value(default), **words)
+    if held is int or int in get_args(held):
+        return _whole_numbers(item, default, words)
+    return _numbers(item, default, words)
+
+
+def _whole_numbers(item: Field, default: Any, words: dict[str, str]) -> Any:
+    rule: Key = item.metadata["key"]
+    limits = {"min": rule.at_least if rule.above is None else rule.above + 1, "max": rule.at_most}
+    settings = {name: int(limit) for name, limit in limits.items() if limit is not None} | words
+    if length := vector_length(item):
+        return IntVectorProperty(size=length, default=default or (_least(rule),) * length, **settings)
+    return IntProperty(default=int(_least(rule) if default is None else default), **settings)
+
+
+def _numbers(item: Field, default: Any, words: dict[str, str]) -> Any:
+    """A number, or several, with limits that Blender clamps to; one to be exceeded is left to the scenario's check."""
+    rule: Key = item.metadata["key"]
+    limits = {"min": rule.at_least if rule.above is None else rule.above, "max": rule.at_most}
+    settings = {name: float(limit) for name, limit in limits.items() if limit is not None} | words
+    settings.update(unit=unit_of(item), precision=_DECIMALS)
+    if length := vector_length(item):
+        return FloatVectorProperty(size=length, subtype="XYZ", default=default or (_least(rule),) * length, **settings)
+    return FloatProperty(default=_least(rule) if default is None else default, **settings)
+
+
+def _least(rule: Key) -> float:
+    """A value that a number can have, for one that has no default."""
+    lowest = max((limit for limit in (rule.at_least, rule.above, 0.0) if limit is not None), default=0.0)
+    if rule.holds(lowest):
+        return lowest
+    return 1.0 if rule.holds(1.0) else rule.at_most
+
+
+def _default(item: Field, defaults: Table | None) -> Any:
+    """Value of a key in the table of defaults, or its own; of one that has neither, something it can have."""
+    if defaults is not None:
+        return getattr(defaults, item.name)
+    if not is_required(item):
+        return item.default if item.default is not MISSING else item.default_factory()
+    return None
+
+
+def _titled(name: str) -> str:
+    words = name.replace("_", " ").split()
+    return " ".join(word if word in _SMALL_WORDS and number else word.capitalize() for number, word in enumerate(words))
+
+
+def _in_names(unit: str) -> str:
+    """A unit as it ends the names of keys."""
+    return unit.lower().translate({ord("/"): "_", ord("³"): "3", ord("²"): "2", ord("°"): "deg", ord("·"): None})
+
+
+def _tooltip(text: str) -> str:
+    """A description as Blender wants it: it ends the sentence itself."""
+    return text.replace("`", "").rstrip(".")

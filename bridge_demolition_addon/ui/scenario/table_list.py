@@ -1,0 +1,125 @@
+"""Lists of tables in the sidebar: a row for each table, and buttons to add, remove and move them."""
+
+from dataclasses import Field
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+
+from ...core.scenario.schema import key_fields
+from .prop import INDEX, USE, all_tables, group_name, is_optional
+
+LIST = "BDA_UL_tables"
+_MOST_NUMBERS = 3
+
+
+class _ListOperator:
+    """Base of the operators on one list."""
+
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    path: StringProperty(name="List", description="Where the list is, from the scene: bda.scenario.fracture.members")
+
+    def _list(
+        self, context: bpy.types.Context
+    ) -> tuple[bpy.types.PropertyGroup, str, bpy.types.bpy_prop_collection] | None:
+        """The group that holds the list, the list's name, and the list; None, and a message, where there is none."""
+        owner, _, name = self.path.rpartition(".")
+        try:
+            group = context.scene.path_resolve(owner)
+            found = getattr(group, name)
+        except (ValueError, AttributeError):
+            self.report({"ERROR"}, f"{self.path}: there is no such list of tables")
+            return None
+        return group, name, found
+
+
+class BDA_OT_add_table(_ListOperator, bpy.types.Operator):
+    """Add one more to the list"""
+
+    bl_idname = "bda.add_table"
+    bl_label = "Add"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if not (found := self._list(context)):
+            return {"CANCELLED"}
+        group, name, tables = found
+        tables.add()
+        setattr(group, name + INDEX, len(tables) - 1)
+        return {"FINISHED"}
+
+
+class BDA_OT_remove_table(_ListOperator, bpy.types.Operator):
+    """Remove the chosen one from the list"""
+
+    bl_idname = "bda.remove_table"
+    bl_label = "Remove"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if not (found := self._list(context)):
+            return {"CANCELLED"}
+        group, name, tables = found
+        index = getattr(group, name + INDEX)
+        if index >= len(tables):
+            self.report({"ERROR"}, "Choose what to remove in the list first")
+            return {"CANCELLED"}
+        tables.remove(index)
+        setattr(group, name + INDEX, max(min(index, len(tables) - 1), 0))
+        return {"FINISHED"}
+
+
+class BDA_OT_move_table(_ListOperator, bpy.types.Operator):
+    """Move the chosen one up or down in the list"""
+
+    bl_idname = "bda.move_table"
+    bl_label = "Move"
+
+    direction: EnumProperty(name="Direction", items=[("UP", "Up", ""), ("DOWN", "Down", "")])
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if not (found := self._list(context)):
+            return {"CANCELLED"}
+        group, name, tables = found
+        index = getattr(group, name + INDEX)
+        target = index + (-1 if self.direction == "UP" else 1)
+        if not (0 <= index < len(tables) and 0 <= target < len(tables)):
+            return {"CANCELLED"}
+        tables.move(index, target)
+        setattr(group, name + INDEX, target)
+        return {"FINISHED"}
+
+
+class BDA_UL_tables(bpy.types.UIList):
+    """Tables of one kind, each by the first of its keys."""
+
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index) -> None:
+        """One row: its number and what tells it from others."""
+        layout.label(text=f"{index + 1}  {_summary(item)}")
+
+
+CLASSES = (BDA_OT_add_table, BDA_OT_remove_table, BDA_OT_move_table, BDA_UL_tables)
+
+
+def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: Field) -> None:
+    """The list of a field with its buttons."""
+    path = group.path_from_id(item.name)
+    row = layout.row()
+    row.template_list(LIST, path, group, item.name, group, item.name + INDEX, rows=3)
+    buttons = row.column(align=True)
+    buttons.operator("bda.add_table", text="", icon="ADD").path = path
+    buttons.operator("bda.remove_table", text="", icon="REMOVE").path = path
+    for direction in ("UP", "DOWN"):
+        move = buttons.operator("bda.move_table", text="", icon=f"TRIA_{direction}")
+        move.path, move.direction = path, direction
+
+
+def _summary(group: bpy.types.PropertyGroup) -> str:
+    """The first value of a table, in words."""
+    table_class = next(each for each in all_tables() if group_name(each) == type(group).__name__)
+    for item in key_fields(table_class):
+        if is_optional(item) and not getattr(group, USE + item.name):
+            continue
+        value = getattr(group, item.name)
+        if isinstance(value, str | int | float):
+            return f"{value:g}" if isinstance(value, float) else str(value)
+        return ", ".join(f"{number:g}" for number in list(value)[:_MOST_NUMBERS])
+    return ""

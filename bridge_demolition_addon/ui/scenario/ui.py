@@ -1,0 +1,232 @@
+"""The panels of a scenario: one for each table, drawn from the tables' keys alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import Field, dataclass
+from functools import cache
+
+import bpy
+
+from ...core.scenario import Scenario
+from ...core.scenario.schema import Table, holds_many, key_fields, key_name, subtable_class, value_type
+from ..sidebar import SidebarPanel, letters_of
+from .prop import INDEX, USE, is_optional, label_of, shown_tables, vector_length
+from .table_list import draw_list
+
+_MAIN = {"bridge": "Bridge", "fracture": "Fracture", "connections": "Connections", "shards": "Shards"}
+"""Tables with a panel of their own, in the order of the work."""
+
+_PARENTS = {
+    "time": "BDA_PT_scenario",
+    "pictures": "BDA_PT_scenario",
+    "geometry": "BDA_PT_bridge",
+    "supports": "BDA_PT_bridge",
+    "ground": "BDA_PT_shards",
+    "blast": "BDA_PT_explosion",
+    "recording": "BDA_PT_handler",
+    "site": "BDA_PT_results",
+    "zones": "BDA_PT_results",
+    "exclusion": "BDA_PT_results",
+    "neighbours": "BDA_PT_results",
+}
+"""Panels that other tables stand in; any that is not named here is a part of the sequence."""
+
+_BUTTONS = {"geometry": "bda.add_selected_members", "fracture": "bda.use_paint"}
+"""Operators that fill in a table of a scenario."""
+
+_ELSEWHERE = {"blast.explosion"}
+"""Keys that are drawn by hand."""
+
+_LETTERS_OF_VALUE = 9
+_PANEL = "BDA_PT_"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """How a key is drawn: its names, and whether it has a check box, several numbers, or a label of its own half."""
+
+    name: str
+    label: str
+    is_optional: bool
+    length: int
+    is_number: bool
+    is_check_box: bool
+
+
+class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
+    """Where a scenario comes from, and building it."""
+
+    bl_label = "Scenario"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, context.scene.bda
+        layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
+        column = layout.column(align=True)
+        row = column.row(align=True)
+        row.operator("bda.load_scenario", text="Load")
+        row.operator("bda.save_scenario", text="Save")
+        row = column.row(align=True)
+        row.operator("bda.new_scenario", text="New")
+        row.menu("BDA_MT_presets")
+        draw_keys(layout, context, settings.scenario, Scenario)
+        column = layout.column(align=True)
+        column.operator("bda.build_scenario")
+        column.operator("bda.remove_demolition")
+        column.operator("bda.remove_loose_connections")
+
+
+class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):
+    """What is done to the bridge."""
+
+    bl_label = "Ball and Sequence"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  Blender wants a plain set
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """All of it is in the panels within."""
+
+
+class _TablePanel(SidebarPanel):
+    """Base of the panels that were made for a table; each knows its field and the names that lead to its group."""
+
+    item: Field
+    names: tuple[str, ...]
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        if is_optional(self.item):
+            self.layout.prop(self._owner(context), USE + self.item.name, text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        owner = self._owner(context)
+        layout = self.layout
+        if not self.names and self.item.name in _BUTTONS:
+            layout.operator(_BUTTONS[self.item.name])
+        if holds_many(self.item):
+            draw_tables(layout, context, owner, self.item)
+            return
+        layout.enabled = not is_optional(self.item) or getattr(owner, USE + self.item.name)
+        draw_keys(layout, context, getattr(owner, self.item.name), subtable_class(self.item))
+
+    def _owner(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
+        group = context.scene.bda.scenario
+        for name in self.names:
+            group = getattr(group, name)
+        return group
+
+
+def draw_keys(
+    layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, table_class: type[Table]
+) -> None:
+    """The keys of a table, each on a line, or on two where its label is long."""
+    letters = letters_of(context)
+    column = layout.column()
+    for row in rows_of(table_class):
+        _draw_key(column, letters, group, row)
+
+
+def draw_tables(
+    layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, item: Field
+) -> None:
+    """A list of tables, and below it the keys and tables of the one that is chosen."""
+    draw_list(layout, group, item)
+    tables, index = getattr(group, item.name), getattr(group, item.name + INDEX)
+    if index >= len(tables):
+        return
+    table_class = subtable_class(item)
+    draw_keys(layout, context, tables[index], table_class)
+    for inner in shown_tables(table_class):
+        box = layout.box()
+        box.label(text=label_of(table_class, inner))
+        if holds_many(inner):
+            draw_tables(box, context, tables[index], inner)
+        else:
+            _draw_inner(box, context, tables[index], inner)
+
+
+@cache
+def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
+    """How the keys of a table are drawn, in their order."""
+    return tuple(
+        Row(
+            name=item.name,
+            label=label_of(table_class, item),
+            is_optional=is_optional(item),
+            length=vector_length(item) or 1,
+            is_number=value_type(item) in (int, float),
+            is_check_box=value_type(item) is bool,
+        )
+        for item in key_fields(table_class)
+        if key_name(table_class, item) not in _ELSEWHERE
+    )
+
+
+def panels() -> tuple[type[bpy.types.Panel], ...]:
+    """The panel of the scenario and those of its main tables, in the order of the work."""
+    fields = {item.name: item for item in shown_tables(Scenario)}
+    main = [_panel(fields[name], (), None, label) for name, label in _MAIN.items()]
+    return (BDA_PT_scenario, *main, BDA_PT_sequence)
+
+
+def inner_panels() -> tuple[type[bpy.types.Panel], ...]:
+    """The panels of all other tables, to be registered after those that they stand in."""
+    found: list[type[bpy.types.Panel]] = []
+    for item in shown_tables(Scenario):
+        if item.name in _MAIN:
+            found += _inner(item, (item.name,), _PANEL + item.name)
+        else:
+            panel = _panel(item, (), _PARENTS.get(item.name, BDA_PT_sequence.__name__), label_of(Scenario, item))
+            found += [panel, *_inner(item, (item.name,), panel.__name__)]
+    return tuple(found)
+
+
+def _inner(item: Field, names: tuple[str, ...], parent: str) -> Iterator[type[bpy.types.Panel]]:
+    """Panels of the tables in a table; those in a list of tables are drawn with it."""
+    if holds_many(item):
+        return
+    table_class = subtable_class(item)
+    for inner in shown_tables(table_class):
+        panel = _panel(inner, names, parent, label_of(table_class, inner))
+        yield panel
+        yield from _inner(inner, (*names, inner.name), panel.__name__)
+
+
+def _panel(item: Field, names: tuple[str, ...], parent: str | None, label: str) -> type[bpy.types.Panel]:
+    contents = {
+        "__doc__": subtable_class(item).__doc__,
+        "bl_label": label,
+        "bl_options": {"DEFAULT_CLOSED"},
+        "item": item,
+        "names": names,
+    }
+    if parent:
+        contents["bl_parent_id"] = parent
+    return type(_PANEL + "_".join((*names, item.name)), (_TablePanel, bpy.types.Panel), contents)
+
+
+def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.PropertyGroup, row: Row) -> None:
+    if row.is_check_box and not row.is_optional:
+        layout.prop(group, row.name, text=row.label)
+        return
+    fits = row.length == 1 and len(row.label) + _LETTERS_OF_VALUE <= letters
+    if not row.is_number:  # Blender gives part of a line to the label of a text or a choice
+        fits = fits and len(row.label) <= letters // (4 if row.is_optional else 2)
+    if row.is_optional:
+        line = layout.row(align=True)
+        line.prop(group, USE + row.name, text="" if fits else row.label)
+        line = line.row() if fits else layout.row()
+        line.enabled = getattr(group, USE + row.name)
+    else:
+        if not fits:
+            layout.label(text=row.label + ":")
+        line = layout.row(align=row.length > 1)
+    line.prop(group, row.name, text=row.label if fits else "")
+
+
+def _draw_inner(
+    layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, item: Field
+) -> None:
+    if is_optional(item):
+        layout.prop(group, USE + item.name, text="Use")
+        if not getattr(group, USE + item.name):
+            return
+    draw_keys(layout, context, getattr(group, item.name), subtable_class(item))

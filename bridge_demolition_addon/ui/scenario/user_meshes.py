@@ -1,0 +1,142 @@
+"""The buttons that make a scenario of the user's own objects: meshes as members, and paint as fineness.
+
+Both write files beside the scenario, which names them: so it can be saved, sent and run anywhere, without the objects.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty, StringProperty
+
+from ...core.errors import DemolitionError, GeometryError, OutputError
+from ...core.fracture.point_files import paint_text
+from ...scene.painting import painted_points
+from ...scene.user_meshes import members_of_objects
+from ..operators import Refusing, absolute, refused
+from ..sidebar import RELATIVE_PATHS
+
+_CONCRETE_KG_M3 = 2400.0
+_MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
+
+
+class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
+    """Add the selected meshes to the scenario as members, each in a file of a folder, and hide them"""
+
+    bl_idname = "bda.add_selected_members"
+    bl_label = "Add Selected Meshes"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+
+    directory: StringProperty(
+        name="Folder", description="Folder that the meshes are written to", subtype="DIR_PATH", options=RELATIVE_PATHS
+    )
+    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
+    density_kg_m3: FloatProperty(
+        name="Density", description="Density of all of them, kg/m³", default=_CONCRETE_KG_M3, min=1e-3
+    )
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if context.mode != "OBJECT":
+            return "Leave the edit or paint mode first"
+        if not any(each.type == "MESH" for each in context.selected_objects):
+            return "Select the meshes that are to be members first"
+        return None
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        tables, selected = context.scene.bda.scenario.geometry, context.selected_objects
+        try:
+            solids = {each.name: members_of_objects([each], self.density_kg_m3).members[0].solid for each in selected}
+            files = _new_files(absolute(self.directory), list(solids), {absolute(each.file) for each in tables})
+            for name, path in files.items():
+                _write(path, solids[name].export(file_type=_MESH_SUFFIX[1:]))
+        except DemolitionError as error:
+            return refused(self, error)
+        for name, path in files.items():
+            table = next((each for each in tables if each.name == name), None) or tables.add()
+            table.name, table.file = name, str(path)
+            table.use_density_kg_m3, table.density_kg_m3, table.use_mass_kg = True, self.density_kg_m3, False
+        for each in selected:
+            each.hide_set(True)
+        context.scene.bda.scenario.geometry_index = len(tables) - 1
+        self.report({"INFO"}, f"{len(files)} members added from the selected meshes, which are hidden now")
+        return {"FINISHED"}
+
+
+class BDA_OT_use_paint(Refusing, bpy.types.Operator):
+    """Cut the bridge finer where the active mesh is painted: its active vertex group is written to a file"""
+
+    bl_idname = "bda.use_paint"
+    bl_label = "Cut Finer Where Painted"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+
+    filepath: StringProperty(
+        name="File", description="CSV file that the paint is written to", subtype="FILE_PATH", options=RELATIVE_PATHS
+    )
+    filter_glob: StringProperty(default="*" + _PAINT_SUFFIX, options={"HIDDEN"})
+    check_existing: BoolProperty(
+        name="Check Existing", description="Warn of a file that is there", default=True, options={"HIDDEN"}
+    )
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        body = context.active_object
+        if body is None or body.type != "MESH" or not body.vertex_groups:
+            return "Choose a mesh with a vertex group first, such as one that was painted with weights"
+        return None
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        self.filepath = f"{_file_name(context.active_object.name)} painted{_PAINT_SUFFIX}"
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        body, fracture = context.active_object, context.scene.bda.scenario.fracture
+        group = body.vertex_groups.active.name
+        try:
+            if not self.filepath:
+                raise OutputError("no file for the paint was given: choose one")
+            path = absolute(bpy.path.ensure_ext(self.filepath, _PAINT_SUFFIX))
+            points, weights = painted_points(body, group)
+            if not weights.any():
+                raise GeometryError(
+                    f"{body.name}: nothing is painted in vertex group {group!r}; paint where to cut finer."
+                )
+            _write(path, paint_text(points, weights).encode())
+        except DemolitionError as error:
+            return refused(self, error)
+        fracture.use_painted_file, fracture.painted_file = True, str(path)
+        self.report({"INFO"}, f"{int((weights > 0.0).sum())} of {len(weights)} vertices are painted in {group!r}")
+        return {"FINISHED"}
+
+
+CLASSES = (BDA_OT_add_selected_members, BDA_OT_use_paint)
+
+
+def _new_files(folder: Path, names: list[str], ours: set[Path]) -> dict[str, Path]:
+    """A file for each name; none that is there already but for those that the scenario has from here."""
+    files = {name: folder / (_file_name(name) + _MESH_SUFFIX) for name in names}
+    if len(set(files.values())) < len(files):
+        raise OutputError("two of the objects would have the same file name: rename one of them")
+    for path in files.values():
+        if path.exists() and path not in ours:
+            raise OutputError(f"{path}: exists already; choose another folder, or rename the object")
+    return files
+
+
+def _file_name(name: str) -> str:
+    return re.sub(r"[^\w .()+-]", "_", name)
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

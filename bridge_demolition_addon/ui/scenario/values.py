@@ -1,0 +1,190 @@
+"""Between the sidebar's properties and a scenario: nothing is lost on the way there and back.
+
+Blender's numbers have single precision. A number that the user did not touch is the one that was loaded; any other is
+the shortest decimal that single precision takes for it, which is what the user typed.
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Iterable
+from dataclasses import Field, asdict
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.blast.charges import Charge
+from ...core.errors import BlastError, ScenarioError
+from ...core.scenario import ChargeSettings, Scenario
+from ...core.scenario.file import toml_value
+from ...core.scenario.schema import (
+    Table,
+    expected,
+    holds_many,
+    key_fields,
+    key_name,
+    shown,
+    subtable_class,
+    value_type,
+)
+from ...scene.blast.charges import charges_of, replace_charges
+from .prop import GIVEN, USE, is_optional, is_written_out, shown_tables, vector_length
+
+_MS_PER_S = 1000.0
+_DIGITS = 12
+"""Of a delay in ms that was kept in s: what more digits tell is the rounding of that."""
+
+
+def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
+    """The scenario that the sidebar shows, with the charges of its scene.
+
+    Raises
+    ------
+    ScenarioError
+        A value cannot be used; the text names the key.
+    """
+    return table_of(settings.scenario, Scenario, charges=_charges(settings))
+
+
+def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others: Any) -> Table:
+    """The table that a property group shows, with other values that it does not.
+
+    Raises
+    ------
+    ScenarioError
+        A value cannot be used; the text names the key.
+    """
+    given = json.loads(getattr(group, GIVEN) or "{}")
+    values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in key_fields(table_class)}
+    for item in shown_tables(table_class):
+        values[item.name] = _inner(group, item)
+    return table_class(**values, **others)
+
+
+def show_scenario(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
+    """Show a scenario in the sidebar, and its charges in the scene in place of those that were there."""
+    show_table(settings.scenario, scenario)
+    empties = replace_charges(settings.id_data, scenario.placed_charges)
+    numbered = zip(empties, scenario.charges, strict=True)
+    given = {each.name: {"number": number, **asdict(charge)} for number, (each, charge) in enumerate(numbered, start=1)}
+    settings.charges_given = json.dumps(given)
+    settings.charge_index = 0
+
+
+def show_table(group: bpy.types.PropertyGroup, table: Table) -> None:
+    """Show a table in its property group."""
+    reset(group)
+    given = {}
+    for item in key_fields(type(table)):
+        value = getattr(table, item.name)
+        if is_optional(item):
+            setattr(group, USE + item.name, value is not None)
+        if value is None:
+            continue
+        if value_type(item) is float or vector_length(item):
+            given[item.name] = value
+        setattr(group, item.name, toml_value(value) if is_written_out(item) else value)
+    setattr(group, GIVEN, json.dumps(given))
+    for item in shown_tables(type(table)):
+        inner = getattr(table, item.name)
+        if holds_many(item):
+            for each in inner:
+                show_table(getattr(group, item.name).add(), each)
+            continue
+        if is_optional(item):
+            setattr(group, USE + item.name, inner is not None)
+        if inner is not None:
+            show_table(getattr(group, item.name), inner)
+
+
+def reset(group: bpy.types.PropertyGroup) -> None:
+    """Set all properties of a group, and of the groups in it, to their defaults."""
+    for each in group.bl_rna.properties:
+        if each.identifier == "rna_type":  # Blender's own, which describes the group
+            continue
+        if each.type == "POINTER":
+            reset(getattr(group, each.identifier))
+        elif each.type == "COLLECTION":
+            getattr(group, each.identifier).clear()
+        elif not each.is_readonly:
+            group.property_unset(each.identifier)
+
+
+def shortest(number: float) -> float:
+    """The shortest decimal that single precision takes for this number."""
+    return float(str(np.float32(number)))
+
+
+def _inner(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, ...] | None:
+    table_class = subtable_class(item)
+    inner = getattr(group, item.name)
+    if not holds_many(item):
+        return None if is_optional(item) and not getattr(group, USE + item.name) else table_of(inner, table_class)
+    tables = []
+    for number, each in enumerate(inner, start=1):
+        try:
+            tables.append(table_of(each, table_class))
+        except ScenarioError as error:
+            raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
+    return tuple(tables)
+
+
+def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, given: Any) -> Any:
+    if is_optional(item) and not getattr(group, USE + item.name):
+        return None
+    value = getattr(group, item.name)
+    if is_written_out(item):
+        return _list_of(value, key_name(table_class, item), item)
+    if vector_length(item):
+        return tuple(map(_number, value, given or [None] * len(value)))
+    return _number(value, given) if value_type(item) is float else value
+
+
+def _number(value: float, given: float | None) -> float:
+    if not isinstance(value, float):
+        return value
+    return given if given is not None and np.float32(given) == np.float32(value) else shortest(value)
+
+
+def _list_of(text: str, name: str, item: Field) -> list:
+    """A list as it is written in TOML; brackets around it may be left out."""
+    for written in (text, f"[{text}]"):
+        try:
+            document = tomllib.loads(f"list = {written}")
+        except (ValueError, RecursionError):
+            continue
+        if list(document) == ["list"] and isinstance(document["list"], list):
+            return document["list"]
+    raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
+
+
+def _charges(settings: bpy.types.PropertyGroup) -> Iterable[ChargeSettings]:
+    given = json.loads(settings.charges_given or "{}")
+    scene = settings.id_data
+    scene.view_layers[0].update()  # a script may have moved one just now
+    try:
+        charges = charges_of(scene)
+    except BlastError as error:
+        raise ScenarioError(str(error)) from error
+    return tuple(_charge(each, number, given.get(each.name, {})) for number, each in enumerate(charges, start=1))
+
+
+def _charge(charge: Charge, number: int, given: dict[str, Any]) -> ChargeSettings:
+    """A charge of the scene, with what it was loaded from, if it was."""
+    name = given["name"] if given and (given["name"] or given["number"] == number) else charge.name
+    delay_ms = given.get("delay_ms")
+    if delay_ms is None or delay_ms / _MS_PER_S != charge.delay_s:
+        delay_ms = float(f"{charge.delay_s * _MS_PER_S:.{_DIGITS}g}")
+    try:
+        return ChargeSettings(
+            name=name,
+            place_m=tuple(map(_number, charge.place_m, given.get("place_m", (None,) * 3))),
+            mass_kg=charge.mass_kg,
+            explosive=charge.explosive,
+            delay_ms=delay_ms,
+            burst=charge.burst.value,
+        )
+    except ScenarioError as error:
+        raise ScenarioError(f"charge {charge.name!r}: {error}") from error

@@ -1,0 +1,302 @@
+"""Contours in a scene: colours in renders and after scrubbing, and everything as it was afterwards."""
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours
+from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity, RangeKind
+from bridge_demolition_addon.core.errors import ContourError, OutputError
+from tests.blocks import Blocks
+
+FRAMES = 6
+ONE_LEVEL = 1.01 / 255.0
+"""What eight bits per channel allow, up and down."""
+FRAME_BY_FRAME = ContourSettings(quantity=Quantity.SUM, range_kind=RangeKind.FRAME, colour_map=ColourMap.VIRIDIS)
+
+
+@pytest.fixture
+def hanging(blender, tmp_path):
+    """Two blocks of 100 and 50 kg, side by side, each hanging from a ledge of its own; recorded over some frames."""
+    from bridge_demolition_addon.simulation.display import contours
+
+    blocks = Blocks()
+    for x, mass in ((-2.0, 100.0), (2.0, 50.0)):
+        ledge = blocks.block((x, 0.0, 5.0))
+        blocks.connect("FIXED", (x, 0.0, 4.0), ledge, blocks.block((x, 0.0, 3.0), mass))
+    blocks.play(tmp_path, FRAMES)
+    yield blocks
+    contours.stop()
+    contours.forget_all()
+
+
+def own_colours(blocks):
+    return [tuple(body.color) for body in blocks.world.collection.objects]
+
+
+def shown_colours(blocks):
+    graph = blocks.scene.view_layers[0].depsgraph
+    return np.array([body.evaluated_get(graph).color[:3] for body in blocks.world.collection.objects])
+
+
+def look_of(scene):
+    shading, view, layer = scene.display.shading, scene.view_settings, scene.view_layers[0]
+    return (
+        *(shading.light, shading.color_type, shading.show_shadows, shading.show_cavity, shading.show_object_outline),
+        *(view.view_transform, view.look, view.exposure, view.gamma, layer.material_override),
+        *(sorted(scene.keys()), sorted(layer.keys()), scene.render.engine, scene.render.resolution_x, scene.camera),
+    )
+
+
+def render(scene, engine, path):
+    import bpy
+    from mathutils import Euler
+
+    camera = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", 8.0
+    camera.location, camera.rotation_euler = (0.0, -10.0, 3.0), Euler((np.pi / 2.0, 0.0, 0.0))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.engine = engine
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 160, 80, 100
+    if engine == "CYCLES":
+        scene.cycles.samples = 4
+    scene.render.dither_intensity = 0.0
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+    pixels = imread(path)[:, :, :3]
+    return pixels[40, [40, 120]]  # the blocks' middles: 2 m from the picture's, of 8 m
+
+
+@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])
+def test_rendered_colours_are_those_of_the_map(hanging, tmp_path, engine):
+    from bridge_demolition_addon.simulation.display import contours
+
+    scene = hanging.scene
+    contours.show(scene, FRAME_BY_FRAME)
+    scene.frame_set(FRAMES)
+    # 100 kg is the largest, 50 kg half of it, both up from 0: statics, within what the solver leaves.
+    expected = colours(ColourMap.VIRIDIS, [1.0, 0.5])
+    # Around one half the table goes on by up to 0.006 a step, and the solver may be a step or two off.
+    tolerance = np.array([[ONE_LEVEL], [0.012 + ONE_LEVEL]])
+    assert (abs(render(scene, engine, tmp_path / "render.png") - expected) <= tolerance).all()
+
+
+def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
+    from bridge_demolition_addon.core.display.colour_scale import linear
+    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.recording import handlers
+
+    scene, recording = hanging.scene, handlers.latest()
+    contours.show(scene, ContourSettings(quantity=Quantity.SUM))
+    sums = np.array([frame["body_sums_n"] for frame in recording.frames])
+    names, moving = recording.inventory.body_names.tolist(), [1, 3]
+    for frame in (2, 5, 3, 5):
+        scene.frame_set(frame)
+        rows = [names.index(hanging.world.collection.objects[each].name) for each in moving]
+        row = [each["frames"] for each in recording.frames].index(frame)
+        shares = sums[row, rows] / sums[:, rows].max()
+        assert np.allclose(shown_colours(hanging)[moving], linear(colours(ColourMap.BLUE_TO_RED, shares)), atol=1e-6)
+
+
+def test_an_edited_body_is_coloured_again(hanging):
+    from bridge_demolition_addon.simulation.display import contours
+
+    contours.show(hanging.scene, FRAME_BY_FRAME)
+    hanging.scene.frame_set(5)
+    before = shown_colours(hanging)
+    hanging.world.collection.objects[1].data.update_tag()
+    hanging.world.collection.objects[1].update_tag()
+    hanging.scene.view_layers[0].update()
+    assert np.array_equal(shown_colours(hanging), before)
+
+
+def test_everything_is_as_before_when_contours_end(hanging):
+    import bpy
+
+    from bridge_demolition_addon.simulation.display import contours
+
+    scene = hanging.scene
+    red = bpy.data.materials.new("Red")
+    scene.view_layers[0].material_override = red
+    scene.view_settings.view_transform, scene.view_settings.exposure = "AgX", 0.7
+    own, look, materials = own_colours(hanging), look_of(scene), list(bpy.data.materials)
+    contours.show(scene, FRAME_BY_FRAME)
+    scene.frame_set(5)
+    assert own_colours(hanging) == own
+    assert look_of(scene) != look and scene.view_layers[0].material_override != red
+    contours.hide(scene)
+    assert (own_colours(hanging), look_of(scene), list(bpy.data.materials)) == (own, look, materials)
+    assert np.array_equal(shown_colours(hanging), np.array(own)[:, :3])
+    assert not [each for each in bpy.app.handlers.frame_change_post if each.__module__ == contours.__name__]
+
+
+def test_a_file_saved_with_contours_can_be_put_back(hanging, tmp_path):
+    import bpy
+
+    from bridge_demolition_addon.scene.rendering.body_colours import show_materials
+    from bridge_demolition_addon.simulation.display import contours
+
+    scene = hanging.scene
+    red = bpy.data.materials.new("Red")
+    scene.view_layers[0].material_override = red
+    own, transform = own_colours(hanging), scene.view_settings.view_transform
+    contours.show(scene, FRAME_BY_FRAME)
+    scene.frame_set(5)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "with.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "with.blend"))
+    scene = bpy.context.scene
+    assert not contours.is_shown(scene)
+    assert [tuple(each.color) for each in scene.rigidbody_world.collection.objects] == own
+    show_materials(scene)
+    assert scene.view_layers[0].material_override.name == "Red"
+    assert scene.view_settings.view_transform == transform
+
+
+def test_handlers_are_there_once(hanging):
+    import bpy
+
+    from bridge_demolition_addon.simulation.display import contours
+
+    for _ in range(3):
+        contours.show(hanging.scene, FRAME_BY_FRAME)
+    lists = (bpy.app.handlers.frame_change_post, bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.load_pre)
+    assert [sum(each.__module__ == contours.__name__ for each in one) for one in lists] == [1, 1, 1]
+
+
+def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_path):
+    from dataclasses import replace
+
+    from bridge_demolition_addon.core.results.arrays import load_results
+    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.recording import handlers
+
+    handlers.latest().results().save(tmp_path / "results.npz")
+    scene, results = hanging.scene, load_results(tmp_path / "results.npz")
+    contours.show(scene, FRAME_BY_FRAME)
+    scene.frame_set(5)
+    live = shown_colours(hanging)
+    contours.use_results(scene, replace(results, body_sums_n=2.0 * results.body_sums_n))
+    row = contours.series_of(scene).row_at(5)
+    recorded = [frame["body_sums_n"] for frame in handlers.latest().frames][row]
+    assert np.array_equal(contours.series_of(scene).arrays(row)["body_sums_n"], 2.0 * recorded)
+    contours.refresh(scene)
+    assert np.allclose(shown_colours(hanging), live)  # a frame's own range takes the factor out again
+    with pytest.raises(ContourError, match="none of their"):
+        contours.use_results(scene, replace(results, body_names=np.array(["a", "b", "c", "d"])))
+
+
+def test_hidden_connections_work_all_the_same(blender, tmp_path):
+    from bridge_demolition_addon.scene.visibility import hide_symbols, symbols_are_hidden
+
+    blocks = Blocks()
+    ledge, block = blocks.block((0.0, 0.0, 5.0)), blocks.block((0.0, 0.0, 3.0), 100.0)
+    connection = blocks.connect("FIXED", (0.0, 0.0, 4.0), ledge, block)
+    layer = blocks.scene.view_layers[0]
+    hide_symbols(layer, blocks.scene, hidden=True)
+    assert symbols_are_hidden(layer, blocks.scene) and not connection.visible_get() and block.visible_get()
+    results = blocks.play(tmp_path, FRAMES)
+    # It hangs: the connection carries 100 kg, within a thousandth that the solver leaves.
+    assert abs(results.connection_forces_n[-1, 0, 2]) == pytest.approx(100.0 * 9.80665, rel=1e-3)
+    hide_symbols(layer, blocks.scene, hidden=False)
+    assert not symbols_are_hidden(layer, blocks.scene) and connection.visible_get()
+
+
+def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_frames(blender, tmp_path):
+    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.display.film import FilmKind, render_film
+
+    blocks = Blocks()
+    block = blocks.block((0.0, 0.0, 3.0), 100.0)  # falls freely
+    results = blocks.play(tmp_path, FRAMES)
+    scene, graph = blocks.scene, blocks.scene.view_layers[0].depsgraph
+    contours.show(scene, FRAME_BY_FRAME)
+    scene.rigidbody_world.time_scale = scene.rigidbody_world.time_scale  # Blender takes any setting for a change
+    scene.view_layers[0].update()
+    assert scene.rigidbody_world.point_cache.is_outdated
+    for row in (5, 2, 4):
+        scene.frame_set(int(results.frames[row]))
+        assert tuple(block.evaluated_get(graph).matrix_world.translation) == pytest.approx(results.places_m[row, 0])
+    # As the simulation would be begun anew in a render, it has to rest there: Blender crashes otherwise.
+    assert len(render_film(scene, tmp_path / "film", FRAME_BY_FRAME, small_film(kind=FilmKind.PICTURES))) == FRAMES + 1
+    assert scene.rigidbody_world.enabled
+    contours.hide(scene)
+
+
+def small_film(**more):
+    from bridge_demolition_addon.scene.rendering.film import PictureSettings
+    from bridge_demolition_addon.simulation.display.film import FilmSettings
+
+    return FilmSettings(picture=PictureSettings(320, 180), **more)
+
+
+def test_pictures_of_contours(hanging, tmp_path):
+    from bridge_demolition_addon.charts.contour_legend import legend_width
+    from bridge_demolition_addon.simulation.display.film import FilmKind, render_film
+
+    scene, folder = hanging.scene, tmp_path / "pictures"
+    scene.frame_set(3)
+    look = look_of(scene)
+    pictures = small_film(kind=FilmKind.PICTURES, first_frame=4, last_frame=5)
+    paths = render_film(scene, folder, FRAME_BY_FRAME, pictures)
+    assert [path.name for path in paths] == ["contours_000004.png", "contours_000005.png"]
+    assert look_of(scene) == look and scene.frame_current == 3
+    pixels = imread(paths[0])[:, :, :3]
+    assert pixels.shape == (180, 320, 3)
+    rendered = pixels[:, legend_width(180) :].reshape(-1, 3)
+    highest = colours(ColourMap.VIRIDIS, [1.0])[0]
+    assert (abs(rendered - highest).max(axis=1) <= ONE_LEVEL).sum() > 100  # the heavier block
+    # The bar: a low and a high colour stand in the legend, the high one above the low.
+    legend = pixels[:, : legend_width(180)]
+    ends = [np.argwhere(abs(legend - each).max(axis=2) < 0.02) for each in colours(ColourMap.VIRIDIS, [0.1, 0.9])]
+    assert len(ends[0]) and len(ends[1]) and ends[1][:, 0].max() < ends[0][:, 0].min()
+
+
+def test_a_film_has_its_frames_and_colours(hanging, tmp_path):
+    import bpy
+
+    from bridge_demolition_addon.simulation.display.film import render_film
+
+    scenes, images = len(bpy.data.scenes), len(bpy.data.images)
+    settings = small_film(pictures_per_second=24.0, slowness=2.0)
+    (film,) = render_film(hanging.scene, tmp_path / "film", FRAME_BY_FRAME, settings)
+    assert [path.name for path in film.parent.iterdir()] == ["contours.mp4"]
+    assert len(bpy.data.scenes) == scenes
+    clip = bpy.data.movieclips.load(str(film))
+    # From frame 2, at time 0, to frame 8 are six frames of 1/24 s: shown twice as long, with the first.
+    assert (tuple(clip.size), clip.frame_duration, round(clip.fps)) == ((320, 180), 13, 24)
+    assert len(bpy.data.images) <= images + 1  # Blender's own Render Result
+
+
+def test_slow_motion_is_a_film_of_the_same_pictures(hanging, tmp_path):
+    import bpy
+
+    from bridge_demolition_addon.simulation.display.film import FilmRendering
+
+    settings = small_film(pictures_per_second=24.0, slow_motion=5.0)
+    rendering = FilmRendering(hanging.scene, tmp_path / "film", FRAME_BY_FRAME, settings)
+    assert rendering.picture_count == len(list(rendering.pictures())) == 7
+    films = rendering.finish()
+    assert [film.name for film in films] == ["contours.mp4", "contours_slow_motion.mp4"]
+    lengths = [bpy.data.movieclips.load(str(film)).frame_duration for film in films]
+    assert lengths == [7, 31]  # the first picture, and once or five times for each of six frames
+
+
+def test_a_film_that_cannot_be_made_is_refused(hanging, tmp_path, blender):
+    from bridge_demolition_addon.scene.rendering.film import PictureSettings
+    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.display.film import render_film
+
+    look = look_of(hanging.scene)
+    with pytest.raises(OutputError, match="even"):
+        PictureSettings(321, 180)
+    with pytest.raises(OutputError, match="none is within 50 to 60"):
+        render_film(hanging.scene, tmp_path / "no", FRAME_BY_FRAME, small_film(first_frame=50, last_frame=60))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot be written"):
+        render_film(hanging.scene, tmp_path / "file", FRAME_BY_FRAME, small_film())
+    other = blender.data.scenes.new("Other")
+    with pytest.raises(ContourError, match="no recording"):
+        render_film(other, tmp_path / "no", FRAME_BY_FRAME, small_film())
+    assert look_of(hanging.scene) == look and not contours.is_shown(hanging.scene)
+    assert not (tmp_path / "no").exists()

@@ -1,0 +1,144 @@
+"""Several hits of a ball in a row: each falls freely on its own target, and nothing is flung when it is lifted."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from blocks import Blocks
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.bridge import deck_top
+from bridge_demolition_addon.core.errors import ScenarioError
+from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.core.results.summary import summarise
+from bridge_demolition_addon.core.scenario import Ball, BallHit
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.timing.timeline import Timeline
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+
+SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
+HITS = (
+    BallHit(lift_time_s=2.0, lift_duration_s=1.0, release_time_s=3.2, target_m=(3, 1), drop_height_m=2.0),
+    BallHit(lift_time_s=5.0, lift_duration_s=1.5, release_time_s=7.0, target_m=(-2, 0), drop_height_m=4.0),
+)
+BALL = Ball(mass_kg=1000, diameter_m=1.0, target_m=(0, 0), drop_height_m=3.0, release_time_s=0.5, hits=HITS)
+
+
+@pytest.fixture
+def hits(blender, tmp_path):
+    """Three hits on a slab that yields nothing, with a light block beside the place of the first."""
+    from bridge_demolition_addon.scene.tools.ball import create_ball, create_hits
+
+    blocks = Blocks(substeps_per_frame=60)
+    blocks.block((0, 0, -0.5), size_m=(30, 30, 1))
+    blocks.block((0.85, 0, 0.25), 10.0, size_m=(0.5, 0.5, 0.5))
+    first_step = blocks.scene.frame_start + 2
+    ball = create_ball(blocks.world, BALL, 0.0, 1, first_step + blocks.time.step.frames(BALL.release_time_s))
+    create_hits(ball, BALL, [0.0] * len(BALL.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
+    return blocks.play(tmp_path, blocks.time.step.frames(9.0))
+
+
+def test_each_hit_falls_freely_on_its_own_target(hits):
+    summary = summarise(hits, np.array((0, 0, -STANDARD_GRAVITY_M_S2)))
+    found = summary["hits_of_the_ball"]
+    assert len(found) == 3
+    ball = hits.of_kind("ball")[0]
+    substep = hits.substep_s[-1]
+    for hit, drop in zip(found, BALL.drops, strict=True):
+        speed = np.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * drop.drop_height_m)
+        # The speed before the sub-step of the hit lacks up to that sub-step's gravity.
+        assert hit["approach_m_s"] == pytest.approx(speed, rel=1e-3 + STANDARD_GRAVITY_M_S2 * substep / speed)
+        assert hit["time_s"] == pytest.approx(drop.release_time_s + drop.fall_time_s, abs=2.0 * substep + 1 / 24)
+        # All of the momentum goes into the slab, and no more: it does not bounce.
+        assert hit["impulse_Ns"] == pytest.approx(BALL.mass_kg * speed, rel=0.01)
+        step = np.searchsorted(hits.times_s, hit["time_s"])
+        np.testing.assert_allclose(hits.places_m[step, ball], (*drop.target_m, 0.5), atol=0.05)
+    assert summary["impact"]["time_s"] == pytest.approx(0.5 + BALL.fall_time_s, abs=1 / 24)
+
+
+def test_ball_reaches_the_deck_as_fast_as_a_free_fall(blender, tmp_path):
+    """With short sub-steps: the one of the hit lacks up to its own gravity, here 0.0004 m/s of 4.4."""
+    from bridge_demolition_addon.scene.tools.ball import create_ball
+
+    blocks = Blocks(substeps_per_frame=1000)
+    blocks.block((0, 0, -0.5), size_m=(30, 30, 1))
+    create_ball(blocks.world, replace(BALL, drop_height_m=1.0, hits=()), 0.0, 1, 3)
+    results = blocks.play(tmp_path, 12)
+    (hit,) = summarise(results, np.array((0, 0, -STANDARD_GRAVITY_M_S2)))["hits_of_the_ball"]
+    assert hit["approach_m_s"] == pytest.approx(np.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * 1.0), rel=1e-3)
+
+
+def test_nothing_is_flung_by_the_lift(hits):
+    ball = hits.of_kind("ball")[0]
+    speeds = np.linalg.norm(hits.velocities_m_s, axis=2)
+    for hit in HITS:
+        lifting = (hits.times_s > hit.lift_time_s) & (hits.times_s <= hit.lift_time_s + hit.lift_duration_s + 1 / 24)
+        begin = np.flatnonzero(lifting)[0]
+        way = np.linalg.norm(np.diff(hits.places_m[begin - 1 :, ball][: lifting.sum() + 1], axis=0), axis=1).sum()
+        assert speeds[lifting, ball].max() < 1.55 * way / hit.lift_duration_s
+        assert np.linalg.norm(hits.places_m[begin, ball] - hits.places_m[begin - 1, ball]) < 0.05
+        np.testing.assert_allclose(
+            hits.places_m[lifting][-1, ball], (*hit.target_m, hit.drop_height_m + 0.5), atol=1e-3
+        )
+        block = 1
+        assert speeds[lifting, block].max() < 0.5
+
+
+def test_ball_is_lifted_from_where_it_has_rolled(blender, tmp_path):
+    """Blender itself would take it to the guessed place, above the target, in one frame: at 120 m/s from 5 m below."""
+    from bridge_demolition_addon.scene.tools.ball import create_ball, create_hits
+
+    blocks = Blocks()
+    blocks.block((0, 0, -10.5), size_m=(30, 30, 1))
+    slope = blocks.block((0, 0, -0.5), size_m=(4, 4, 1))
+    slope.rotation_euler[1] = 0.5
+    first_step = blocks.scene.frame_start + 2
+    settings = replace(BALL, hits=(replace(HITS[0], lift_time_s=4.0, lift_duration_s=3.0, release_time_s=7.5),))
+    ball = create_ball(blocks.world, settings, 0.6, 1, first_step + 12)
+    create_hits(ball, settings, [0.6] * len(settings.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
+    results = blocks.play(tmp_path, 24 * 8)
+    row = results.of_kind("ball")[0]
+    lifted = int(np.flatnonzero(results.times_s > 4.02)[0])  # the ball rolls on in the frame up to 4 s
+    before = results.places_m[lifted - 1, row]
+    assert before[2] < -9.0 and np.hypot(*before[:2]) > 3.0
+    moves = np.linalg.norm(np.diff(results.places_m[lifted - 1 : lifted + 73, row], axis=0), axis=1)
+    assert moves[0] < 0.05
+    assert moves.max() < 1.51 * moves.sum() / 72.0
+    turns = np.diff(results.rotations[lifted - 1 : lifted + 73, row], axis=0)
+    assert abs(turns).max() < 1e-3
+    np.testing.assert_allclose(results.places_m[lifted + 72, row], (3, 1, 0.6 + 2.0 + 0.5), atol=1e-3)
+
+
+def test_scenario_with_hits_in_a_row(tmp_path):
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    hit = BallHit(lift_time_s=1.5, lift_duration_s=1.0, release_time_s=2.7, target_m=(3.0, 1.0), drop_height_m=2.0)
+    ball = replace(SPAN.ball, drop_height_m=1.0, release_time_s=0.1, hits=(hit,))
+    scenario = replace(SPAN, time=replace(SPAN.time, duration_s=3.5), ball=ball)
+    assert scenario_from_text(scenario_text(scenario)) == scenario
+    summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
+    results = load_results(tmp_path / "run" / "results.npz")
+    row = results.of_kind("ball")[0]
+    released = np.searchsorted(results.times_s, 2.7)
+    np.testing.assert_allclose(
+        results.places_m[released - 1, row], (3.0, 1.0, deck_top(SPAN.bridge) + 2.0 + 0.67), atol=1e-3
+    )
+    assert summary["impact"]["time_s"] == pytest.approx(0.1 + ball.fall_time_s, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    "values, text",
+    [
+        (
+            {"lift_time_s": 1.0},
+            r"ball.hits.lift_time_s is 1.0: expected at least 1.2822 \(s\), when the ball that is ",
+        ),
+        ({"release_time_s": 2.5}, r"ball.hits.release_time_s is 2.5: expected at least 3.04167 \(s\), a frame after"),
+        ({"release_time_s": 5.0}, r"ball.hits.release_time_s is 5.0: expected less than time.duration_s, 5.0"),
+        ({"target_m": (30, 0)}, r"ball.hits.target_m\[0\] is 30.0: expected a place on the deck"),
+    ],
+)
+def test_wrong_hits_are_refused(values, text):
+    with pytest.raises(ScenarioError, match=text):
+        replace(SPAN, ball=replace(BALL, hits=[replace(HITS[0], **values)]))

@@ -1,0 +1,99 @@
+"""A jackhammer goes where it is led, and takes out of a slab what is under it and nothing else."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from shard_scenes import ShardScene
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.bridge import deck_top
+from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.core.scenario import Jackhammer
+from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.sequence.hammering import tip_places
+from bridge_demolition_addon.core.timing.timeline import Timeline
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
+HAMMER = Jackhammer(
+    start_time_s=0.5,
+    end_time_s=4.5,
+    path_m=[(1.0, -0.5), (2.0, 0.5)],
+    speed_m_s=0.4,
+    blows_per_second=4.0,
+    stroke_m=0.5,
+    depth_m=0.3,
+)
+SLAB_M = (8.0, 4.0, 0.25)
+TOP_M = 5.0
+
+
+def from_path(points_m):
+    """Distance in plan (k,) of points (k, 3) from the path of the hammer."""
+    first, last = np.array(HAMMER.path_m)
+    way = last - first
+    share = np.clip((points_m[:, :2] - first) @ way / (way @ way), 0.0, 1.0)
+    return np.linalg.norm(points_m[:, :2] - first - share[:, None] * way, axis=1)
+
+
+@pytest.fixture
+def slab(blender, tmp_path):
+    """A slab that is held along its two ends, under a jackhammer: what was recorded."""
+    from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
+
+    scene = ShardScene(
+        SLAB_M, (0.0, 0.0, TOP_M - SLAB_M[2] / 2.0), 200, {"solver_iterations": 100}, breaking_force_newton=60e3
+    )
+    scene.hold(abs(scene.fracture.centres[:, 0]) > 3.6)
+    world = scene.scene.rigidbody_world
+    create_jackhammer(world, HAMMER, TOP_M, scene.scene.frame_start + 1, Timeline.of(1.0 / 24.0, 8.0))
+    recording = Recording(scene.scene, tmp_path)
+    handlers.start(recording)
+    for frame in range(1, 150):
+        scene.scene.frame_set(frame)
+    handlers.stop()
+    assert recording.error is None
+    return recording.results()
+
+
+def test_jackhammer_removes_material_where_it_is_driven_and_nowhere_else(slab):
+    assert slab.intact[slab.times_s < HAMMER.start_time_s].all()
+    shards = slab.of_kind("shard")
+    fallen = slab.places_m[0, shards, 2] - slab.places_m[-1, shards, 2] > 1.0
+    distances = from_path(slab.places_m[0, shards])
+    # Shards are √(8 × 4 / 200) = 0.4 m wide. Of those that the chisel meets within half of that, hardly one holds on;
+    # what falls with them is at most the neighbours' neighbours.
+    assert fallen[distances < HAMMER.diameter_m / 2.0 + 0.2].mean() > 0.8
+    assert distances[fallen].max() < HAMMER.diameter_m / 2.0 + 3 * 0.4
+    moved = np.linalg.norm(slab.places_m[-1, shards] - slab.places_m[0, shards], axis=1)
+    beyond = distances > HAMMER.diameter_m / 2.0 + 3 * 0.4
+    assert beyond.sum() > 80
+    assert moved[beyond].max() < 0.05
+    assert slab.intact[-1][slab.points_m[:, 0] < -1.5].all()  # 2.5 m from the path and more
+
+
+def test_chisel_is_where_it_is_led(slab):
+    (tool,) = slab.of_kind("tool")
+    np.testing.assert_allclose(slab.places_m[:, tool], tip_places(HAMMER, TOP_M, slab.times_s), atol=1e-4)
+    heights = slab.places_m[:, tool, 2]
+    assert heights.min() == pytest.approx(TOP_M - HAMMER.depth_m, abs=1e-4)
+    # At 24 frames and 4 blows a second, frames are chords of the cosine.
+    assert abs(slab.velocities_m_s[:, tool]).max() <= HAMMER.largest_speed_m_s * (1.0 + 1e-3)
+
+
+def test_scenario_with_a_jackhammer(tmp_path):
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    hammer = replace(HAMMER, path_m=[(6.0, 0.0)], start_time_s=0.2, end_time_s=0.9)
+    scenario = replace(SPAN, ball=None, jackhammers=[hammer], time=replace(SPAN.time, duration_s=1.0))
+    summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
+    assert summary["connections"]["broken"] > 0
+    results = load_results(tmp_path / "run" / "results.npz")
+    (tool,) = results.of_kind("tool")
+    np.testing.assert_allclose(
+        results.places_m[:, tool], tip_places(hammer, deck_top(scenario.bridge), results.times_s), atol=1e-4
+    )
+    assert results.intact[results.times_s < 0.19].all()

@@ -1,0 +1,204 @@
+"""Removals, saw cuts and weakenings happen when and where they are wanted, with what mechanics says of the rest."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from blocks import Blocks
+from shard_scenes import DENSITY_KG_M3, ShardScene
+
+from bridge_demolition_addon.bullet import layout
+from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
+from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.core.scenario import Removal, SawCut, Weakening
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.bodies import mark_member
+from bridge_demolition_addon.scene.connections.breaking_settings import Breaking
+from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+MASS_KG = 100.0
+WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
+
+
+def play(scene, folder, frames, every_substep=True):
+    recording = Recording(scene, folder, every_substep=every_substep)
+    handlers.start(recording)
+    for frame in range(scene.frame_start, scene.frame_start + frames + 2):
+        scene.frame_set(frame)
+    handlers.stop()
+    if recording.error:
+        raise recording.error
+    return recording, recording.results()
+
+
+def hanging_bar(**options):
+    """A bar of 6 m in 12 shards that hangs by those above 5 m."""
+    bar = ShardScene((1.0, 1.0, 6.0), (0.0, 0.0, 13.0), 12, {"solver_iterations": 100}, **options)
+    bar.hold(bar.fracture.centres[:, 2] > 15.0)
+    for shard in bar.shards:
+        shard.rigid_body.linear_damping = shard.rigid_body.angular_damping = 0.0
+    return bar
+
+
+@pytest.mark.parametrize("every_substep", (True, False))
+def test_bar_falls_freely_below_a_saw_cut_from_its_time_on(blender, tmp_path, every_substep):
+    bar, cut_s = hanging_bar(), 0.3
+    keep_changes(bar.scene, [SawCut(time_s=cut_s, point_m=(0, 0, 13), normal=(0, 0, 2))])
+    recording, results = play(bar.scene, tmp_path, 24, every_substep)
+    below = bar.fracture.centres[:, 2] < 13.0
+    order = [results.body_names.tolist().index(shard.name) for shard in bar.shards]
+    velocities = results.velocities_m_s[:, order, 2]
+    before = results.times_s < cut_s
+    assert results.intact[before].all()
+    assert abs(velocities[before]).max() < 0.05
+    # The cut comes before the first sub-step at or after its time.
+    substep = results.substep_s[-1]
+    falling_s = results.times_s[-1] - substep * np.ceil(cut_s / substep - 1e-3)
+    np.testing.assert_allclose(velocities[-1, below].mean(), -STANDARD_GRAVITY_M_S2 * falling_s, rtol=5e-3)
+    assert abs(velocities[-1, ~below]).max() < 0.05
+    sides = results.places_m[0][results.pairs][:, :, 2] > 13.0
+    np.testing.assert_array_equal(results.intact[-1], sides[:, 0] == sides[:, 1])
+    (happening,) = recording.happenings
+    assert happening == {
+        "time_s": pytest.approx(cut_s, abs=substep),
+        "kind": "saw cut",
+        "shards": [],
+        "connections": int((sides[:, 0] != sides[:, 1]).sum()),
+    }
+
+
+@pytest.mark.parametrize("asleep", (False, True))
+def test_tower_comes_down_by_what_is_taken_from_under_it(blender, tmp_path, asleep):
+    blocks = Blocks(solver_iterations=100)
+    blocks.block((0, 0, -0.5), size_m=(20, 20, 1))
+    lowest, *upper = [blocks.block((0, 0, 0.5 + level), MASS_KG) for level in range(3)]
+    aside = blocks.block((1.0, 0, 0.5), MASS_KG)  # face to face with the one that is taken away
+    blocks.connect("FIXED", (0, 0, 1), lowest, upper[0])
+    for block in (lowest, *upper, aside):
+        block.rigid_body.use_deactivation = asleep
+        block.rigid_body.use_start_deactivated = asleep
+    mark_member(lowest, "pier 1", "pier")
+    keep_changes(blocks.scene, [Removal(time_s=0.5, members=["pier"])])
+    recording, results = play(blocks.scene, tmp_path, 60)
+    height = results.places_m[:, :, 2]
+    assert abs(height[results.times_s < 0.5] - height[0]).max() < 0.01
+    np.testing.assert_allclose(height[-1, 2:5], [0.5, 1.5, 0.5], atol=0.01)
+    # Nothing is flung: what falls by 1 m is no faster than that, and what stood beside it stays.
+    speeds = np.linalg.norm(results.velocities_m_s, axis=2)
+    assert speeds.max() <= 1.01 * np.sqrt(2.0 * STANDARD_GRAVITY_M_S2)
+    assert speeds[:, 4].max() < 0.05
+    assert np.linalg.norm(results.places_m[-1, 4] - results.places_m[0, 4]) < 0.01
+    # What is gone carries nothing, and what lies where it stood bears on the ground.
+    assert not results.body_peak_sums_n[-1, 1]
+    assert results.body_forces_n[-1, 0, 2] == pytest.approx(-3 * WEIGHT_N, rel=0.01)
+    assert recording.happenings[0]["shards"] == [lowest.name]
+
+
+def test_blocks_taken_away_together_bear_on_each_other_no_more(blender, tmp_path):
+    """Bullet keeps the last contact of two bodies that it simulates no more."""
+    blocks = Blocks()
+    blocks.block((0, 0, -0.5), size_m=(20, 20, 1))
+    for level in range(3):
+        blocks.block((0, 0, 0.5 + level), MASS_KG)
+    keep_changes(blocks.scene, [Removal(time_s=0.5, lowest_corner_m=(-1, -1, 0), highest_corner_m=(1, 1, 2.2))])
+    _, results = play(blocks.scene, tmp_path, 60)
+    assert not results.body_peak_sums_n[-1, 1:3].any()
+    assert not results.velocities_m_s[-1, 1:3].any()
+    assert results.places_m[-1, 3, 2] == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("factors", "holds"), (([0.55], True), ([0.45], False), ([0.8, 0.8], True), ([0.7, 0.7], False))
+)
+def test_weakened_connection_bears_what_is_left_of_its_breaking_force(blender, tmp_path, factors, holds):
+    blocks = Blocks()
+    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG)
+    blocks.connect("FIXED", (0, 0, 9.5), ceiling, block, 2.0 * WEIGHT_N)
+    keep_changes(blocks.scene, [Weakening(time_s=0.2 + 0.1 * n, factor=each) for n, each in enumerate(factors)])
+    _, results = play(blocks.scene, tmp_path, 24)
+    assert results.intact[results.times_s < 0.19].all()
+    assert bool(results.intact[-1, 0]) is holds
+
+
+@pytest.mark.parametrize(("factor", "holds"), ((0.55, True), (0.45, False)))
+def test_weakened_section_bears_what_is_left_of_its_strength(blender, tmp_path, factor, holds):
+    """A bar of two halves: the joint carries the weight of 3 m of concrete by area, with twice the strength."""
+    weight_pa = 3.0 * DENSITY_KG_M3 * STANDARD_GRAVITY_M_S2
+    strength = Strength(compression_pa=1e9, tension_pa=2.0 * weight_pa, shear_pa=1e9, bending_pa=1e9, torsion_pa=1e9)
+    bar = ShardScene((1, 1, 6), (0, 0, 13), 2, {}, breaking=Breaking(strength))
+    # The two shards are unequal; what hangs on the upper is scaled to the lower one's weight over the joint.
+    lower = int(bar.fracture.centres[:, 2].argmin())
+    bar.hold(np.arange(2) != lower)
+    area = bar.scene.rigidbody_world.constraints.objects[0]["bda_area_m2"]
+    bar.shards[lower].rigid_body.mass = 3.0 * DENSITY_KG_M3 * area
+    keep_changes(bar.scene, [Weakening(time_s=0.3, factor=factor)])
+    _, results = play(bar.scene, tmp_path, 24)
+    assert results.intact[results.times_s < 0.29].all()
+    assert bool(results.intact[-1, 0]) is holds
+
+
+def test_saw_cuts_the_reinforcement_that_a_broken_section_hangs_by(blender, tmp_path):
+    strength = Strength(compression_pa=1e9, tension_pa=1e3, shear_pa=1e9, bending_pa=1e9, torsion_pa=1e9)
+    bar = ShardScene((1, 1, 6), (0, 0, 13), 2, {}, breaking=Breaking(strength, ductility=Ductility(1.0, 1e6)))
+    lower = int(bar.fracture.centres[:, 2].argmin())
+    bar.hold(np.arange(2) != lower)
+    bar.shards[lower].rigid_body.mass = 300.0  # three times what the joint bears intact; its tie bears 1 kN of it
+    keep_changes(bar.scene, [SawCut(time_s=0.5, point_m=bar.fracture.centres.mean(axis=0).tolist(), normal=(0, 0, 1))])
+    _, results = play(bar.scene, tmp_path, 24)
+    pulls = results.connection_peaks_n[:, 0]
+    assert not results.intact[results.times_s > 0.2].any()
+    assert pulls[(results.times_s > 0.2) & (results.times_s < 0.49)].min() > 500.0
+    assert not pulls[results.times_s > 0.55].any()
+
+
+def test_several_changes_happen_in_order_of_time(blender, tmp_path):
+    bar = hanging_bar()
+    changes = [
+        Removal(time_s=0.6, lowest_corner_m=(-1, -1, 10), highest_corner_m=(1, 1, 12)),
+        Weakening(time_s=0.2, factor=0.5),
+        SawCut(time_s=0.4, point_m=(0, 0, 14), normal=(0, 0, 1)),
+    ]
+    keep_changes(bar.scene, changes)
+    assert changes_of(bar.scene) == tuple(changes)
+    recording, _ = play(bar.scene, tmp_path, 24)
+    happenings = recording.happenings
+    assert [each["kind"] for each in happenings] == ["weakening", "saw cut", "removal"]
+    assert [each["time_s"] for each in happenings] == pytest.approx([0.2, 0.4, 0.6], abs=1.0 / 240.0)
+    keep_changes(bar.scene, [])
+    assert changes_of(bar.scene) == ()
+
+
+def test_changes_start_anew_with_the_simulation(blender, tmp_path):
+    bar = hanging_bar()
+    keep_changes(bar.scene, [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
+    recording = Recording(bar.scene, tmp_path)
+    handlers.start(recording)
+    for _ in range(2):
+        bar.scene.rigidbody_world.substeps_per_frame = 10  # has Blender simulate anew
+        for frame in range(1, 16):
+            bar.scene.frame_set(frame)
+    handlers.stop()
+    assert recording.error is None
+    assert len(recording.happenings) == 1
+    results = recording.results()
+    assert results.intact[results.times_s < 0.3].all()
+    assert not results.intact[-1].all()
+
+
+def test_change_that_concerns_nothing_is_refused(blender, tmp_path):
+    bar = hanging_bar()
+    keep_changes(bar.scene, [Removal(time_s=0.1, members=["pier 7"])])
+    with pytest.raises(ScenarioError, match=r'removals\.members names "pier 7"'):
+        play(bar.scene, tmp_path, 4)
+
+
+def test_changes_are_not_left_out_in_silence_where_memory_is_not_trusted(blender, tmp_path, monkeypatch):
+    right = layout.platform_layout()
+    monkeypatch.setattr(layout, "SYSTEM_V", replace(right, body=replace(right.body, friction=right.body.friction + 8)))
+    monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)
+    bar = hanging_bar()
+    keep_changes(bar.scene, [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
+    with pytest.raises(SimulationError, match="removals, saw cuts and weakenings need Blender's memory"):
+        play(bar.scene, tmp_path, 4)

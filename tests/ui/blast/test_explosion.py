@@ -1,0 +1,120 @@
+"""The panel Explosion: charges in the scene, force objects, total mass, and what is ticked."""
+
+from pathlib import Path
+
+import pytest
+
+from bridge_demolition_addon.core.blast.charges import EXPLOSIVES
+from bridge_demolition_addon.scene.blast.charges import charge_objects, charges_of
+from bridge_demolition_addon.scene.blast.settings import explosion_of
+from bridge_demolition_addon.ui.blast.operator import keep_blast
+
+SMALL = Path(__file__).parents[3] / "tests" / "gui" / "small.toml"
+
+
+@pytest.fixture
+def built(extension, settings):
+    """The small bridge with its ball, built."""
+    settings.scenario_path = str(SMALL)
+    extension.ops.bda.build_scenario()
+    return extension
+
+
+def test_a_source_point_is_added_at_the_cursor(extension, settings):
+    extension.context.scene.cursor.location = (1.5, -2.0, 3.0)
+    for _ in range(2):
+        extension.ops.bda.add_source_point()
+    first, second = charges_of(extension.context.scene)
+    assert (first.name, second.name) == ("Charge 1", "Charge 2")
+    assert first.place_m == (1.5, -2.0, 3.0)
+    assert (first.mass_kg, first.explosive, first.delay_s) == (10.0, "TNT", 0.0)
+    assert settings.charge_index == 1
+
+
+def test_choosing_a_charge_selects_it(extension, settings):
+    for _ in range(3):
+        extension.ops.bda.add_source_point()
+    settings.charge_index = 1
+    assert [each.name for each in extension.context.selected_objects] == ["Charge 2"]
+    assert extension.context.view_layer.objects.active.name == "Charge 2"
+
+
+def test_explosive_and_burst_are_those_of_the_chosen_charge(extension, settings):
+    for _ in range(2):
+        extension.ops.bda.add_source_point()
+    settings.charge_explosive, settings.charge_burst = "C-4", "surface"
+    first, second = charges_of(extension.context.scene)
+    assert (first.explosive, first.burst, second.explosive, second.burst) == ("TNT", "air", "C-4", "surface")
+    settings.charge_index = 0
+    assert (settings.charge_explosive, settings.charge_burst) == ("TNT", "air")
+    for name in EXPLOSIVES:
+        settings.charge_explosive = name
+        assert charges_of(extension.context.scene)[0].explosive == name
+
+
+def test_deleting_takes_the_chosen_one_and_chooses_the_next(extension, settings):
+    for _ in range(3):
+        extension.ops.bda.add_source_point()
+    settings.charge_index = 1
+    extension.ops.bda.delete_source_point()
+    assert [each.name for each in charge_objects(extension.context.scene)] == ["Charge 1", "Charge 3"]
+    assert settings.charge_index == 1
+    for _ in range(2):
+        extension.ops.bda.delete_source_point()
+    assert not extension.ops.bda.delete_source_point.poll()
+
+
+def test_properties_of_a_charge_have_limits_and_tooltips(extension):
+    extension.ops.bda.add_source_point()
+    (charge,) = charge_objects(extension.context.scene)
+    for name in ("bda_mass_kg", "bda_delay_s", "bda_explosive", "bda_burst"):
+        assert charge.id_properties_ui(name).as_dict()["description"]
+    for name in ("bda_mass_kg", "bda_delay_s"):
+        assert charge.id_properties_ui(name).as_dict()["min"] == 0.0
+
+
+def test_charges_keep_their_order_whatever_their_names(extension):
+    for _ in range(11):
+        extension.ops.bda.add_source_point()
+    assert [each.name for each in charges_of(extension.context.scene)] == [f"Charge {n}" for n in range(1, 12)]
+
+
+def test_total_mass_is_that_of_all_active_bodies_but_the_ball(built, settings):
+    bodies = built.context.scene.rigidbody_world.collection.objects
+    ball = next(each for each in bodies if "ball" in each.name)
+    expected = sum(each.rigid_body.mass for each in bodies if each.rigid_body.type == "ACTIVE" and each != ball)
+    # The deck is 9 m x 4 m x 0.4 m, and each of two piers 0.8 m x 2 m x 3 m, of 2400 kg/m³.
+    assert expected == pytest.approx(2400 * (9 * 4 * 0.4 + 2 * 0.8 * 2 * 3), rel=1e-5)
+    built.ops.bda.show_total_mass()
+    assert settings.total_mass == f"{expected:,.0f} kg".replace(",", " ")
+
+
+def test_every_active_body_gets_a_force_object_once(built):
+    for _ in range(2):
+        built.ops.bda.build_force_objects()
+    fields = [each for each in built.context.scene.objects if each.field and each.field.type == "FORCE"]
+    assert len(fields) == 31
+
+
+def test_force_objects_leave_the_selection_as_it_is(built):
+    """Whatever is selected is moved or deleted by the next key."""
+    before = list(built.context.selected_objects)
+    built.ops.bda.build_force_objects()
+    assert list(built.context.selected_objects) == before
+
+
+def test_buttons_without_a_world_are_greyed(extension):
+    assert not extension.ops.bda.build_force_objects.poll()
+    assert not extension.ops.bda.show_total_mass.poll()
+
+
+def test_what_is_ticked_counts(built, settings):
+    settings.scenario.blast.explosion = False
+    built.ops.bda.build_force_objects()
+    assert not explosion_of(built.context.scene).explosion
+    settings.scenario.blast.explosion = True
+    settings.scenario.blast.start_s = 0.1
+    settings.scenario.blast.apply = "direct"
+    keep_blast(built.context.scene)
+    found = explosion_of(built.context.scene)
+    assert (found.explosion, found.apply, found.options.start_s) == (True, "direct", 0.1)

@@ -1,0 +1,168 @@
+"""The sidebar's contours: settings, buttons and what is drawn over the view, as far as it needs no window."""
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.core.display.contours import Quantity, RangeKind
+from tests.blocks import Blocks
+
+FRAMES = 4
+
+
+@pytest.fixture
+def sidebar(blender):
+    """Blender with the add-on switched on."""
+    import bridge_demolition_addon
+
+    bridge_demolition_addon.register()
+    yield blender
+    bridge_demolition_addon.unregister()
+
+
+@pytest.fixture
+def recorded(sidebar, tmp_path):
+    """A block of 100 kg that hangs from a ledge, recorded."""
+    blocks = Blocks()
+    ledge, block = blocks.block((0.0, 0.0, 5.0)), blocks.block((0.0, 0.0, 3.0), 100.0)
+    blocks.connect("FIXED", (0.0, 0.0, 4.0), ledge, block)
+    (tmp_path / "log").mkdir()
+    blocks.play(tmp_path / "log", FRAMES)
+    return blocks
+
+
+def ours_in_handlers():
+    import bpy
+
+    lists = (bpy.app.handlers.frame_change_post, bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.load_pre)
+    return sum(each.__module__.startswith("bridge_demolition_addon") for one in lists for each in one)
+
+
+def shown(blocks, number=1):
+    body = blocks.world.collection.objects[number]
+    return tuple(body.evaluated_get(blocks.scene.view_layers[0].depsgraph).color)[:3]
+
+
+def test_ticking_the_box_colours_and_unticking_puts_back(recorded):
+    settings = recorded.scene.bda
+    settings.contour_range = "FRAME"
+    recorded.scene.frame_set(3)
+    before, others = shown(recorded), ours_in_handlers()
+    settings.contours = True
+    assert ours_in_handlers() > others
+    assert shown(recorded) == (1.0, 0.0, 0.0)  # the only load is the highest, and that is red
+    settings.contours = False
+    assert shown(recorded) == before
+    assert ours_in_handlers() == others
+
+
+def test_a_changed_setting_is_followed_at_once(recorded):
+    from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
+
+    recorded.scene.frame_set(3)
+    settings = recorded.scene.bda
+    settings.contours, settings.contour_map = True, "CIVIDIS"
+    assert shown(recorded) == pytest.approx(linear(colours(ColourMap.CIVIDIS, [1.0]))[0], abs=1e-6)
+
+
+def test_settings_have_the_units_that_the_panel_names(recorded):
+    from bridge_demolition_addon.ui.contours.view import settings_of
+
+    settings = recorded.scene.bda
+    settings.contour_range, settings.contour_low, settings.contour_high = "FIXED", 1.0, 2.0
+    assert (settings_of(recorded.scene).low, settings_of(recorded.scene).high) == (1e3, 2e3)
+    settings.contour_quantity = "VON_MISES"
+    found = settings_of(recorded.scene)
+    assert (found.quantity, found.range_kind, found.high) == (Quantity.VON_MISES, RangeKind.FIXED, 2e6)
+
+
+def test_a_range_that_is_none_is_told_and_changes_nothing(recorded):
+    from bridge_demolition_addon.ui.contours import view as contour_view
+
+    recorded.scene.frame_set(3)
+    settings = recorded.scene.bda
+    settings.contours = True
+    before = shown(recorded)
+    settings.contour_high = -1.0
+    settings.contour_range = "FIXED"
+    assert "has to be below" in contour_view.trouble(recorded.scene)
+    assert shown(recorded) == before
+    settings.contour_high = 1.0
+    assert contour_view.trouble(recorded.scene) == ""
+
+
+def test_switching_the_add_on_off_puts_everything_back(blender, tmp_path):
+    import bridge_demolition_addon
+
+    bridge_demolition_addon.register()
+    blocks = Blocks()
+    blocks.block((0.0, 0.0, 3.0), 100.0)
+    blocks.play(tmp_path, FRAMES)
+    transform = blocks.scene.view_settings.view_transform
+    blocks.scene.bda.contours = True
+    bridge_demolition_addon.unregister()
+    assert ours_in_handlers() == 0
+    assert blocks.scene.view_layers[0].material_override is None
+    assert blocks.scene.view_settings.view_transform == transform
+    assert not [each for each in blender.data.materials if each.name.startswith("Contours")]
+
+
+@pytest.mark.parametrize(
+    ("operator", "reason"),
+    [
+        ("load_results", "Choose a file results.npz first"),
+        ("render_contours", "Choose a folder for the film first"),
+        ("toggle_symbols", "neither connections nor force objects"),
+    ],
+)
+def test_buttons_say_why_they_cannot_be_pressed(sidebar, operator, reason):
+    with pytest.raises(RuntimeError, match=reason):
+        getattr(sidebar.ops.bda, operator)()
+
+
+def test_results_that_are_none_are_refused(recorded, tmp_path):
+    import bpy
+
+    recorded.scene.bda.results_path = str(tmp_path / "none.npz")
+    with pytest.raises(RuntimeError, match="expected the results of a run"):
+        bpy.ops.bda.load_results()
+
+
+def test_pictures_by_the_button(recorded, tmp_path):
+    import bpy
+
+    settings = recorded.scene.bda
+    settings.film_directory, settings.film_kind = str(tmp_path / "film"), "PICTURES"
+    settings.film_width, settings.film_height = 320, 180
+    assert bpy.ops.bda.render_contours() == {"FINISHED"}
+    assert len(list((tmp_path / "film").glob("contours_*.png"))) == FRAMES + 1
+    settings.film_width = 321
+    with pytest.raises(RuntimeError, match="even"):
+        bpy.ops.bda.render_contours()
+
+
+def test_the_arrow_of_the_largest_force_is_as_long_as_asked_for(recorded):
+    from bridge_demolition_addon.ui.contours.decorator import vector_lines
+
+    recorded.scene.frame_set(4)
+    settings = recorded.scene.bda
+    assert vector_lines(recorded.scene) == {}
+    settings.show_vectors, settings.vector_length_m = True, 1.5
+    lines = vector_lines(recorded.scene)["BODIES"]
+    # The connection pulls the block up, at its centre 3 m high.
+    assert np.allclose(lines[:2], [[0.0, 0.0, 3.0], [0.0, 0.0, 4.5]], atol=1e-3)
+
+
+def test_rings_are_as_wide_as_the_stand_off(recorded):
+    from bridge_demolition_addon.core.blast.charges import Charge
+    from bridge_demolition_addon.core.blast.damage import THRESHOLDS, ring_radii
+    from bridge_demolition_addon.scene.blast.charges import create_charges
+    from bridge_demolition_addon.ui.contours.decorator import ring_lines
+
+    charge = Charge(name="A", place_m=(1.0, 2.0, 0.5), mass_kg=5.0)
+    create_charges(recorded.scene, [charge])
+    recorded.scene.view_layers[0].update()
+    recorded.scene.bda.ring_damage = "4"
+    ((lines, radius),) = ring_lines(recorded.scene)
+    assert radius == pytest.approx(ring_radii([charge], 0.0, [THRESHOLDS[4]])[0, 0])
+    assert np.allclose(np.linalg.norm(lines[:, :2] - (1.0, 2.0), axis=1), radius, rtol=1e-5)
+    assert (lines[:, 2] == 0.0).all()

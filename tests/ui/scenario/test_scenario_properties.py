@@ -1,0 +1,115 @@
+"""Every key of a scenario has a property, with the unit, the limits and the meaning of the key."""
+
+from typing import get_args, get_origin
+
+import pytest
+
+import bridge_demolition_addon
+from bridge_demolition_addon.core.scenario import ChargeSettings, Scenario
+from bridge_demolition_addon.core.scenario.schema import (
+    holds_many,
+    key_fields,
+    subtable_class,
+    subtable_fields,
+    value_type,
+)
+from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, is_optional, label_of, registered_group
+
+KEYS = [(table, item) for table in all_tables() for item in key_fields(table)]
+NAMES = [f"{table.table}.{item.name}" for table, item in KEYS]
+NUMBERS = [(table, item) for table, item in KEYS if {float, int} & {value_type(item), *get_args(value_type(item))}]
+UNITS = {"m": "LENGTH", "kg": "MASS", "s": "TIME_ABSOLUTE", "m/s": "VELOCITY", "m³": "VOLUME"}
+SINGLE = 6e-8
+"""Half of the last digit that single precision has."""
+
+
+def property_of(table, name):
+    # Every group of Blender's has a name of its own, listed before ours, which takes its place.
+    return [each for each in registered_group(group_name(table)).bl_rna.properties if each.identifier == name][-1]
+
+
+def tables_within(table):
+    for item in subtable_fields(table):
+        inner = subtable_class(item)
+        yield inner
+        yield from tables_within(inner)
+
+
+def test_every_table_but_the_charges_has_a_group():
+    assert set(all_tables()) == {Scenario, *tables_within(Scenario)} - {ChargeSettings}
+
+
+@pytest.mark.parametrize("key", KEYS, ids=NAMES)
+def test_every_key_has_a_property_that_says_what_it_means(extension, key):
+    table, item = key
+    found = property_of(table, item.name)
+    first_words = item.metadata["key"].description.replace("`", "").rstrip(".")
+    assert found.description.startswith(first_words)
+    assert f"{table.table}.{item.name}" in found.description
+    assert not found.description.endswith(".")  # Blender ends the sentence
+    assert found.name == label_of(table, item)
+    if is_optional(item):
+        assert property_of(table, "use_" + item.name).type == "BOOLEAN"
+
+
+@pytest.mark.parametrize("key", NUMBERS, ids=[f"{table.table}.{item.name}" for table, item in NUMBERS])
+def test_every_number_has_its_unit_and_limits(extension, key):
+    table, item = key
+    rule, held = item.metadata["key"], value_type(item)
+    found = property_of(table, item.name)
+    if found.type == "STRING":  # a list of any length
+        assert get_origin(held) is tuple
+        assert f"({rule.unit})" in found.description or not rule.unit
+        return
+    if found.type == "FLOAT" and rule.unit in UNITS:
+        assert found.unit == UNITS[rule.unit]
+    elif rule.unit == "1/s":
+        assert "per Second" in found.name
+    elif rule.unit:
+        assert found.name.endswith(f"({rule.unit})")
+    if rule.at_least is not None:
+        assert found.hard_min == pytest.approx(rule.at_least, rel=SINGLE)
+    if rule.above is not None:
+        assert found.hard_min == rule.above + (1 if held is int else 0)
+    if rule.at_most is not None:
+        assert found.hard_max == pytest.approx(rule.at_most, rel=SINGLE)
+
+
+@pytest.mark.parametrize("key", KEYS, ids=NAMES)
+def test_choices_are_a_menu(extension, key):
+    table, item = key
+    choices = item.metadata["key"].choices
+    if choices and value_type(item) is str:
+        assert tuple(property_of(table, item.name).enum_items.keys()) == choices
+
+
+def test_labels_end_with_no_unit_that_blender_shows_itself(extension):
+    labels = {f"{table.table}.{item.name}": label_of(table, item) for table, item in KEYS}
+    assert labels["bridge.deck.width_m"] == "Width"
+    assert labels["connections.breaking_force_kgf"] == "Breaking Force (kgf)"
+    assert labels["shards.deactivation_angular_velocity_rad_s"] == "Deactivation Angular Velocity (rad/s)"
+    assert labels["bridge.density_kg_m3"] == "Density (kg/m³)"
+
+
+def test_names_of_one_group_do_not_meet():
+    for table in all_tables():
+        names = [item.name for item in key_fields(table)]
+        for item in subtable_fields(table):
+            names += [item.name, item.name + "_index"] if holds_many(item) else [item.name]
+        names += ["use_" + item.name for item in (*key_fields(table), *subtable_fields(table)) if is_optional(item)]
+        assert len(set(names)) == len(names)
+
+
+def test_registering_twice_leaves_nothing(blender):
+    def found():
+        bases = (blender.types.PropertyGroup, blender.types.Operator, blender.types.Panel, blender.types.UIList)
+        ours = [each.__name__ for base in (*bases, blender.types.Menu) for each in base.__subclasses__()]
+        return [name for name in ours if name.startswith("BDA_") and hasattr(blender.types, name)]
+
+    for _ in range(2):
+        bridge_demolition_addon.register()
+        assert found()
+        bridge_demolition_addon.unregister()
+        assert found() == []
+        assert not hasattr(blender.types.Scene, "bda")
+        assert registered_group("BDA_PG_scenario") is None
