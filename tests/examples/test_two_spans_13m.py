@@ -65,7 +65,7 @@ def test_the_ball_goes_through(ball):
 
 def test_the_span_that_was_hit_falls_and_its_neighbour_stands(ball):
     hit, neighbour = decks_of(ball)
-    # Over 24 seeds half of the span was 3.8 to 5.5 m lower by then, of 5.8 m, and 87 to 100 % of it more than 2 m lower.
+    # Over 24 seeds half of the span was 3.8 to 5.5 m lower by then, and 87 to 100 % of it more than 2 m lower.
     assert np.median(ball.fallen_m(hit)) > 3.0
     assert (ball.fallen_m(hit) > 2.0).mean() > 0.75
     assert ball.moved_m(neighbour).max() < 0.2
@@ -103,6 +103,6 @@ def test_charges_take_down_both_spans(explosives):
 
 
 def test_most_debris_of_charges_stays_near(explosives):
-    # The largest throw is a matter of chance, as one light shard beside a charge gets away or does not: 5.1 to 25.4 m over
+    # The largest throw is chance, as one light shard beside a charge gets away or does not: 5.1 to 25.4 m over
     # 24 seeds. The throw that 95 % of the shards stay within was 3.7 to 4.9 m over the same seeds.
     assert np.quantile(explosives.throws_m(explosives.shards), 0.95) < 7.0
