@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What every test can ask for: an empty Blender, and a process that ends whatever Blender's state."""
+"""What every test can ask for: Blender, the extension in it, and a process that ends whatever Blender's state."""
 
 import os
 import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+import bridge_demolition_addon
 
 _session = pytest.StashKey[pytest.Session]()
 _user_folder = pytest.StashKey[str]()
@@ -25,6 +24,14 @@ def blender() -> Iterator[ModuleType]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     yield bpy
     bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+@pytest.fixture
+def extension(blender: ModuleType) -> Iterator[ModuleType]:
+    """The bpy module with an empty scene and the extension switched on."""
+    bridge_demolition_addon.register()
+    yield blender
+    bridge_demolition_addon.unregister()
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -1,16 +1,14 @@
 """Runs of the examples, whole or cut short, and what the tests of them measure."""
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
+from places import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results.arrays import Results, load_results
 from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario
-
-EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
 @dataclass(frozen=True)

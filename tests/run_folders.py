@@ -2,17 +2,16 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from moving_boxes import moving_boxes
+from scenarios import I235
 
 from bridge_demolition_addon.core.results.summary import summarise
 from bridge_demolition_addon.core.scenario import Exclusion, Neighbour, Site, Zone
 from bridge_demolition_addon.core.scenario.blast import BlastSettings, ChargeSettings
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_text
 
-I235 = read_scenario(Path(__file__).parents[1] / "examples" / "i235_one_span.toml")
 G = 9.80665
 
 TOLD = replace(

@@ -4,11 +4,11 @@ import csv
 import re
 import tomllib
 from operator import attrgetter
-from pathlib import Path
 
 import pytest
+from places import ROOT
+from scenarios import I235
 
-ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
 
 TABLE_1 = """Wrecking Ball Mass, Bridge Total Mass, Bridge Model Geometry, Amounts of Explosives,
@@ -93,14 +93,12 @@ def test_every_parameter_of_table_1_has_a_row_and_no_other():
 
 
 def test_every_value_of_table_2_is_that_of_the_example():
-    from bridge_demolition_addon.core.scenario.file import read_scenario
 
     found = rows(section("## I-235: Table 2"))
     assert [row[0] for row in found] == TABLE_2.replace("\n", " ").split(", ")
     told = {ticked(key)[0]: value_of(ticked(value)[0]) for _, _, key, value in found if value}
     assert len(told) == len(found) - 1  # the way of cutting has no key
-    example = read_scenario(ROOT / "examples" / "i235_one_span.toml")
-    assert told == {key: attrgetter(key)(example) for key in told}
+    assert told == {key: attrgetter(key)(I235) for key in told}
 
 
 def test_every_simulation_and_chart_among_the_figures_is_there():
@@ -155,37 +153,27 @@ def test_every_column_of_our_logs_is_there_and_no_other():
     assert {name: sorted(each) for name, each in told.items()} == {name: sorted(columns[name]) for name in columns}
 
 
-@pytest.fixture
-def addon(blender):
-    """Blender with the add-on switched on."""
-    import bridge_demolition_addon
-
-    bridge_demolition_addon.register()
-    yield blender
-    bridge_demolition_addon.unregister()
-
-
-def test_every_operator_is_one(addon):
+def test_every_operator_is_one(extension):
     named = set(re.findall(r"\bbda\.([a-z_]+)", TEXT))
     assert len(named) > 10
-    assert named - set(dir(addon.ops.bda)) == set()
+    assert named - set(dir(extension.ops.bda)) == set()
 
 
-def test_every_name_in_italics_is_in_the_sidebar(addon):
+def test_every_name_in_italics_is_in_the_sidebar(extension):
     body = re.sub(r"\*\*[^*]+\*\*", "", TEXT.partition("## What comes out differently")[2])
     named = set(re.findall(r"\*([^*\n]+)\*", body))
     assert len(named) > 15
-    assert named - sidebar_names(addon) == set()
+    assert named - sidebar_names(extension) == set()
 
 
-def sidebar_names(addon):
+def sidebar_names(extension):
     """Labels of all our panels and buttons, and names of all settings and their choices."""
     classes = [
-        *addon.types.Panel.__subclasses__(),
-        *addon.types.Operator.__subclasses__(),
+        *extension.types.Panel.__subclasses__(),
+        *extension.types.Operator.__subclasses__(),
     ]
     names = {each.bl_label for each in classes if each.__module__.startswith("bridge_demolition_addon")}
-    groups = [addon.context.scene.bda.bl_rna]
+    groups = [extension.context.scene.bda.bl_rna]
     while groups:
         for each in groups.pop().properties:
             names.add(each.name)
@@ -210,10 +198,11 @@ def test_every_option_of_a_command_is_one(capsys):
     assert alone <= set.union(*options.values())
 
 
-def test_a_force_object_is_as_the_table_says(addon):
+def test_a_force_object_is_as_the_table_says(extension):
+    from blocks import Blocks
+
     from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, SHARE_OF_WAY, WIDEST_M
     from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects
-    from tests.blocks import Blocks
 
     blocks = Blocks()
     body = blocks.block((0.0, 0.0, 3.0), 100.0)
@@ -263,9 +252,9 @@ def test_fields_of_2019_push_nothing_at_their_own_place(blender):
     assert moved[0.01] > 0.1
 
 
-def test_a_scene_prepared_by_hand_is_blasted_and_recorded(addon, tmp_path):
+def test_a_scene_prepared_by_hand_is_blasted_and_recorded(extension, tmp_path):
     # With Blender's own buttons alone: a block that hangs from a ledge, and a charge 5 m beside it.
-    bpy, blocks = addon, []
+    bpy, blocks = extension, []
     for height, kind in ((3.0, "ACTIVE"), (5.0, "PASSIVE")):
         bpy.ops.mesh.primitive_cube_add(size=1.0, location=(0.0, 0.0, height))
         bpy.ops.rigidbody.object_add(type=kind)

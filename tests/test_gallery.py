@@ -2,14 +2,13 @@
 """The gallery shows every example, with what its file says now."""
 
 import sys
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
-ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-import gallery  # noqa: E402
+import gallery
 
 PARTS = ("To see:", "Assumed:", "To trust:")
 

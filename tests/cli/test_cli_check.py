@@ -4,17 +4,14 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from places import I235_FILE, ROOT
+from scenarios import I235
 
 from bridge_demolition_addon.cli.check import MOST_SHARDS_CUT, scenario_facts
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-
-ROOT = Path(__file__).parents[2]
-EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
-I235 = read_scenario(EXAMPLE)
+from bridge_demolition_addon.core.scenario.file import scenario_text
 
 CHECK_WITHOUT_BLENDER = """
 import sys
@@ -32,7 +29,7 @@ def facts(scenario):
 
 
 def test_facts_of_the_i235_span(capsys):
-    assert main(["check", str(EXAMPLE)]) == 0
+    assert main(["check", str(I235_FILE)]) == 0
     printed = capsys.readouterr()
     assert printed.err == ""
     assert printed.out.splitlines() == list(scenario_facts(I235))
@@ -109,13 +106,13 @@ def test_very_many_shards_are_not_cut_to_check_them():
 def test_a_step_that_concerns_no_member_is_refused_as_by_run(tmp_path, capsys):
     path = tmp_path / "bridge.toml"
     step = '\n[[weakenings]]\ntime_s = 2.0\nmembers = ["pear"]\nfactor = 0.5\n'
-    path.write_text(EXAMPLE.read_text(encoding="utf-8") + step, encoding="utf-8")
+    path.write_text(I235_FILE.read_text(encoding="utf-8") + step, encoding="utf-8")
     assert main(["check", str(path)]) == 2
     assert 'weakenings.members names "pear"' in capsys.readouterr().err
 
 
 def test_checking_needs_no_blender():
-    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "check", str(EXAMPLE)]
+    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "check", str(I235_FILE)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, encoding="utf-8")
     assert (done.returncode, done.stderr) == (0, "")
     assert "impact speed" in done.stdout
@@ -123,7 +120,7 @@ def test_checking_needs_no_blender():
 
 def test_running_without_blender_says_what_is_missing(tmp_path):
     output = tmp_path / "results"
-    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "run", str(EXAMPLE), "--output", str(output)]
+    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "run", str(I235_FILE), "--output", str(output)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr == "bda: error: Blender is not there: install the bpy package or run inside Blender\n"

@@ -3,16 +3,15 @@
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
-from run_folders import I235, flying_shards, keep_run
+from places import ROOT
+from run_folders import flying_shards, keep_run
+from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario import Exclusion
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-
-ROOT = Path(__file__).parents[2]
 
 
 def bda(*arguments):
@@ -74,16 +73,9 @@ def test_a_report_needs_no_blender(folder):
 
 
 def test_a_run_ends_with_a_report_when_asked(tmp_path):
-    small = replace(
-        I235,
-        time=replace(I235.time, duration_s=0.5),
-        fracture=replace(I235.fracture, shards=10),
-        connections=replace(I235.connections, search_radius_m=3.0),
-        ball=replace(I235.ball, drop_height_m=0.1, release_time_s=0.0),
-        exclusion=Exclusion(buffer_m=3.0),
-    )
-    path, output = tmp_path / "small.toml", tmp_path / "out"
-    path.write_text(scenario_text(small), encoding="utf-8")
+    short = replace(SHORT_RUN, exclusion=Exclusion(buffer_m=3.0))
+    path, output = tmp_path / "short.toml", tmp_path / "out"
+    path.write_text(scenario_text(short), encoding="utf-8")
     done = bda("run", path, "--output", output, "--no-pictures", "--report")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
@@ -95,7 +87,7 @@ def test_a_run_ends_with_a_report_when_asked(tmp_path):
         "scenario_as_run.toml",
     ):
         assert lines.count(str(output / name)) == 1, name
-    assert read_scenario(output / "scenario_as_run.toml") == small
+    assert read_scenario(output / "scenario_as_run.toml") == short
     assert "I-235 bridge, one span, wrecking ball" in (output / "report.html").read_text(encoding="utf-8")
     # Another run in the same folder leaves nothing of the report, which would be that of this one.
     assert bda("run", path, "--output", output, "--no-pictures", "--overwrite", "--quiet").returncode == 0

@@ -5,14 +5,13 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from places import ROOT
+from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
-ROOT = Path(__file__).parents[2]
-I235 = read_scenario(ROOT / "examples" / "i235_one_span.toml")
 LOGS = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "scene.blend")
 
 
@@ -32,14 +31,7 @@ def outcome(process):
 def scenario_path(tmp_path_factory):
     """A few large shards for a few frames, hit at once."""
     path = tmp_path_factory.mktemp("scenario") / "small.toml"
-    small = replace(
-        I235,
-        time=replace(I235.time, duration_s=0.5),
-        fracture=replace(I235.fracture, shards=10),
-        connections=replace(I235.connections, search_radius_m=3.0),
-        ball=replace(I235.ball, drop_height_m=0.1, release_time_s=0.0),
-    )
-    path.write_text(scenario_text(small), encoding="utf-8")
+    path.write_text(scenario_text(SHORT_RUN), encoding="utf-8")
     return path
 
 

@@ -5,23 +5,15 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from places import ROOT
+from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
-ROOT = Path(__file__).parents[2]
-I235 = read_scenario(ROOT / "examples" / "i235_one_span.toml")
-SMALL = replace(
-    I235,
-    time=replace(I235.time, duration_s=0.5),
-    fracture=replace(I235.fracture, shards=10),
-    connections=replace(I235.connections, search_radius_m=3.0),
-    ball=replace(I235.ball, drop_height_m=0.1, release_time_s=0.0),
-)
-"""A few large shards for a few frames, hit at once."""
+TEXT = scenario_text(SHORT_RUN)
 
 
 def bda(*arguments):
@@ -38,14 +30,14 @@ def outcome(process):
 
 def keep(path, **changes):
     path.parent.mkdir(exist_ok=True)
-    path.write_text(scenario_text(replace(SMALL, **changes)), encoding="utf-8")
+    path.write_text(scenario_text(replace(SHORT_RUN, **changes)), encoding="utf-8")
     return path
 
 
 @pytest.fixture
 def files(tmp_path):
     """Two scenarios that differ in the place of the hit."""
-    other = replace(SMALL.ball, target_m=(3.0, 0.0))
+    other = replace(SHORT_RUN.ball, target_m=(3.0, 0.0))
     return [keep(tmp_path / "in" / "middle.toml"), keep(tmp_path / "in" / "side.toml", ball=other)]
 
 
@@ -104,8 +96,11 @@ SAW_CUT_BESIDE_THE_BRIDGE = "[[saw_cuts]]\ntime_s = 0.1\npoint_m = [90.0, 0.0, 0
 @pytest.mark.parametrize(
     "text, words",
     [
-        (scenario_text(SMALL).replace("target_m = [6.5, 0.0]", "target_m = [60.0, 0.0]"), "ball.target_m[0] is 60.0"),
-        (f"{scenario_text(SMALL)}\n{SAW_CUT_BESIDE_THE_BRIDGE}", "saw_cuts"),
+        (
+            scenario_text(SHORT_RUN).replace("target_m = [6.5, 0.0]", "target_m = [60.0, 0.0]"),
+            "ball.target_m[0] is 60.0",
+        ),
+        (f"{TEXT}\n{SAW_CUT_BESIDE_THE_BRIDGE}", "saw_cuts"),
     ],
     ids=["for a value", "for what follows from it"],
 )
@@ -127,7 +122,7 @@ def test_none_is_run_where_results_of_one_are_there(files, tmp_path, capsys):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows interrupts a whole console, this test with it")
 def test_ctrl_c_stops_all_and_keeps_what_there_is(files, tmp_path):
-    long = keep(tmp_path / "in" / "long.toml", time=replace(SMALL.time, duration_s=2000))
+    long = keep(tmp_path / "in" / "long.toml", time=replace(SHORT_RUN.time, duration_s=2000))
     output = tmp_path / "out"
     process = bda("run", files[0], long, files[1], "--output", output, "--no-pictures", "--report")
     log = output / "long" / "force_log.csv"

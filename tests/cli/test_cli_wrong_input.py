@@ -5,12 +5,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from places import ROOT
+from scenarios import I235
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_text
 
-ROOT = Path(__file__).parents[2]
-RIGHT = scenario_text(read_scenario(ROOT / "examples" / "i235_one_span.toml"))
+RIGHT = scenario_text(I235)
 
 
 def with_line(key, line):

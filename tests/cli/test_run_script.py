@@ -9,10 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from places import ROOT
+from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_text
 
-ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "run_scenario.py"
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -42,14 +43,7 @@ def run(request: pytest.FixtureRequest, tmp_path: Path) -> Run:
 
 
 def test_it_runs_a_scenario_where_the_shell_is(run: Run, tmp_path: Path) -> None:
-    whole = read_scenario(ROOT / "examples" / "i235_one_span.toml")
-    short = replace(
-        whole,
-        time=replace(whole.time, duration_s=0.25),
-        fracture=replace(whole.fracture, shards=10),
-        connections=replace(whole.connections, search_radius_m=3.0),
-        ball=replace(whole.ball, drop_height_m=0.1, release_time_s=0.0),
-    )
+    short = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.25))
     (tmp_path / "short.toml").write_text(scenario_text(short), encoding="utf-8")
     outcome = run("short.toml", "--output", "results", "--no-pictures")
     assert outcome.returncode == 0, outcome.stderr

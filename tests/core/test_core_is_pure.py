@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from places import ROOT
+
 import bridge_demolition_addon.core
 
 IMPORT_WITHOUT_BLENDER = """
@@ -18,8 +20,6 @@ for name in sys.argv[1:]:
         refused.append(f"{name}: {error}")
 sys.exit("\\n".join(refused) or 0)
 """
-
-ROOT = Path(__file__).parents[2]
 
 
 def module_names():

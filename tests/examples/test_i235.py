@@ -5,10 +5,10 @@ They are run for 3 s instead of 5 or 8 s: the ball hits at 1.51 s, and a deck ta
 
 import math
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top, deck_underside
@@ -18,7 +18,6 @@ from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 DURATION_S = 3.0
 
 

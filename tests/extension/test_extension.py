@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 MODULE = "bl_ext.user_default.bridge_demolition_addon"
 PYTHON = "{}.{}".format(*sys.version_info)
 PLATFORM = {"linux": "linux-x64", "darwin": "macos-arm64", "win32": "windows-x64"}[sys.platform]

@@ -2,12 +2,10 @@
 """What Blender and its extension site ask of a manifest."""
 
 import tomllib
-from pathlib import Path
 from typing import Any
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
+from places import ROOT
 
 
 @pytest.fixture(scope="module")

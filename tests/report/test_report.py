@@ -15,7 +15,8 @@ from manifold3d import CrossSection
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from moving_boxes import moving_boxes
-from run_folders import I235, TOLD, flying_shards, keep_run
+from run_folders import TOLD, flying_shards, keep_run
+from scenarios import I235
 
 from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.cli.progress import Silence

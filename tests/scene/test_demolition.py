@@ -1,18 +1,16 @@
 """A demolition as Blender data, read back through Blender's own interface."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from scenarios import I235
 
-from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.connections import GROUND
 from bridge_demolition_addon.core.structure.model import build_model
 
-EXAMPLE = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
-SCENARIO = replace(EXAMPLE, fracture=replace(EXAMPLE.fracture, shards=30))
+SCENARIO = replace(I235, fracture=replace(I235.fracture, shards=30))
 SLOW_NTSC = replace(
     SCENARIO.time,
     frames_per_second=30,

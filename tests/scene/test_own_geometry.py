@@ -1,20 +1,17 @@
 """A demolition of a member from a file, without a bridge."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import Ball, FractureSettings, Geometry
-from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of, kind_of
 from bridge_demolition_addon.scene.demolition import build_demolition
-
-I235 = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 
 
 @pytest.fixture

@@ -1,10 +1,11 @@
 """Removing a demolition leaves nothing of it behind; supports hold; paint is read."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import EXAMPLES
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.density import painted_density
@@ -23,8 +24,7 @@ from bridge_demolition_addon.simulation.recording import handlers
 from bridge_demolition_addon.simulation.recording import unrecorded_watch as watch
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-I235 = replace(read_scenario(EXAMPLES / "i235_one_span.toml"), fracture=FractureSettings(shards=30))
+SPAN = replace(I235, fracture=FractureSettings(shards=30))
 
 
 @pytest.fixture
@@ -85,9 +85,9 @@ def test_slow_motion_ends_with_the_demolition(blender):
 
 
 def test_built_anew_and_played_again(blender):
-    scene, model = blender.context.scene, build_model(I235)
+    scene, model = blender.context.scene, build_model(SPAN)
     for _ in range(3):
-        build_demolition(scene, I235, model)
+        build_demolition(scene, SPAN, model)
         play(scene, 40)
         assert len(shards_of(scene)) == 30 and len(blender.data.meshes) == 32
         remove_demolition(scene)
@@ -99,7 +99,7 @@ def test_a_scene_without_bodies_has_nothing_to_remove(blender):
 
 def test_what_was_not_built_here_stays(blender):
     scene = blender.context.scene
-    build_demolition(scene, I235, build_model(I235))
+    build_demolition(scene, SPAN, build_model(SPAN))
     shards = shards_of(scene)
     mesh = shards[0].data
     blender.data.objects.new("copy", mesh)
@@ -114,7 +114,7 @@ def test_what_was_not_built_here_stays(blender):
 @pytest.mark.parametrize("played", [0, 12])
 def test_loose_connections_are_removed_and_no_other(blender, watched, tmp_path, played):
     scene = blender.context.scene
-    build_demolition(scene, I235, build_model(I235))
+    build_demolition(scene, SPAN, build_model(SPAN))
     shard = shards_of(scene)[3]
     held = [each for each in connections_of(scene) if shard in ends_of(each)]
     count, loose = len(connections_of(scene)), len(held)
@@ -134,10 +134,10 @@ def test_loose_connections_are_removed_and_no_other(blender, watched, tmp_path, 
 
 def test_supports_hold_their_shards(blender):
     scenario = replace(
-        I235,
+        SPAN,
         ball=None,
         supports=[Support(member="pier cap")],
-        shards=replace(I235.shards, start_deactivated=False, use_deactivation=False),
+        shards=replace(SPAN.shards, start_deactivated=False, use_deactivation=False),
     )
     scene, model = blender.context.scene, build_model(scenario)
     build_demolition(scene, scenario, model)

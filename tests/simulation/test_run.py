@@ -3,18 +3,16 @@
 import csv
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top, deck_underside
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
-
-SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 
 
 def run(scenario, folder, pictures=False):
@@ -28,7 +26,7 @@ def run(scenario, folder, pictures=False):
 def span(tmp_path_factory):
     """The example as it is, once for all tests that look at it."""
     folder = tmp_path_factory.mktemp("span") / "run"
-    return folder, *run(SPAN, folder)
+    return folder, *run(I235, folder)
 
 
 def rows(path):
@@ -51,7 +49,7 @@ def test_members_shapes_and_scenario_are_kept(span):
     corners = np.concatenate([results.vertices_of(body) + results.places_m[0, body] for body in deck])
     # The deck is 14 m long with its overhangs, 8.5 m wide and 0.25 m thick.
     np.testing.assert_allclose(np.ptp(corners, axis=0), (14.0, 8.5, 0.25), atol=1e-5)
-    assert read_scenario(folder / "scenario_as_run.toml") == SPAN
+    assert read_scenario(folder / "scenario_as_run.toml") == I235
 
 
 def test_deck_stands_until_the_ball_hits(span):
@@ -70,23 +68,23 @@ def test_ball_falls_freely_until_it_hits(span):
     """Bullet adds gravity to the velocity once a sub-step, so velocity is exact and distance a half sub-step ahead."""
     _, summary, results = span
     ball = results.of_kind("ball")[0]
-    time = results.times_s - SPAN.ball.release_time_s
-    falling = (time > SPAN.time.step.substep_s) & (results.times_s < summary["impact"]["time_s"] - 1e-9)
+    time = results.times_s - I235.ball.release_time_s
+    falling = (time > I235.time.step.substep_s) & (results.times_s < summary["impact"]["time_s"] - 1e-9)
     np.testing.assert_allclose(
         results.velocities_m_s[falling, ball, 2], -STANDARD_GRAVITY_M_S2 * time[falling], rtol=1e-5
     )
     hit = summary["impact"]["time_s"]
-    frame = SPAN.time.step.frame_s
-    assert hit - frame <= SPAN.ball.release_time_s + SPAN.ball.fall_time_s <= hit + 1e-6
+    frame = I235.time.step.frame_s
+    assert hit - frame <= I235.ball.release_time_s + I235.ball.fall_time_s <= hit + 1e-6
 
 
 def test_deck_falls_and_ball_goes_through(span):
     _, summary, results = span
     ball = results.of_kind("ball")[0]
-    assert results.places_m[-1, ball, 2] < deck_underside(SPAN.bridge)
-    on_deck = results.of_kind("shard")[results.places_m[0, results.of_kind("shard"), 2] > deck_underside(SPAN.bridge)]
+    assert results.places_m[-1, ball, 2] < deck_underside(I235.bridge)
+    on_deck = results.of_kind("shard")[results.places_m[0, results.of_kind("shard"), 2] > deck_underside(I235.bridge)]
     assert len(on_deck) > 100
-    assert results.places_m[-1, on_deck, 2].max() < deck_top(SPAN.bridge) / 2
+    assert results.places_m[-1, on_deck, 2].max() < deck_top(I235.bridge) / 2
     assert summary["connections"]["broken"] > summary["connections"]["count"] / 2
 
 
@@ -125,7 +123,7 @@ def test_summary_is_what_was_returned(span):
     )
     assert np.all(np.diff(over_time["broken"]) >= 0)
     # Bullet's own sub-steps are in single precision.
-    assert summary["simulated_s"] == pytest.approx(SPAN.time.duration_s, rel=1e-6)
+    assert summary["simulated_s"] == pytest.approx(I235.time.duration_s, rel=1e-6)
 
 
 def test_saved_scene_plays_what_was_recorded(span, blender):
@@ -144,7 +142,7 @@ def test_saved_scene_plays_what_was_recorded(span, blender):
 
 def test_same_scenario_gives_the_same_logs(tmp_path):
     short = replace(
-        SPAN, time=replace(SPAN.time, duration_s=1.0), ball=replace(SPAN.ball, drop_height_m=0.5, release_time_s=0.1)
+        I235, time=replace(I235.time, duration_s=1.0), ball=replace(I235.ball, drop_height_m=0.5, release_time_s=0.1)
     )
     for name in ("first", "second"):
         summary, _ = run(short, tmp_path / name)
@@ -155,11 +153,11 @@ def test_same_scenario_gives_the_same_logs(tmp_path):
 
 def test_awake_bridge_stands_where_its_strength_suffices_and_hands_its_weight_to_the_ground(tmp_path):
     awake = replace(
-        SPAN,
+        I235,
         ball=None,
-        time=replace(SPAN.time, duration_s=3.0),
-        shards=replace(SPAN.shards, start_deactivated=False, use_deactivation=False),
-        connections=replace(SPAN.connections, breaking_force_kgf=50_000),
+        time=replace(I235.time, duration_s=3.0),
+        shards=replace(I235.shards, start_deactivated=False, use_deactivation=False),
+        connections=replace(I235.connections, breaking_force_kgf=50_000),
     )
     summary, results = run(awake, tmp_path / "run")
     assert summary["connections"]["broken"] == 0
@@ -176,10 +174,10 @@ def test_pictures_show_before_impact_and_after(tmp_path):
     from matplotlib.image import imread
 
     small = replace(
-        SPAN,
-        time=replace(SPAN.time, duration_s=1.0),
-        ball=replace(SPAN.ball, drop_height_m=0.5, release_time_s=0.1),
-        pictures=replace(SPAN.pictures, width_px=160, height_px=90),
+        I235,
+        time=replace(I235.time, duration_s=1.0),
+        ball=replace(I235.ball, drop_height_m=0.5, release_time_s=0.1),
+        pictures=replace(I235.pictures, width_px=160, height_px=90),
     )
     run(small, tmp_path / "run", pictures=True)
     pictures = [imread(tmp_path / "run" / "frames" / f"{name}.png") for name in ("before", "impact", "after")]

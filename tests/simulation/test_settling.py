@@ -1,22 +1,20 @@
 """Warm-up: nothing breaks while a structure settles, and with damping it is at rest afterwards."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 from shard_scenes import ShardScene
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.results.summary import settling
-from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, breaking_of
 from bridge_demolition_addon.simulation.recording import handlers
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
-SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 WARM_UP_S = 1.0
 
 
@@ -71,9 +69,9 @@ def test_damping_is_a_share_of_the_velocity_in_a_second(blender, tmp_path):
 def test_summary_says_how_quiet_the_bridge_is_after_its_warm_up(tmp_path):
     from bridge_demolition_addon.simulation.run import run_scenario
 
-    awake = replace(SPAN.shards, start_deactivated=False, use_deactivation=False)
-    connections = replace(SPAN.connections, warm_up_s=0.5, warm_up_damping=0.999)
-    scenario = replace(SPAN, ball=None, shards=awake, connections=connections, time=replace(SPAN.time, duration_s=0.6))
+    awake = replace(I235.shards, start_deactivated=False, use_deactivation=False)
+    connections = replace(I235.connections, warm_up_s=0.5, warm_up_damping=0.999)
+    scenario = replace(I235, ball=None, shards=awake, connections=connections, time=replace(I235.time, duration_s=0.6))
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     assert summary["settled"]["time_s"] == pytest.approx(0.5, abs=1 / 24)
     assert 0.0 < summary["settled"]["largest_speed_m_s"] < 0.5
@@ -83,4 +81,4 @@ def test_damping_without_a_warm_up_is_refused():
     with pytest.raises(
         ScenarioError, match=r"connections.warm_up_damping is 0.5: expected 0 where connections.warm_up"
     ):
-        replace(SPAN.connections, warm_up_damping=0.5)
+        replace(I235.connections, warm_up_damping=0.5)

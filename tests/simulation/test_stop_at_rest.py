@@ -1,19 +1,17 @@
 """A run ends once everything rests, if it is asked to."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario import Removal
-from bridge_demolition_addon.core.scenario.file import read_scenario
 
-SPAN = read_scenario(Path(__file__).parents[2] / "examples" / "i235_one_span.toml")
 SMALL = replace(
-    SPAN, ball=None, fracture=replace(SPAN.fracture, shards=12), removals=[Removal(time_s=0.5, members=["pier"])]
+    I235, ball=None, fracture=replace(I235.fracture, shards=12), removals=[Removal(time_s=0.5, members=["pier"])]
 )
 
 
@@ -24,7 +22,7 @@ def run(scenario, folder):
 
 
 def test_run_stops_at_rest_and_the_scene_with_it(blender, tmp_path):
-    time = replace(SPAN.time, duration_s=30.0, stop_at_rest=True)
+    time = replace(I235.time, duration_s=30.0, stop_at_rest=True)
     summary = run(replace(SMALL, time=time), tmp_path / "run")
     results = load_results(tmp_path / "run" / "results.npz")
     rest_s = summary["came_to_rest_s"]
@@ -43,7 +41,7 @@ def test_run_stops_at_rest_and_the_scene_with_it(blender, tmp_path):
 
 
 def test_run_goes_on_to_its_end_where_it_is_not_asked_to_stop(blender, tmp_path):
-    time = replace(SPAN.time, duration_s=3.0)
+    time = replace(I235.time, duration_s=3.0)
     summary = run(replace(SMALL, time=time, removals=()), tmp_path / "run")
     assert summary["simulated_s"] == pytest.approx(3.0)
     assert summary["came_to_rest_s"] == 0.0  # it sleeps from the beginning

@@ -1,19 +1,8 @@
-"""The extension as it is when it is switched on."""
+"""The extension's settings, for tests of the sidebar."""
 
-from collections.abc import Iterator
 from types import ModuleType
 
 import pytest
-
-import bridge_demolition_addon
-
-
-@pytest.fixture
-def extension(blender: ModuleType) -> Iterator[ModuleType]:
-    """The bpy module with an empty scene and the extension on."""
-    bridge_demolition_addon.register()
-    yield blender
-    bridge_demolition_addon.unregister()
 
 
 @pytest.fixture

@@ -1,12 +1,12 @@
 """Members from mesh files: formats, places, repair, overlap, and the model that is made of them."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold
+from scenarios import I235
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.main import main
@@ -19,8 +19,6 @@ from bridge_demolition_addon.core.geometry.solids import box, from_manifold, uni
 from bridge_demolition_addon.core.scenario import Ball, Geometry, Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
-
-I235 = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 
 # Files keep single precision of some metres.
 SINGLE_M = 1e-6

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sample_results import FRAME_S, FRAME_SERIES, POINTS, G, frame_of, hanging_chain
 
 from bridge_demolition_addon.core.display.contours import (
     ContourSeries,
@@ -14,7 +15,6 @@ from bridge_demolition_addon.core.display.contours import (
 from bridge_demolition_addon.core.display.film_frames import film_rows
 from bridge_demolition_addon.core.display.force_arrows import arrows, connection_forces, contact_forces
 from bridge_demolition_addon.core.errors import ContourError, OutputError
-from tests.sample_results import FRAME_S, FRAME_SERIES, POINTS, G, frame_of, hanging_chain
 
 UPPER, LOWER, BALL = 1, 2, 3
 

@@ -1,10 +1,10 @@
 """Shards of each member of the I-235 example, cut in ways of their own."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.bridge.preparation import prepared_members
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
@@ -15,7 +15,6 @@ from bridge_demolition_addon.core.scenario import Finer, FracturePoint, Fracture
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
 
-I235 = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 MEMBERS = prepared_members(I235).members
 NAMES = [member.name for member in MEMBERS]
 MASSES = [member.mass_kg for member in MEMBERS]

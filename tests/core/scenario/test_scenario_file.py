@@ -3,10 +3,11 @@
 import os
 import tomllib
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import EXAMPLES
+from scenarios import I235
 
 from bridge_demolition_addon.core.bridge import bridge_density, bridge_members
 from bridge_demolition_addon.core.errors import ScenarioError
@@ -20,9 +21,6 @@ from bridge_demolition_addon.core.scenario import (
     TimeSettings,
 )
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
-
-EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*.toml"))
-I235 = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 
 BARE = Scenario(
     title='A "quoted" back\\slash, Brücke, 다리, 🌉',
@@ -38,7 +36,7 @@ BARE = Scenario(
 )
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.name)
 def test_examples_are_read_and_written_without_loss(path):
     scenario = read_scenario(path)
     assert scenario_from_text(scenario_text(scenario)) == scenario

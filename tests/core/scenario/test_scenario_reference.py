@@ -1,12 +1,12 @@
 """The reference of a scenario's keys says what the code does."""
 
-from pathlib import Path
+from places import ROOT
 
 from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.reference import scenario_reference
 from bridge_demolition_addon.core.scenario.schema import holds_many, key_fields, subtable_class, subtable_fields
 
-DOCUMENT = Path(__file__).parents[3] / "docs" / "scenario.md"
+DOCUMENT = ROOT / "docs" / "scenario.md"
 
 
 def all_tables(table_class, brackets="[{}]"):

@@ -1,15 +1,14 @@
 """Tables of the site: taken as they are meant, and refused with a sentence where they cannot be."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario import Exclusion, Neighbour, Site, Zone
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 
-I235 = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
 
 

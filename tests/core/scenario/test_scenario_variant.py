@@ -2,20 +2,18 @@
 
 import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from places import I235_FILE
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "i235_one_span.toml"
-I235 = read_scenario(EXAMPLE)
-
 
 @pytest.fixture
 def folder(tmp_path):
-    shutil.copy(EXAMPLE, tmp_path / "base.toml")
+    shutil.copy(I235_FILE, tmp_path / "base.toml")
     return tmp_path
 
 
@@ -103,7 +101,7 @@ def test_two_that_are_based_on_each_other(folder):
 
 def test_leaving_out_needs_a_base(folder):
     path = folder / "alone.toml"
-    path.write_text(EXAMPLE.read_text().replace("[scenario]", '[scenario]\nwithout = ["ball"]'))
+    path.write_text(I235_FILE.read_text().replace("[scenario]", '[scenario]\nwithout = ["ball"]'))
     with pytest.raises(ScenarioError, match=r"scenario\.without needs scenario\.based_on"):
         read_scenario(path)
 

@@ -1,18 +1,16 @@
 """Changes find the shards and connections that they mean, and are refused where they mean nothing."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario import Removal, SawCut, Weakening
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.core.sequence.events import Structure, model_structure, schedule
 from bridge_demolition_addon.core.structure.model import build_model
-
-SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 
 # Two piers of two blocks each, 10 m apart, with a deck of one block on top; the last body is the ground.
 STRUCTURE = Structure(
@@ -93,11 +91,11 @@ def test_what_concerns_nothing_is_refused(change, text):
         (lambda: SawCut(time_s=1, point_m=(0, 0, 0), normal=(0, 0, 0)), "saw_cuts.normal is a list of length 3, all 0"),
         (lambda: Weakening(time_s=1, factor=0), "weakenings.factor is 0: expected a number above 0 and up to 1"),
         (lambda: Weakening(time_s=-1, factor=1), "weakenings.time_s is -1: expected a number of at least 0"),
-        (lambda: replace(SPAN, removals=[Removal(time_s=5, members=["deck"])]), "removals.time_s is 5.0: expected at "),
+        (lambda: replace(I235, removals=[Removal(time_s=5, members=["deck"])]), "removals.time_s is 5.0: expected at "),
         (
             lambda: replace(
-                SPAN,
-                connections=replace(SPAN.connections, warm_up_s=1),
+                I235,
+                connections=replace(I235.connections, warm_up_s=1),
                 weakenings=[Weakening(time_s=0.5, factor=0.5)],
             ),
             "weakenings.time_s is 0.5: expected at least connections.warm_up_s, 1.0",
@@ -112,7 +110,7 @@ def test_wrong_changes_are_refused(make, text):
 def test_changes_are_written_without_loss():
     box = {"lowest_corner_m": (0.1, -9, 0), "highest_corner_m": (13, 9, 0.3)}
     scenario = replace(
-        SPAN,
+        I235,
         removals=[Removal(time_s=1, members=["pier 1", 'odd "name"']), Removal(time_s=0.1 + 0.2, **box)],
         saw_cuts=[SawCut(time_s=1, point_m=(6.5, 0, 5), normal=(1, 0, 0), members=["deck"])],
         weakenings=[Weakening(time_s=2, factor=0.3, **box)],
@@ -121,7 +119,7 @@ def test_changes_are_written_without_loss():
 
 
 def test_removed_pier_of_a_model_is_all_of_its_shards():
-    model = build_model(SPAN)
+    model = build_model(I235)
     names = [member.name for member in model.members]
     (event,) = schedule([Removal(time_s=1, members=["pier 1 column 1"])], model_structure(model))
     expected = np.flatnonzero(model.member_of_shard == names.index("pier 1 column 1"))

@@ -1,17 +1,16 @@
 """The way of a jackhammer's chisel, and which jackhammers are refused."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario import Jackhammer
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.core.sequence.hammering import tip_places
 
-SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 HAMMER = Jackhammer(
     start_time_s=1.0,
     end_time_s=4.0,
@@ -45,7 +44,7 @@ def test_largest_speed():
 
 
 def test_jackhammers_are_written_without_loss():
-    scenario = replace(SPAN, jackhammers=[HAMMER, replace(HAMMER, path_m=[(0.1 + 0.2, 0)])])
+    scenario = replace(I235, jackhammers=[HAMMER, replace(HAMMER, path_m=[(0.1 + 0.2, 0)])])
     assert scenario_from_text(scenario_text(scenario)) == scenario
 
 
@@ -74,4 +73,4 @@ def test_jackhammers_are_written_without_loss():
 )
 def test_wrong_jackhammers_are_refused(values, text):
     with pytest.raises(ScenarioError, match=text):
-        replace(SPAN, jackhammers=[replace(HAMMER, **values)])
+        replace(I235, jackhammers=[replace(HAMMER, **values)])

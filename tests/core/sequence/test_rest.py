@@ -1,17 +1,16 @@
 """When everything has come to rest."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import EXAMPLES
+from scenarios import I235
 
 from bridge_demolition_addon.core.scenario import BallHit, SawCut
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.sequence.rest import Rest, last_event_s
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
-SPAN = read_scenario(EXAMPLES / "i235_one_span.toml")
 STEP_S = 0.1
 
 
@@ -62,13 +61,13 @@ def test_who_moves_again_did_not_come_to_rest():
 
 def test_last_event():
     # The ball is let go at 0.5 s and falls 5 m, for 1.0098 s.
-    assert last_event_s(SPAN) == pytest.approx(0.5 + np.sqrt(10.0 / 9.80665))
-    assert last_event_s(replace(SPAN, ball=None)) == 0.0
-    assert last_event_s(replace(SPAN, saw_cuts=[SawCut(time_s=3, point_m=(6, 0, 5), normal=(1, 0, 0))])) == 3.0
+    assert last_event_s(I235) == pytest.approx(0.5 + np.sqrt(10.0 / 9.80665))
+    assert last_event_s(replace(I235, ball=None)) == 0.0
+    assert last_event_s(replace(I235, saw_cuts=[SawCut(time_s=3, point_m=(6, 0, 5), normal=(1, 0, 0))])) == 3.0
     explosive = read_scenario(EXAMPLES / "single_span_explosives.toml")
     detonations = [explosive.blast.start_s + charge.delay_s for charge in explosive.placed_charges]
     assert last_event_s(replace(explosive, ball=None)) == max(detonations) > 0.0
     quiet = replace(explosive.blast, explosion=False)
     assert last_event_s(replace(explosive, ball=None, blast=quiet)) == 0.2  # its warm-up
     hit = BallHit(lift_time_s=2, lift_duration_s=1, release_time_s=3.5, target_m=(6, 0), drop_height_m=4.903325)
-    assert last_event_s(replace(SPAN, ball=replace(SPAN.ball, hits=[hit]))) == pytest.approx(4.5)
+    assert last_event_s(replace(I235, ball=replace(I235.ball, hits=[hit]))) == pytest.approx(4.5)

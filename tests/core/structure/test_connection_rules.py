@@ -1,24 +1,24 @@
 """Connections between certain members: which rule counts, and what a model makes of it."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import I235_FILE, ROOT
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.mechanics.joint import Springs
 from bridge_demolition_addon.core.mechanics.strength import MATERIALS
 from bridge_demolition_addon.core.scenario import ConnectionBetween, ConnectionSettings
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.core.structure.connection_rules import rules_of_pairs
 from bridge_demolition_addon.core.structure.connections import GROUND
 from bridge_demolition_addon.core.structure.model import build_model
 
-EXAMPLE = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 SCENARIO = replace(
-    EXAMPLE,
-    fracture=replace(EXAMPLE.fracture, shards=60),
+    I235,
+    fracture=replace(I235.fracture, shards=60),
     connections=ConnectionSettings(type="FIXED", method="face", breaking_force_n=1e6),
 )
 
@@ -187,9 +187,8 @@ def test_rules_that_contradict_the_connections_are_refused(settings, message):
 
 
 def test_the_example_of_the_documentation_can_be_read_and_built():
-    root = Path(__file__).parents[3]
-    tables = (root / "docs" / "connections.md").read_text(encoding="utf-8").split("```toml")[1].split("```")[0]
-    example = (root / "examples" / "i235_one_span.toml").read_text(encoding="utf-8")
+    tables = (ROOT / "docs" / "connections.md").read_text(encoding="utf-8").split("```toml")[1].split("```")[0]
+    example = I235_FILE.read_text(encoding="utf-8")
     model = build_model(scenario_from_text(example + tables))
     assert set(model.joint_of_connection.tolist()) == {0, 1, 3}
 

@@ -2,19 +2,16 @@
 
 from dataclasses import fields, replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.members import shards_per_member
 from bridge_demolition_addon.core.scenario import ConnectionSettings
-from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.connections import GROUND
 from bridge_demolition_addon.core.structure.model import build_model
-
-EXAMPLE = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 
 # Members by hand, m³: the deck, one pier cap, one column; 44.794 m³ together.
 DECK, CAP, COLUMN = 14 * 8.5 * 0.25, 0.8 * 8.5 * 0.4, 0.7 * 0.7 * 4.9
@@ -31,12 +28,12 @@ AREA_TOLERANCE = 1e-7
 def model_of(method="face", shards=60, **settings):
     radius = None if method == "face" else 1.0
     connections = ConnectionSettings(method=method, search_radius_m=radius, breaking_force_n=1e5, **settings)
-    return build_model(replace(EXAMPLE, fracture=replace(EXAMPLE.fracture, shards=shards), connections=connections))
+    return build_model(replace(I235, fracture=replace(I235.fracture, shards=shards), connections=connections))
 
 
 @cache
 def example():
-    return build_model(EXAMPLE)
+    return build_model(I235)
 
 
 def test_masses_of_the_example_add_up_to_107_tonnes():
@@ -78,12 +75,12 @@ def arrays_of(model):
 
 
 def test_the_same_scenario_gives_the_same_model():
-    again = build_model(EXAMPLE)
+    again = build_model(I235)
     assert all(np.array_equal(one, other) for one, other in zip(arrays_of(example()), arrays_of(again), strict=True))
 
 
 def test_another_seed_cuts_other_shards():
-    other = build_model(replace(EXAMPLE, seed=236))
+    other = build_model(replace(I235, seed=236))
     assert not np.allclose(other.masses_kg, example().masses_kg, rtol=0.01)
     assert other.masses_kg.sum() == pytest.approx(107_000, rel=VOLUME_TOLERANCE)
 

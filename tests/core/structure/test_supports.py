@@ -1,20 +1,19 @@
 """What is held of a bridge, and which connections lie between which members."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.core.fracture.shards import fracture
 from bridge_demolition_addon.core.geometry.solids import box, mesh_of
 from bridge_demolition_addon.core.scenario import FractureSettings, Support
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.core.structure.supports import DIRECTIONS, on_outermost_face
 
-I235 = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 CONNECTIONS = replace(I235.connections, method="face", search_radius_m=None)
 SCENARIO = replace(I235, connections=CONNECTIONS, fracture=FractureSettings(shards=80))
 

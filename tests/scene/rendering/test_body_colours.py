@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from blocks import Blocks
 from matplotlib.image import imread
 
 from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours
 from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity, RangeKind
 from bridge_demolition_addon.core.errors import ContourError, OutputError
-from tests.blocks import Blocks
 
 FRAMES = 6
 ONE_LEVEL = 1.01 / 255.0

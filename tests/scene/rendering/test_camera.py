@@ -2,16 +2,13 @@
 
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from scenarios import I235
 
-from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.model import build_model
-
-EXAMPLE = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 
 BRIDGE = np.array(list(product((-0.5, 13.5), (-4.25, 4.25), (0.0, 5.55))))
 TOWER = np.array(list(product((0.0, 2.0), (0.0, 2.0), (0.0, 80.0))))
@@ -55,7 +52,7 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
     from bridge_demolition_addon.scene.demolition import build_demolition
     from bridge_demolition_addon.scene.rendering.camera import prepare_pictures, render_picture
 
-    scenario = replace(EXAMPLE, fracture=replace(EXAMPLE.fracture, shards=20))
+    scenario = replace(I235, fracture=replace(I235.fracture, shards=20))
     scene = blender.context.scene
     build_demolition(scene, scenario, build_model(scenario))
     prepare_pictures(scene, np.vstack((BRIDGE, (6.5, 0.0, 11.9))), 160, 90)

@@ -1,11 +1,11 @@
 """Several hits of a ball in a row: each falls freely on its own target, and nothing is flung when it is lifted."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from blocks import Blocks
+from scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top
@@ -13,11 +13,10 @@ from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.results.summary import summarise
 from bridge_demolition_addon.core.scenario import Ball, BallHit
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.core.timing.timeline import Timeline
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
-SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 HITS = (
     BallHit(lift_time_s=2.0, lift_duration_s=1.0, release_time_s=3.2, target_m=(3, 1), drop_height_m=2.0),
     BallHit(lift_time_s=5.0, lift_duration_s=1.5, release_time_s=7.0, target_m=(-2, 0), drop_height_m=4.0),
@@ -114,15 +113,15 @@ def test_scenario_with_hits_in_a_row(tmp_path):
     from bridge_demolition_addon.simulation.run import run_scenario
 
     hit = BallHit(lift_time_s=1.5, lift_duration_s=1.0, release_time_s=2.7, target_m=(3.0, 1.0), drop_height_m=2.0)
-    ball = replace(SPAN.ball, drop_height_m=1.0, release_time_s=0.1, hits=(hit,))
-    scenario = replace(SPAN, time=replace(SPAN.time, duration_s=3.5), ball=ball)
+    ball = replace(I235.ball, drop_height_m=1.0, release_time_s=0.1, hits=(hit,))
+    scenario = replace(I235, time=replace(I235.time, duration_s=3.5), ball=ball)
     assert scenario_from_text(scenario_text(scenario)) == scenario
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     results = load_results(tmp_path / "run" / "results.npz")
     row = results.of_kind("ball")[0]
     released = np.searchsorted(results.times_s, 2.7)
     np.testing.assert_allclose(
-        results.places_m[released - 1, row], (3.0, 1.0, deck_top(SPAN.bridge) + 2.0 + 0.67), atol=1e-3
+        results.places_m[released - 1, row], (3.0, 1.0, deck_top(I235.bridge) + 2.0 + 0.67), atol=1e-3
     )
     assert summary["impact"]["time_s"] == pytest.approx(0.1 + ball.fall_time_s, abs=0.1)
 
@@ -141,4 +140,4 @@ def test_scenario_with_hits_in_a_row(tmp_path):
 )
 def test_wrong_hits_are_refused(values, text):
     with pytest.raises(ScenarioError, match=text):
-        replace(SPAN, ball=replace(BALL, hits=[replace(HITS[0], **values)]))
+        replace(I235, ball=replace(BALL, hits=[replace(HITS[0], **values)]))

@@ -1,22 +1,21 @@
 """A ball swings on its cable as a pendulum does, and hits what stands in its way."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from blocks import Blocks
+from scenarios import I235
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario import Ball, BallCable
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
+from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.core.sequence.rest import last_event_s
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
-SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 CABLE = BallCable(crane_point_m=(1.0, 2.0, 12.0), length_m=8.0, angle_degrees=40.0, azimuth_degrees=90.0)
 
 
@@ -70,8 +69,8 @@ def test_ball_on_a_cable_knocks_a_pier_out(tmp_path):
 
     # The first pier's columns are 0.7 m wide, at y = ±2.125 m: the ball comes along the road from x = -4 m.
     cable = BallCable(crane_point_m=(-1.3, 2.125, 13.0), length_m=10.5, angle_degrees=25.0, azimuth_degrees=180.0)
-    ball = replace(SPAN.ball, target_m=None, drop_height_m=None, cable=cable)
-    scenario = replace(SPAN, ball=ball, time=replace(SPAN.time, duration_s=3.0))
+    ball = replace(I235.ball, target_m=None, drop_height_m=None, cable=cable)
+    scenario = replace(I235, ball=ball, time=replace(I235.time, duration_s=3.0))
     assert scenario_from_text(scenario_text(scenario)) == scenario
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     results = load_results(tmp_path / "run" / "results.npz")
@@ -88,15 +87,15 @@ def test_ball_on_a_cable_knocks_a_pier_out(tmp_path):
 
 
 def test_facts_and_events_of_a_swing():
-    ball = replace(SPAN.ball, target_m=None, drop_height_m=None, cable=CABLE)
+    ball = replace(I235.ball, target_m=None, drop_height_m=None, cable=CABLE)
     facts = dict(
-        line.strip().split("  ", 1) for line in scenario_facts(replace(SPAN, ball=ball)) if "  " in line.strip()
+        line.strip().split("  ", 1) for line in scenario_facts(replace(I235, ball=ball)) if "  " in line.strip()
     )
     # T₀ = 2 π √(8 m / g) = 5.675 s, for 40° 3.13 % more, for the ball's own size 0.14 % more.
     assert facts["swing to and fro"].strip().startswith("5.861 s, at its lowest (1.00, 2.00, 4.00) m at 1.965 s")
     # 8 m (1 - cos 40°) = 1.872 m: √(2 g h) = 6.06 m/s.
     assert facts["largest speed"].strip() == "6.06 m/s"
-    assert last_event_s(replace(SPAN, ball=ball)) == 0.5
+    assert last_event_s(replace(I235, ball=ball)) == 0.5
 
 
 @pytest.mark.parametrize(
@@ -120,7 +119,7 @@ def test_facts_and_events_of_a_swing():
 )
 def test_wrong_cables_are_refused(values, text):
     with pytest.raises(ScenarioError, match=text):
-        replace(SPAN.ball, **{"cable": CABLE, **values})
+        replace(I235.ball, **{"cable": CABLE, **values})
 
 
 def test_cables_that_do_not_hang_are_refused():

@@ -1,23 +1,21 @@
 """A jackhammer goes where it is led, and takes out of a slab what is under it and nothing else."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import I235
 from shard_scenes import ShardScene
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario import Jackhammer
-from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.sequence.hammering import tip_places
 from bridge_demolition_addon.core.timing.timeline import Timeline
 from bridge_demolition_addon.simulation.recording import handlers
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
-SPAN = read_scenario(Path(__file__).parents[3] / "examples" / "i235_one_span.toml")
 HAMMER = Jackhammer(
     start_time_s=0.5,
     end_time_s=4.5,
@@ -88,7 +86,7 @@ def test_scenario_with_a_jackhammer(tmp_path):
     from bridge_demolition_addon.simulation.run import run_scenario
 
     hammer = replace(HAMMER, path_m=[(6.0, 0.0)], start_time_s=0.2, end_time_s=0.9)
-    scenario = replace(SPAN, ball=None, jackhammers=[hammer], time=replace(SPAN.time, duration_s=1.0))
+    scenario = replace(I235, ball=None, jackhammers=[hammer], time=replace(I235.time, duration_s=1.0))
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     assert summary["connections"]["broken"] > 0
     results = load_results(tmp_path / "run" / "results.npz")

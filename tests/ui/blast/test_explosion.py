@@ -1,15 +1,12 @@
 """The panel Explosion: charges in the scene, force objects, total mass, and what is ticked."""
 
-from pathlib import Path
-
 import pytest
+from places import SMALL
 
 from bridge_demolition_addon.core.blast.charges import EXPLOSIVES
 from bridge_demolition_addon.scene.blast.charges import charge_objects, charges_of
 from bridge_demolition_addon.scene.blast.settings import explosion_of
 from bridge_demolition_addon.ui.blast.operator import keep_blast
-
-SMALL = Path(__file__).parents[3] / "tests" / "gui" / "small.toml"
 
 
 @pytest.fixture

@@ -2,25 +2,15 @@
 
 import numpy as np
 import pytest
+from blocks import Blocks
 
 from bridge_demolition_addon.core.display.contours import Quantity, RangeKind
-from tests.blocks import Blocks
 
 FRAMES = 4
 
 
 @pytest.fixture
-def sidebar(blender):
-    """Blender with the add-on switched on."""
-    import bridge_demolition_addon
-
-    bridge_demolition_addon.register()
-    yield blender
-    bridge_demolition_addon.unregister()
-
-
-@pytest.fixture
-def recorded(sidebar, tmp_path):
+def recorded(extension, tmp_path):
     """A block of 100 kg that hangs from a ledge, recorded."""
     blocks = Blocks()
     ledge, block = blocks.block((0.0, 0.0, 5.0)), blocks.block((0.0, 0.0, 3.0), 100.0)
@@ -114,9 +104,9 @@ def test_switching_the_add_on_off_puts_everything_back(blender, tmp_path):
         ("toggle_symbols", "neither connections nor force objects"),
     ],
 )
-def test_buttons_say_why_they_cannot_be_pressed(sidebar, operator, reason):
+def test_buttons_say_why_they_cannot_be_pressed(extension, operator, reason):
     with pytest.raises(RuntimeError, match=reason):
-        getattr(sidebar.ops.bda, operator)()
+        getattr(extension.ops.bda, operator)()
 
 
 def test_results_that_are_none_are_refused(recorded, tmp_path):

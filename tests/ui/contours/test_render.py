@@ -3,13 +3,11 @@
 Without the extension the first of these ends the process with a segmentation fault, in Blender's own code.
 """
 
-from pathlib import Path
-
 import pytest
+from places import SMALL
 
 from bridge_demolition_addon.simulation.recording import handlers
 
-SMALL = Path(__file__).parents[3] / "tests" / "gui" / "small.toml"
 FRAMES = 8
 
 

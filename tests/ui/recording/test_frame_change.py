@@ -3,14 +3,13 @@
 import csv
 import json
 import sys
-from pathlib import Path
 
 import pytest
+from places import SMALL
 
 from bridge_demolition_addon.simulation.recording import handlers
 from bridge_demolition_addon.ui.results.ui import lines_of
 
-SMALL = Path(__file__).parents[3] / "tests" / "gui" / "small.toml"
 FRAMES = 20
 
 

@@ -8,19 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from blocks import Blocks
+from places import EXAMPLES
 
-import bridge_demolition_addon
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
 FRAMES = 12
-EXAMPLES = Path(__file__).parents[3] / "examples"
-
-
-@pytest.fixture
-def extension(blender):
-    bridge_demolition_addon.register()
-    yield blender
-    bridge_demolition_addon.unregister()
 
 
 @pytest.fixture

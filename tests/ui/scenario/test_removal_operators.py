@@ -3,12 +3,12 @@
 from pathlib import Path
 
 import pytest
+from places import EXAMPLES, SMALL
 
 from bridge_demolition_addon.simulation.display import contours
 from bridge_demolition_addon.simulation.recording import handlers
 
-SMALL = Path(__file__).parents[3] / "tests" / "gui" / "small.toml"
-EXPLOSIVES = Path(__file__).parents[3] / "examples" / "single_span_explosives.toml"
+EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
 
 
 @pytest.fixture

@@ -1,16 +1,13 @@
 """Load, save, new, presets and build, as they are called from Python."""
 
-from pathlib import Path
-
 import pytest
+from places import EXAMPLES, SMALL
 
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
-ROOT = Path(__file__).parents[3]
-EXAMPLE = ROOT / "examples" / "single_span_explosives.toml"
-SMALL = ROOT / "tests" / "gui" / "small.toml"
+EXAMPLE = EXAMPLES / "single_span_explosives.toml"
 
 
 def names(bpy):

@@ -1,10 +1,10 @@
 """From a scenario to the sidebar's properties and back: nothing is lost, and nothing wrong is taken."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import EXAMPLES, SMALL
 from random_scenarios import varied
 
 from bridge_demolition_addon.core.errors import ScenarioError
@@ -13,8 +13,7 @@ from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, shortest, show_scenario
 
-ROOT = Path(__file__).parents[3]
-FILES = sorted([*(ROOT / "examples").glob("*.toml"), *PRESETS.glob("*.toml"), ROOT / "tests" / "gui" / "small.toml"])
+FILES = sorted([*EXAMPLES.glob("*.toml"), *PRESETS.glob("*.toml"), SMALL])
 
 
 def test_a_new_scene_shows_the_default(settings):
