@@ -1,10 +1,14 @@
-"""How the buttons refuse, and what they say of paths."""
+"""What the operators share: greyed buttons with a reason, errors as messages, and paths from the sidebar."""
 
 from pathlib import Path
 
 import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import OutputError
+from ..simulation.recording import handlers
+from .sidebar import RELATIVE_PATHS
 
 
 class Refusing:
@@ -12,7 +16,7 @@ class Refusing:
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        """Why the button cannot work now, in a sentence; None where it can, as it does unless it says otherwise."""
+        """Return why the button cannot work now, in a sentence, or None where it can."""
         return None
 
     @classmethod
@@ -22,22 +26,41 @@ class Refusing:
         return not reason
 
 
+class FileWriter(ExportHelper):
+    """Base of operators that ask for a file to write; each gives the suffix as `filename_ext`, and a `filter_glob`."""
+
+    filepath: StringProperty(name="File", description="File to write", subtype="FILE_PATH", options=RELATIVE_PATHS)
+
+    def usual_path(self, context: bpy.types.Context) -> str:
+        """Return the path that is proposed."""
+        raise NotImplementedError
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        self.filepath = self.usual_path(context)
+        return super().invoke(context, event)
+
+
 def no_world(context: bpy.types.Context) -> str | None:
-    """That the scene has no rigid-body world, in a sentence; None where it has."""
+    """Return a sentence where the scene has no rigid-body world, else None."""
     world = context.scene.rigidbody_world
     if world and world.collection:
         return None
     return "This scene has no rigid-body world: build a scenario first"
 
 
+def recording_runs() -> str | None:
+    """Return a sentence where a recording runs, else None."""
+    return "A recording runs: unregister its handler first" if handlers.current() else None
+
+
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
-    """End an operator with a message."""
+    """Cancel an operator with an error's message."""
     operator.report({"ERROR"}, str(error))
     return {"CANCELLED"}
 
 
 def absolute(path: str) -> Path:
-    """A path as the user gave it, where ``//`` is the folder of the saved file.
+    """Return a path as the user gave it, where ``//`` is the folder of the saved file.
 
     Raises
     ------

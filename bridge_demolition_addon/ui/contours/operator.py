@@ -1,4 +1,4 @@
-"""What the buttons for contours, films and symbols do."""
+"""Operators of contours, films and symbols."""
 
 from pathlib import Path
 
@@ -10,8 +10,7 @@ from ...scene.rendering.film import PictureSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...simulation.display import contours
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
-from ...simulation.recording import handlers
-from ..operators import Refusing, absolute, refused
+from ..operators import Refusing, absolute, recording_runs, refused
 from . import view as contour_view
 
 _TICK_S = 0.01
@@ -25,11 +24,7 @@ class BDA_OT_load_results(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if handlers.current():
-            return "A recording runs: unregister the handler first"
-        if not context.scene.bda.results_path:
-            return "Choose a file results.npz first"
-        return None
+        return recording_runs() or (None if context.scene.bda.results_path else "Choose a file results.npz first")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
@@ -56,8 +51,8 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if handlers.current():
-            return "A recording runs: unregister the handler first"
+        if reason := recording_runs():
+            return reason
         if not context.scene.bda.film_directory:
             return "Choose a folder for the film first"
         if contours.series_of(context.scene) is None:

@@ -1,42 +1,31 @@
-"""The panel Post Processing: where the logs go."""
+"""Operators that choose the files of the logs."""
 
 import bpy
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import StringProperty
 
 from ...core.errors import OutputError
 from ...core.results.files import DEBRIS_LOG, FORCE_LOG
-from ...simulation.recording import handlers
-from ..operators import Refusing, absolute, refused
-from ..sidebar import RELATIVE_PATHS, SidebarPanel
+from ..operators import FileWriter, Refusing, absolute, recording_runs, refused
 
 _SUFFIX = ".csv"
 
 
-class _LogPathOperator(Refusing):
+class _LogPathOperator(Refusing, FileWriter):
     """Base of the operators that ask for a log's file; each names the setting and the file's usual name."""
 
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
 
-    filepath: StringProperty(
-        name="File", description="CSV file that the log is written to", subtype="FILE_PATH", options=RELATIVE_PATHS
-    )
+    filename_ext = _SUFFIX
     filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})
-    check_existing: BoolProperty(
-        name="Check Existing", description="Warn of a file that is there", default=True, options={"HIDDEN"}
-    )
     setting: str
     usual_name: str
 
     @classmethod
     def why_not(cls, _context: bpy.types.Context) -> str | None:
-        if handlers.current():
-            return "The handler is registered: unregister it before its logs are sent elsewhere"
-        return None
+        return recording_runs()
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        self.filepath = getattr(context.scene.bda, self.setting) or self.usual_name
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+    def usual_path(self, context: bpy.types.Context) -> str:
+        return getattr(context.scene.bda, self.setting) or self.usual_name
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         path = bpy.path.ensure_ext(self.filepath, _SUFFIX) if self.filepath else ""
@@ -67,19 +56,4 @@ class BDA_OT_set_force_log(_LogPathOperator, bpy.types.Operator):
     usual_name = FORCE_LOG
 
 
-class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
-    """Where the logs go."""
-
-    bl_label = "Post Processing"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.bda
-        for operator in (BDA_OT_set_debris_log, BDA_OT_set_force_log):
-            column = self.layout.column(align=True)
-            column.enabled = handlers.current() is None
-            column.operator(operator.bl_idname)
-            column.prop(settings, operator.setting, text="", placeholder="In the folder of the results")
-
-
-CLASSES = (BDA_OT_set_debris_log, BDA_OT_set_force_log, BDA_PT_post_processing)
+CLASSES = (BDA_OT_set_debris_log, BDA_OT_set_force_log)

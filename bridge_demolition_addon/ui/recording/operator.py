@@ -1,4 +1,4 @@
-"""The panel Frame Change Event Handler: recording while the timeline plays."""
+"""Operators that start and end a recording, which goes on while the timeline plays."""
 
 from __future__ import annotations
 
@@ -21,9 +21,8 @@ from ...simulation.recording.recorder import Recording, check_recordable
 from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
 from ...simulation.run_summary import Subject, rest_watch, run_summary
 from ..blast.operator import keep_blast
-from ..operators import Refusing, absolute, refused
+from ..operators import Refusing, absolute, no_world, recording_runs, refused
 from ..scenario.values import scenario_of, table_of
-from ..sidebar import SidebarPanel, draw_sentence
 from . import last_recording, redraw, running
 
 _TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
@@ -40,7 +39,7 @@ class BDA_OT_register_handler(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        return why_not_recorded(context.scene)
+        return why_not_recorded(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
@@ -70,49 +69,16 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
         return end_with_results(self, handlers.stop())
 
 
-class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
-    """Recording while the timeline plays."""
-
-    bl_label = "Frame Change Event Handler"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings, recording = context.scene.bda, handlers.current()
-        column = self.layout.column()
-        column.enabled = recording is None
-        column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
-        column.prop(settings, "overwrite")
-        column = self.layout.column(align=True)
-        column.operator("bda.register_handler")
-        column.operator("bda.unregister_handler")
-        column = self.layout.column(align=True)
-        column.operator("bda.run", icon="PLAY")
-        row = column.row(align=True)
-        row.operator("bda.bake")
-        row.operator("bda.delete_bake")
-        if recording:
-            self._draw_state(context, recording)
-
-    def _draw_state(self, context: bpy.types.Context, recording: Recording) -> None:
-        if recording.error:
-            draw_sentence(self.layout, context, f"Recording ended early: {recording.error}")
-            return
-        self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
-        if recording.distrust:
-            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
+CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler)
 
 
-CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler, BDA_PT_handler)
-
-
-def why_not_recorded(scene: bpy.types.Scene) -> str | None:
-    """What keeps a scene from being recorded now, in a sentence; None where nothing does."""
-    if not scene.rigidbody_world:
-        return "This scene has no rigid-body world: build a scenario first"
-    if scene.rigidbody_world.point_cache.is_baked:
+def why_not_recorded(context: bpy.types.Context) -> str | None:
+    """Return why a scene cannot be recorded now, in a sentence, or None where it can."""
+    if reason := no_world(context) or recording_runs():
+        return reason
+    if context.scene.rigidbody_world.point_cache.is_baked:
         return "The simulation is baked and only played back: delete the bake first"
-    if handlers.current():
-        return "A recording runs already: unregister its handler first"
-    if not scene.bda.output_directory:
+    if not context.scene.bda.output_directory:
         return "Choose a folder for the results first"
     return None
 
@@ -145,7 +111,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
 
 
 def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:
-    """Write what a recording that has ended has, keep it for the panel of results, and tell what came of it.
+    """Write what a recording that has ended has, keep it for the panel of results, and report how it ended.
 
     Where nothing was recorded the folder is gone as well, if nothing else is in it: the next try finds it free.
 
@@ -196,7 +162,7 @@ def _scenario_as_recorded(settings: bpy.types.PropertyGroup) -> Scenario | None:
     built = scenario_from_text(settings.built_scenario)
     try:
         now = scenario_of(settings)
-    except ScenarioError:  # panels that were changed since, and would not build: the report tells of what was built
+    except ScenarioError:  # panels that were changed since, and would not build: the report is of what was built
         return built
     time = replace(built.time, **{name: getattr(now.time, name) for name in _TIME_TO_STOP_AT})
     recorded = replace(built, charges=now.charges, blast=now.blast, time=time)

@@ -1,4 +1,4 @@
-"""The buttons that simulate a scene in one go, keep it as a bake, and throw the bake away."""
+"""Operators that simulate a scene in one go, keep it as a bake, and delete the bake."""
 
 import bpy
 
@@ -6,14 +6,13 @@ from ...core.errors import DemolitionError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing
-from ...simulation.recording import handlers
 from ...simulation.results_folder import withdraw_folder
-from ..operators import Refusing, no_world
+from ..operators import Refusing, no_world, recording_runs
 from . import redraw, running
 from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded
 
 _TICK_S = 0.001
-"""Between two frames: Blender takes in mouse and keyboard, and draws."""
+"""Between two frames, for Blender to draw and to read mouse and keyboard."""
 
 _LOOKING_ROUND = {
     "MOUSEMOVE",
@@ -36,7 +35,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        return why_not_recorded(context.scene)
+        return why_not_recorded(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """The whole run in one call, for scripts."""
@@ -118,13 +117,10 @@ class BDA_OT_bake(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        world = context.scene.rigidbody_world
-        if reason := no_world(context):
+        if reason := no_world(context) or recording_runs():
             return reason
-        if world.point_cache.is_baked:
+        if context.scene.rigidbody_world.point_cache.is_baked:
             return "The simulation is baked already"
-        if handlers.current():
-            return "A recording runs: unregister its handler first"
         if not frames_are_known(context.scene):
             return "Nothing has been simulated since the last change: run or play it first"
         return None

@@ -3,8 +3,7 @@
 import bpy
 
 from ...core.errors import DemolitionError
-from ...simulation.recording import handlers
-from ..operators import Refusing, absolute, refused
+from ..operators import Refusing, absolute, recording_runs, refused
 from ..sidebar import SidebarPanel
 
 
@@ -18,9 +17,7 @@ class BDA_OT_make_report(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         if not context.scene.bda.output_directory:
             return "Choose the folder with the results first"
-        if handlers.current():
-            return "The recording still goes on: unregister the handler first"
-        return None
+        return recording_runs()
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.

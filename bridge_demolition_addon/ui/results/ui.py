@@ -11,8 +11,7 @@ from ...core.blast.models import BlastModel
 from ...core.errors import DemolitionError, OutputError
 from ...core.results.files import FORCE_CHART
 from ...core.results.summary import first_hit_s
-from ...simulation.recording import handlers
-from ..operators import Refusing, refused
+from ..operators import Refusing, recording_runs, refused
 from ..recording import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
 from ..viewport import look_at_selected, select_only
@@ -36,11 +35,7 @@ class BDA_OT_go_to_body(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if handlers.current():
-            return "The handler is registered: unregister it before you look at another frame"
-        if context.mode != "OBJECT":
-            return "Go to object mode first"
-        return None
+        return recording_runs() or (None if context.mode == "OBJECT" else "Go to object mode first")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         body = context.view_layer.objects.get(self.body)

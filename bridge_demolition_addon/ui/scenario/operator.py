@@ -1,4 +1,4 @@
-"""Loading, saving and building scenarios."""
+"""Loading, saving and building scenarios, and removing what was built."""
 
 from pathlib import Path
 
@@ -11,8 +11,9 @@ from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import runnable_model
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.demolition import build_demolition
-from ..operators import Refusing, absolute, refused
-from ..sidebar import RELATIVE_PATHS
+from ...scene.removal import remove_demolition, remove_loose_connections
+from ...simulation.display import contours
+from ..operators import FileWriter, Refusing, absolute, no_world, recording_runs, refused
 from ..viewport import look_at_selected, select_only
 from .prop import PRESETS, default_scenario
 from .values import scenario_of, show_scenario
@@ -40,25 +41,18 @@ class BDA_OT_load_scenario(Refusing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_save_scenario(bpy.types.Operator):
+class BDA_OT_save_scenario(FileWriter, bpy.types.Operator):
     """Save what the panels show, and the charges of the scene, as a scenario file"""
 
     bl_idname = "bda.save_scenario"
     bl_label = "Save Scenario"
     bl_options = {"REGISTER"}  # noqa: RUF012
 
-    filepath: StringProperty(
-        name="File", description="Scenario file to write", subtype="FILE_PATH", options=RELATIVE_PATHS
-    )
+    filename_ext = _SUFFIX
     filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})
-    check_existing: bpy.props.BoolProperty(
-        name="Check Existing", description="Warn before a file is replaced", default=True, options={"HIDDEN"}
-    )
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        self.filepath = context.scene.bda.scenario_path or "scenario" + _SUFFIX
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+    def usual_path(self, context: bpy.types.Context) -> str:
+        return context.scene.bda.scenario_path or "scenario" + _SUFFIX
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.bda
@@ -143,6 +137,50 @@ class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class _Removal(Refusing):
+    """Base of the operators that remove something."""
+
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if no_world(context):
+            return "This scene has no rigid-body world: there is nothing to remove"
+        return recording_runs()
+
+
+class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
+    """Remove all that was built here but the charges, so that the scenario can be built again"""
+
+    bl_idname = "bda.remove_demolition"
+    bl_label = "Remove Demolition"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene = context.scene
+        if context.screen and context.screen.is_animation_playing:
+            bpy.ops.screen.animation_cancel(restore_frame=False)
+        contours.forget(scene)
+        removed = remove_demolition(scene)
+        scene.bda.built_scenario = scene.bda.title = scene.bda.total_mass = ""
+        self.report({"INFO"}, f"{removed} bodies removed")
+        if scene.rigidbody_world:
+            others = len(scene.rigidbody_world.collection.all_objects)
+            self.report({"WARNING"}, f"The rigid-body world stays, as it has {others} bodies that were not built here")
+        return {"FINISHED"}
+
+
+class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
+    """Remove connections that lack a body, as those of deleted shards do: nothing can be recorded with them"""
+
+    bl_idname = "bda.remove_loose_connections"
+    bl_label = "Remove Loose Connections"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        removed = remove_loose_connections(context.scene)
+        self.report({"INFO"}, f"{removed} loose connections removed")
+        return {"FINISHED"}
+
+
 class BDA_MT_presets(bpy.types.Menu):
     """Scenarios to start from."""
 
@@ -160,6 +198,8 @@ CLASSES = (
     BDA_OT_new_scenario,
     BDA_OT_load_preset,
     BDA_OT_build_scenario,
+    BDA_OT_remove_demolition,
+    BDA_OT_remove_loose_connections,
     BDA_MT_presets,
 )
 

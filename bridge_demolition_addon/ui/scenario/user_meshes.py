@@ -1,6 +1,6 @@
-"""The buttons that make a scenario of the user's own objects: meshes as members, and paint as fineness.
+"""Operators that make a scenario of the user's own objects: meshes become members, and paint says where to cut finer.
 
-Both write files beside the scenario, which names them: so it can be saved, sent and run anywhere, without the objects.
+Both write files that the scenario names, so that it can be saved, sent and run without the objects.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from ...core.errors import DemolitionError, GeometryError, OutputError
 from ...core.fracture.point_files import paint_text
 from ...scene.painting import painted_points
 from ...scene.user_meshes import members_of_objects
-from ..operators import Refusing, absolute, refused
+from ..operators import FileWriter, Refusing, absolute, refused
 from ..sidebar import RELATIVE_PATHS
 
 _CONCRETE_KG_M3 = 2400.0
@@ -69,20 +69,15 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_use_paint(Refusing, bpy.types.Operator):
+class BDA_OT_use_paint(Refusing, FileWriter, bpy.types.Operator):
     """Cut the bridge finer where the active mesh is painted: its active vertex group is written to a file"""
 
     bl_idname = "bda.use_paint"
     bl_label = "Cut Finer Where Painted"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
-    filepath: StringProperty(
-        name="File", description="CSV file that the paint is written to", subtype="FILE_PATH", options=RELATIVE_PATHS
-    )
+    filename_ext = _PAINT_SUFFIX
     filter_glob: StringProperty(default="*" + _PAINT_SUFFIX, options={"HIDDEN"})
-    check_existing: BoolProperty(
-        name="Check Existing", description="Warn of a file that is there", default=True, options={"HIDDEN"}
-    )
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -91,10 +86,8 @@ class BDA_OT_use_paint(Refusing, bpy.types.Operator):
             return "Choose a mesh with a vertex group first, such as one that was painted with weights"
         return None
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        self.filepath = f"{_file_name(context.active_object.name)} painted{_PAINT_SUFFIX}"
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+    def usual_path(self, context: bpy.types.Context) -> str:
+        return f"{_file_name(context.active_object.name)} painted{_PAINT_SUFFIX}"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         body, fracture = context.active_object, context.scene.bda.scenario.fracture

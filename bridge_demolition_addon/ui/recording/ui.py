@@ -1,0 +1,59 @@
+"""The panels of recording: Frame Change Event Handler, and Post Processing with the files of the logs."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...simulation.recording import handlers
+from ...simulation.recording.recorder import Recording
+from ..sidebar import SidebarPanel, draw_sentence
+from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
+
+
+class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
+    """Recording while the timeline plays."""
+
+    bl_label = "Frame Change Event Handler"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, recording = context.scene.bda, handlers.current()
+        column = self.layout.column()
+        column.enabled = recording is None
+        column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
+        column.prop(settings, "overwrite")
+        column = self.layout.column(align=True)
+        column.operator("bda.register_handler")
+        column.operator("bda.unregister_handler")
+        column = self.layout.column(align=True)
+        column.operator("bda.run", icon="PLAY")
+        row = column.row(align=True)
+        row.operator("bda.bake")
+        row.operator("bda.delete_bake")
+        if recording:
+            self._draw_state(context, recording)
+
+    def _draw_state(self, context: bpy.types.Context, recording: Recording) -> None:
+        if recording.error:
+            draw_sentence(self.layout, context, f"Recording ended early: {recording.error}")
+            return
+        self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
+        if recording.distrust:
+            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
+
+
+class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
+    """Where the logs go."""
+
+    bl_label = "Post Processing"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.bda
+        for operator in (BDA_OT_set_debris_log, BDA_OT_set_force_log):
+            column = self.layout.column(align=True)
+            column.enabled = handlers.current() is None
+            column.operator(operator.bl_idname)
+            column.prop(settings, operator.setting, text="", placeholder="In the folder of the results")
+
+
+CLASSES = (BDA_PT_handler, BDA_PT_post_processing)
