@@ -32,8 +32,8 @@ class FileWriter(ExportHelper):
     filepath: StringProperty(name="File", description="File to write", subtype="FILE_PATH", options=RELATIVE_PATHS)
 
     def usual_path(self, context: bpy.types.Context) -> str:
-        """Return the path that is proposed."""
-        raise NotImplementedError
+        """Return the path that is proposed; empty for one named after the saved file."""
+        return ""
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self.filepath = self.usual_path(context)
