@@ -9,9 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.image import imread, imsave
 
-from ..core.display.colour_scale import colours
+from ..core.display.colour_scale import colours, tick_text
 from ..core.display.contours import ContourFrame, ContourSettings, unit_of
-from ..core.display.number_text import tick_text
 
 _DPI = 100.0
 _BAR_HEIGHT = 0.62

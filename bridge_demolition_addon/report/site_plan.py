@@ -10,20 +10,10 @@ from typing import Any
 
 import numpy as np
 from manifold3d import CrossSection
+from pymap3d import enu2geodetic
 
 from ..core.results.footprint import outlines
 from ..core.scenario import Site
-
-EQUATOR_M = 6_378_137.0
-"""Half the larger axis of the WGS 84 ellipsoid."""
-
-FLATTENING = 1.0 / 298.257223563
-"""Flattening of the WGS 84 ellipsoid."""
-
-_SQUARED_ECCENTRICITY = FLATTENING * (2.0 - FLATTENING)
-
-_NEAR_180 = math.radians(10.0)
-"""Difference of longitude from that meridian from which on no bridge reaches it."""
 
 _CLOSED = 1
 
@@ -61,74 +51,37 @@ def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) ->
 
 
 def degrees(points_m: np.ndarray, site: Site) -> np.ndarray:
-    """Longitude and latitude (p, 2) in degrees of points (p, 2) in the scenario's axes, m.
+    """Return where points of the scenario are on earth.
 
-    Points are on the plane that touches the ellipsoid in the origin, and are told of by what lies below them there: a
-    kilometre away, distances are kept within a millimetre. Longitudes beyond 180° go on counting.
-
-    References
+    Parameters
     ----------
-    B. R. Bowring (1976), Transformation from spatial to geographical coordinates, Survey Review 23, 323-327.
+    points_m : (p, 2) float
+        Points in the scenario's axes, on the plane that touches the ellipsoid in the origin.
+    site
+        Where the origin is, and which way x points.
+
+    Returns
+    -------
+    (p, 2) float
+        Longitude and latitude in degrees of what lies below the points. A kilometre away, distances are kept within a
+        millimetre. Longitudes count on beyond 180°, so that an area across that meridian stays in one piece.
     """
     # x points to the bearing, y to the left of it.
     bearing = math.radians(site.bearing_deg)
     east = points_m[:, 0] * math.sin(bearing) - points_m[:, 1] * math.cos(bearing)
     north = points_m[:, 0] * math.cos(bearing) + points_m[:, 1] * math.sin(bearing)
-    # From the earth's centre: outwards to the origin's meridian, east of it, and along the axis.
-    latitude = math.radians(site.latitude_deg)
-    outwards = _axis_distance_m(latitude) - north * math.sin(latitude)
-    axial = (1.0 - _SQUARED_ECCENTRICITY) * _normal_m(latitude) * math.sin(latitude) + north * math.cos(latitude)
-    from_axis = np.hypot(outwards, east)
-    polar_m = EQUATOR_M * (1.0 - FLATTENING)
-    reduced = np.arctan2(axial * EQUATOR_M, from_axis * polar_m)
-    found = np.arctan2(
-        axial + _SQUARED_ECCENTRICITY / (1.0 - _SQUARED_ECCENTRICITY) * polar_m * np.sin(reduced) ** 3,
-        from_axis - _SQUARED_ECCENTRICITY * EQUATOR_M * np.cos(reduced) ** 3,
-    )
-    return np.column_stack([site.longitude_deg + np.degrees(np.arctan2(east, outwards)), np.degrees(found)])
-
-
-def _normal_m(latitude: float) -> float:
-    """Length of the vertical from the ellipsoid to the earth's axis, at a latitude in radians."""
-    return EQUATOR_M / math.sqrt(1.0 - _SQUARED_ECCENTRICITY * math.sin(latitude) ** 2)
-
-
-def _axis_distance_m(latitude: float) -> float:
-    """Distance of the ellipsoid from the earth's axis, at a latitude in radians."""
-    return _normal_m(latitude) * math.cos(latitude)
+    latitudes, longitudes, _ = enu2geodetic(east, north, 0.0, site.latitude_deg, site.longitude_deg, 0.0)
+    turns = np.round((site.longitude_deg - longitudes) / 360.0)
+    return np.column_stack([longitudes + 360.0 * turns, latitudes])
 
 
 def _polygons(area: CrossSection, site: Site) -> list[Any]:
-    """Coordinates of every separate part: its outline, then its holes."""
+    """Return the coordinates of every separate part: its outline, then its holes."""
     parts = []
-    beyond = _beyond_180(area, site)
-    turn = math.copysign(360.0, site.longitude_deg)
-    for side, shift in ((area - beyond, 0.0), (area ^ beyond, turn)):
-        for part in () if side.is_empty() else side.decompose():  # nothing would decompose into an empty part
-            rings = sorted(outlines(part), key=lambda ring: -_signed_area(ring))
-            closed = [np.vstack([ring, ring[:1]]) for ring in rings]
-            parts.append([(degrees(ring, site) - (shift, 0.0)).round(8).tolist() for ring in closed])
+    for part in () if area.is_empty() else area.decompose():  # nothing would decompose into an empty part
+        rings = sorted(outlines(part), key=lambda ring: -_signed_area(ring))
+        parts.append([degrees(np.vstack([ring, ring[:1]]), site).round(8).tolist() for ring in rings])
     return parts
-
-
-def _beyond_180(area: CrossSection, site: Site) -> CrossSection:
-    """What lies beyond the meridian of 180°, around an area and in the scenario's axes.
-
-    GeoJSON wants areas that cross that meridian cut there (RFC 7946, 3.1.9). In the plane it is a straight line.
-    """
-    side = math.copysign(1.0, site.longitude_deg)
-    angle = math.radians(180.0 - abs(site.longitude_deg))
-    if area.is_empty() or angle > _NEAR_180:
-        return CrossSection()
-    room = 2.0 * float(np.abs(area.bounds()).max())
-    latitude = math.radians(site.latitude_deg)
-    norths = np.array([-room, room])
-    near = side * (_axis_distance_m(latitude) - norths * math.sin(latitude)) * math.tan(angle)
-    far = near + side * (2.0 * room + np.abs(near).max())
-    corners = np.column_stack([np.append(near, far[::-1]), np.append(norths, norths[::-1])])
-    bearing = math.radians(site.bearing_deg)
-    axes = np.array([[math.sin(bearing), -math.cos(bearing)], [math.cos(bearing), math.sin(bearing)]])
-    return CrossSection([(corners @ axes)[:: -int(side)]])
 
 
 def _signed_area(ring: np.ndarray) -> float:

@@ -59,7 +59,9 @@ record: dict[str, Any] = {"before": traces(), "on": [], "off": []}
 
 bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
 record["enabled"] = is_enabled()
-record["packages"] = {name: importlib.import_module(name).__file__ for name in ("trimesh", "manifold3d", "matplotlib")}
+record["packages"] = {
+    name: importlib.import_module(name).__file__ for name in ("trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm")
+}
 for _ in range(2):
     record["on"].append(traces())
     bpy.ops.preferences.addon_disable(module=extension)

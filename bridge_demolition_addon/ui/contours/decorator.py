@@ -16,10 +16,9 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 
 from ...core.blast.damage import THRESHOLDS, ring_radii
-from ...core.display.colour_scale import colours
+from ...core.display.colour_scale import colours, tick_text
 from ...core.display.contours import ContourFrame, ContourSettings, unit_of
 from ...core.display.force_arrows import arrows, body_forces, connection_forces, contact_forces
-from ...core.display.number_text import tick_text
 from ...scene.blast.charges import charges_of
 from ...simulation.display import contours
 from ..viewport import covered_px

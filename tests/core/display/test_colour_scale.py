@@ -32,8 +32,7 @@ def test_even_maps_end_where_their_publications_do(colour_map, low, high):
 @pytest.mark.parametrize("colour_map", EVEN)
 def test_even_maps_are_those_of_matplotlib(colour_map):
     shares = np.linspace(0.0, 1.0, 1001)
-    # Six digits are in the table.
-    assert np.allclose(colours(colour_map, shares), matplotlib.colormaps[colour_map.value](shares)[:, :3], atol=1e-6)
+    assert np.allclose(colours(colour_map, shares), matplotlib.colormaps[colour_map.value](shares)[:, :3], atol=1e-12)
 
 
 def test_beyond_the_range_the_ends_go_on_and_no_value_is_grey():
