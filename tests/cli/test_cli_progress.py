@@ -2,6 +2,7 @@
 
 import os
 import re
+import select
 import struct
 import sys
 from io import StringIO
@@ -54,16 +55,21 @@ def terminal():
         ours, theirs = os.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 25, columns, 0, 0))
         stream = os.fdopen(theirs, "w")
-        opened.extend((os.fdopen(ours, "rb"), stream))
+        reading = os.fdopen(ours, "rb", buffering=0)
+        opened.append(reading)
 
         def shown():
             stream.flush()
-            return os.read(ours, 100_000).decode().replace("\r\n", "\n")
+            text = b""
+            while select.select([reading], [], [], 0.2)[0]:
+                text += reading.read(10_000)
+            stream.close()
+            return text.decode().replace("\r\n", "\n")
 
         return stream, shown
 
     yield open_terminal
-    for each in reversed(opened):
+    for each in opened:
         each.close()
 
 
