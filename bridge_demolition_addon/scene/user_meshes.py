@@ -1,65 +1,80 @@
-"""Mesh objects of a Blender scene as members that can be cut into shards."""
+"""The user's own mesh objects: solids of them, and weights that were painted on them."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import bpy
 import numpy as np
 
-from ..core.bridge.member import Member
-from ..core.bridge.preparation import PreparedMembers, without_overlap
 from ..core.errors import GeometryError
-from ..core.geometry.repair import repaired_solid
+from ..core.geometry.repair import Repaired, repaired_solid
 from ..core.geometry.solids import mesh_of
 from .bodies import mesh_arrays
 
 
-def members_of_objects(
-    objects: Sequence[bpy.types.Object], density_kg_m3: float, kind: str = "member"
-) -> PreparedMembers:
-    """Objects as members where they stand: modifiers applied, scaled, turned and moved as they and their parents are.
+def solid_of_object(body: bpy.types.Object) -> Repaired:
+    """Return an object's mesh as a solid where it stands, in m, and what was repaired to make it one.
 
-    Objects are not changed. Linked and parented ones, ones with a scale that is not applied and mirrored ones are
-    taken as they are seen.
-
-    Parameters
-    ----------
-    objects
-        Meshes. What an object has in common with one before it is cut off it.
-    density_kg_m3
-        Density of all of them.
-    kind
-        What kind of members they are.
+    Modifiers are applied, and it is scaled, turned and moved as the object and its parents are. The object itself is
+    not changed. Linked, parented, mirrored and scaled objects are taken as they are seen.
 
     Raises
     ------
     GeometryError
-        There are none, one is not a mesh, or not a solid and cannot be made one; the text begins with its name.
+        It is not a mesh, or not a solid and cannot be made one; the text begins with its name.
     """
-    if not len(objects):
-        raise GeometryError("No objects are selected; select the meshes that are to be members.")
-    graph = bpy.context.evaluated_depsgraph_get()
-    members, notes = [], []
-    for each in objects:
-        if each.type != "MESH":
-            raise GeometryError(f"{each.name}: is of type {each.type}, not a mesh; convert it, or leave it out.")
-        done = repaired_solid(mesh_of(*_triangles_in_world(each, graph)), each.name)
-        members.append(Member(each.name, kind, done.solid, density_kg_m3))
-        notes += [f"{each.name}: {repair}" for repair in done.repairs]
-    apart = without_overlap(members)
-    return PreparedMembers(apart.members, (*notes, *apart.notes))
+    _check_is_mesh(body, "convert it, or leave it out")
+    return repaired_solid(mesh_of(*_triangles_in_world(body)), body.name)
 
 
-def _triangles_in_world(body: bpy.types.Object, graph: bpy.types.Depsgraph) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3) in m in the world's axes, and triangles (t, 3), of an object with its modifiers."""
-    evaluated = body.evaluated_get(graph)
+def painted_points(body: bpy.types.Object, group: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return where a mesh's vertices are and their weights in a vertex group.
+
+    The mesh is taken as it was painted, without modifiers, which may change its vertices.
+
+    Returns
+    -------
+    points : (v, 3) float
+        In m, in the world's axes.
+    weights : (v,) float
+        From 0 to 1.
+
+    Raises
+    ------
+    GeometryError
+        The object is not a mesh, or has no such group.
+    """
+    _check_is_mesh(body, "choose the object that was painted")
+    index = body.vertex_groups.find(group)
+    if index < 0:
+        known = ", ".join(each.name for each in body.vertex_groups) or "none"
+        raise GeometryError(f"{body.name}: has no vertex group {group!r}; paint one, or choose from: {known}.")
+    weights = np.array([_weight(vertex, index) for vertex in body.data.vertices])
+    return _in_world(body, mesh_arrays(body.data)[0]), weights
+
+
+def _check_is_mesh(body: bpy.types.Object, advice: str) -> None:
+    if body.type != "MESH":
+        raise GeometryError(f"{body.name}: is of type {body.type}, not a mesh; {advice}.")
+
+
+def _triangles_in_world(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """Return vertices (v, 3) in m in the world's axes, and triangles (t, 3), of an object with its modifiers."""
+    evaluated = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
     try:
         vertices, triangles = mesh_arrays(evaluated.to_mesh())
     finally:
         evaluated.to_mesh_clear()
-    matrix = np.array(evaluated.matrix_world, dtype=float)
     # A mirrored object shows its faces the other way round.
-    if np.linalg.det(matrix[:3, :3]) < 0.0:
+    if evaluated.matrix_world.determinant() < 0.0:
         triangles = triangles[:, ::-1]
-    return vertices @ matrix[:3, :3].T + matrix[:3, 3], triangles
+    return _in_world(evaluated, vertices), triangles
+
+
+def _in_world(body: bpy.types.Object, vertices: np.ndarray) -> np.ndarray:
+    """Return vertices (v, 3) of an object, from its own axes to the world's, m."""
+    matrix = np.array(body.matrix_world, dtype=float)
+    return vertices @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def _weight(vertex: bpy.types.MeshVertex, group: int) -> float:
+    return next((each.weight for each in vertex.groups if each.group == group), 0.0)

@@ -1,4 +1,4 @@
-"""Removing a demolition leaves nothing of it behind; supports hold; paint is read."""
+"""Removing a demolition leaves nothing of it behind; supports hold."""
 
 from dataclasses import replace
 
@@ -7,9 +7,6 @@ import pytest
 from places import EXAMPLES
 from scenarios import I235
 
-from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.fracture.density import painted_density
-from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import FractureSettings, Support
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.model import build_model
@@ -17,7 +14,6 @@ from bridge_demolition_addon.scene.blast.charges import charge_objects
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition
-from bridge_demolition_addon.scene.painting import painted_points
 from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
 from bridge_demolition_addon.scene.time_scale import time_is_animated
 from bridge_demolition_addon.simulation.recording import handlers
@@ -156,24 +152,3 @@ def test_supports_hold_their_shards(blender):
     ]
     assert max(np.array(moved)[model.held]) == 0.0
     assert max(np.array(moved)[~model.held]) > 0.01  # overhanging ends of the deck come down
-
-
-def test_paint_becomes_density(blender):
-    mesh, solid = blender.data.meshes.new("deck"), box([4, 2, 1])
-    mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
-    body = blender.data.objects.new("deck", mesh)
-    blender.context.scene.collection.objects.link(body)
-    body.location, body.scale = (10, 0, 0), (2, 1, 1)
-    group = body.vertex_groups.new(name="finer")
-    group.add([index for index, vertex in enumerate(mesh.vertices) if vertex.co.x > 0], 0.5, "REPLACE")
-    blender.context.view_layer.update()
-    points, weights = painted_points(body, "finer")
-    np.testing.assert_allclose(points, np.asarray(solid.vertices) * (2, 1, 1) + (10, 0, 0), atol=1e-6)
-    assert sorted(set(weights)) == [0.0, 0.5]
-    at = painted_density(points, weights, 5.0).at(np.array([[14.0, 1.0, 0.5], [6.0, 1.0, 0.5], [10.0, 0.0, 0.0]]))
-    assert at == pytest.approx([3, 1, 2], rel=1e-6)
-    with pytest.raises(GeometryError, match=r"deck: has no vertex group 'coarse'; paint one, or choose from: finer"):
-        painted_points(body, "coarse")
-    empty = blender.data.objects.new("empty", None)
-    with pytest.raises(GeometryError, match="empty: is of type EMPTY, not a mesh"):
-        painted_points(empty, "finer")

@@ -13,8 +13,7 @@ from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ...core.errors import DemolitionError, GeometryError, OutputError
 from ...core.fracture.point_files import paint_text
-from ...scene.painting import painted_points
-from ...scene.user_meshes import members_of_objects
+from ...scene.user_meshes import painted_points, solid_of_object
 from ..operators import FileWriter, Refusing, absolute, refused
 from ..sidebar import RELATIVE_PATHS
 
@@ -52,10 +51,10 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         tables, selected = context.scene.bda.scenario.geometry, context.selected_objects
         try:
-            solids = {each.name: members_of_objects([each], self.density_kg_m3).members[0].solid for each in selected}
-            files = _new_files(absolute(self.directory), list(solids), {absolute(each.file) for each in tables})
+            done = {each.name: solid_of_object(each) for each in selected}
+            files = _new_files(absolute(self.directory), list(done), {absolute(each.file) for each in tables})
             for name, path in files.items():
-                _write(path, solids[name].export(file_type=_MESH_SUFFIX[1:]))
+                _write(path, done[name].solid.export(file_type=_MESH_SUFFIX[1:]))
         except DemolitionError as error:
             return refused(self, error)
         for name, path in files.items():
@@ -65,6 +64,9 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
         for each in selected:
             each.hide_set(True)
         context.scene.bda.scenario.geometry_index = len(tables) - 1
+        for name, repaired in done.items():
+            for repair in repaired.repairs:
+                self.report({"INFO"}, f"{name}: {repair}")
         self.report({"INFO"}, f"{len(files)} members added from the selected meshes, which are hidden now")
         return {"FINISHED"}
 
