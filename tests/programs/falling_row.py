@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Let a row of connected blocks fall, and do to it, one after another, what is named on the command line.
+
+Usage: falling_row.py FOLDER STEP…, each step a method of `FallingRow`. It says "ended well" where nothing went wrong.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+import bpy
+from blocks import Blocks
+
+from bridge_demolition_addon.simulation.crash_guards import safe_undo, standstill
+from bridge_demolition_addon.simulation.playback import start_over
+from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.recording import unrecorded_watch as watch
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+
+class FallingRow:
+    """Eight blocks with connections between them, and a ground below."""
+
+    def __init__(self, folder: Path):
+        self.folder, self.blocks = folder, Blocks()
+        self.ground = self.blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
+        self.row = [self.blocks.block((1.02 * number, 0, 4.5), 100.0) for number in range(8)]
+        pairs = zip(self.row, self.row[1:], strict=False)
+        self.links = [
+            self.blocks.connect("FIXED", (1.02 * number + 0.5, 0, 4.5), *pair) for number, pair in enumerate(pairs)
+        ]
+        self.doomed, self.held_by = self.row[3], self.links[2:4]
+        self.recording: Recording | None = None
+
+    @property
+    def scene(self) -> bpy.types.Scene:
+        """The scene, which is another object after an undo."""
+        return bpy.context.scene
+
+    def play(self, first: int, last: int) -> None:
+        for frame in range(first, last + 1):
+            self.scene.frame_set(frame)
+
+    def height(self) -> float:
+        evaluated = bpy.data.objects["Block 1"].evaluated_get(self.scene.view_layers[0].depsgraph)
+        return evaluated.matrix_world.translation.z
+
+    # What the row goes through first.
+
+    def own_constraints_as_blenders_buttons_do(self) -> None:
+        for link in self.links:
+            self.scene.collection.objects.link(link)
+        self.scene.collection.children.unlink(self.blocks.world.constraints)
+
+    def record(self) -> None:
+        self.recording = Recording(self.scene, self.folder)
+        handlers.start(self.recording)
+        self.play(1, 11)
+        assert self.recording.error is None
+
+    def watch(self) -> None:
+        for body in self.row:
+            body["bda_kind"] = "shard"
+        watch.register()
+        self.play(1, 11)
+
+    # What is deleted.
+
+    def remove_body(self) -> None:
+        bpy.data.objects.remove(self.doomed)
+
+    def remove_three_bodies(self) -> None:
+        for body in self.row[2:5]:
+            bpy.data.objects.remove(body)
+
+    def delete_body(self) -> None:
+        self._delete(self.doomed)
+
+    def remove_connection(self) -> None:
+        bpy.data.objects.remove(self.held_by[0])
+
+    def delete_body_and_connections(self) -> None:
+        self._delete(self.doomed, *self.held_by)
+
+    def remove_connections_then_body(self) -> None:
+        bpy.data.batch_remove([*self.held_by, self.doomed])
+
+    def remove_everything(self) -> None:
+        for each in (*self.row[1:], *self.links, self.ground):
+            bpy.data.objects.remove(each)
+
+    def take_body_out_of_world(self) -> None:
+        self.blocks.world.collection.objects.unlink(self.doomed)
+
+    def remove_body_and_after_a_second_start_another(self) -> None:
+        bpy.data.objects.remove(self.doomed)
+        self.play(12, 20)
+        self.scene.frame_set(1)
+        self.play(2, 11)
+        bpy.data.objects.remove(self.row[5])
+
+    def _delete(self, *objects: bpy.types.Object) -> None:
+        for each in bpy.data.objects:
+            each.select_set(each in objects)
+        bpy.ops.object.delete()
+
+    # What becomes of it.
+
+    def update(self) -> None:
+        bpy.context.view_layer.update()
+
+    def go_to_start(self) -> None:
+        self.scene.frame_set(1)
+
+    def stand_still_until_the_start(self) -> None:
+        rest = self.height()
+        self.play(12, 40)
+        assert self.height() == rest, "nothing moves until the start frame"
+        assert standstill.stands_still(self.scene)
+        self.fall_from_the_start()
+        assert self.height() < 4.0, "it falls again"
+
+    def fall_from_the_start(self) -> None:
+        self.play(1, 20)
+        assert not standstill.stands_still(self.scene)
+
+    def record_again(self) -> None:
+        assert "removed: go to the start frame" in str(self.recording.error), self.recording.error
+        handlers.stop()
+        for link in list(self.scene.rigidbody_world.constraints.objects):
+            if None in (link.rigid_body_constraint.object1, link.rigid_body_constraint.object2):
+                bpy.data.objects.remove(link)  # left over by a body, and no recording takes it
+        again = self.folder / "again"
+        again.mkdir()
+        self.recording = Recording(self.scene, again)
+        handlers.start(self.recording)
+        start_over(self.scene)
+        self.play(1, 20)
+        self._assert_recorded(19)
+
+    def record_from_now(self) -> None:
+        self.play(1, 11)
+        self.recording = Recording(self.scene, self.folder)
+        handlers.start(self.recording)
+        self.play(12, 30)
+        self._assert_recorded(19)
+
+    def _assert_recorded(self, frames: int) -> None:
+        assert self.recording.error is None and self.recording.distrust is None, (
+            self.recording.error,
+            self.recording.distrust,
+        )
+        assert self.recording.recorded_frames == frames
+        handlers.stop()
+
+    def add_block(self) -> None:
+        self.blocks.block((0, 5, 3), 10.0)
+        before = self.height()
+        self.play(12, 16)
+        assert self.height() < before and not standstill.stands_still(self.scene)
+
+    # Undo.
+
+    def undo_and_redo(self) -> None:
+        safe_undo.register()
+        preferences = bpy.context.preferences
+
+        def looks() -> tuple[bool, ...]:
+            shown = preferences.view.show_developer_ui
+            return preferences.experimental.use_undo_legacy, shown, preferences.is_dirty
+
+        preferences.is_dirty = False
+        before = looks()
+        bpy.ops.ed.undo_push(message="built")
+        self.play(1, 21)
+        red = (1.0, 0.0, 0.0, 1.0)
+        for name in ("Block 2", "Block 3"):
+            bpy.data.objects[name].color = red
+            bpy.ops.ed.undo_push(message=name)
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+        assert looks() == before
+        assert tuple(bpy.data.objects["Block 3"].color) != red
+        assert tuple(bpy.data.objects["Block 2"].color) == red
+        assert self.scene.frame_current == 1, "it ends at the start frame"
+        self.play(2, 30)
+        assert self.height() < 4.0, "it falls again"
+        assert bpy.ops.ed.redo() == {"FINISHED"}
+        assert looks() == before and self.scene.frame_current == 1
+        assert tuple(bpy.data.objects["Block 3"].color) == red
+        self.play(1, 30)
+        assert self.height() < 4.0
+        safe_undo.unregister()
+
+    def undo_without_a_world(self) -> None:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        safe_undo.register()
+        seen = []
+        experimental = bpy.context.preferences.experimental
+        bpy.app.handlers.undo_pre.append(lambda *_: seen.append(experimental.use_undo_legacy))
+        bpy.ops.ed.undo_push(message="one")
+        bpy.context.scene.frame_end = 77
+        bpy.ops.ed.undo_push(message="two")
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+        assert seen == [False], seen
+        safe_undo.unregister()
+
+    def end_in_mid_undo(self) -> None:
+        safe_undo.register()
+        preferences = bpy.context.preferences
+        assert not preferences.experimental.use_undo_legacy
+        safe_undo._before_undo()
+        assert preferences.experimental.use_undo_legacy
+        safe_undo.unregister()
+        assert not preferences.experimental.use_undo_legacy and not preferences.view.show_developer_ui
+
+
+def main(folder: str, *steps: str) -> None:
+    """Do the steps, then begin another file and play it."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    row = FallingRow(Path(folder))
+    for step in steps:
+        getattr(row, step)()
+    watch.unregister()
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    for frame in range(1, 5):
+        bpy.context.scene.frame_set(frame)
+    print("ended well", flush=True)
+    os._exit(0)
+
+
+main(*sys.argv[1:])
