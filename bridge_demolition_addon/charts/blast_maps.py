@@ -16,8 +16,8 @@ from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.models import BlastModel
 from ..core.blast.receptors import PlaceLoads, peak_overpressures
 from ..core.scenario import Neighbour
-from .histories import DASHES, SHADES
-from .plan_maps import draw_area, plain
+from .plan_maps import draw_area
+from .style import DASHES, SHADES, line_style, plain
 
 _CELLS = 240
 _NAME_LETTERS = 28
@@ -75,8 +75,7 @@ def neighbour_pressures(figure: FigureBase, loads: Sequence[tuple[str, PlaceLoad
     """Overpressure of all charges together at neighbours, over time."""
     axes = figure.add_subplot()
     for number, (name, load) in enumerate(loads):
-        style = {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": 1.2}
-        axes.plot(1e3 * load.times_s, load.pressures_pa / 1e3, **style, label=plain(name))
+        axes.plot(1e3 * load.times_s, load.pressures_pa / 1e3, **line_style(number, 1.2), label=plain(name))
     axes.set(xlabel="time since the start of the blasting (ms)", ylabel="overpressure of all charges (kPa)")
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(left=0.0)

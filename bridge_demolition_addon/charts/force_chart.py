@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-
 from ..core.results.arrays import Results
 from ..core.results.force_history import largest_on_a_shard
+from .style import blank_figure
 
 
 def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
@@ -25,9 +23,7 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     impact_s
         When the ball hit, marked by a line; None for no mark.
     """
-    # A figure of its own: pyplot would set up a window system inside Blender and keep every figure alive.
-    figure = Figure(figsize=(9.0, 5.0), dpi=120, layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = blank_figure(9.0, 5.0, dpi=120, layout="constrained")
     force_axes = figure.add_subplot()
     sums = largest_on_a_shard(results, results.body_peak_sums_n)
     resultants = largest_on_a_shard(results, results.body_peaks_n)

@@ -12,10 +12,8 @@ from ..core.results.arrays import Results
 from ..core.results.collapse import Span
 from ..core.results.energy import Energy
 from ..core.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
-from .plan_maps import plain
+from .style import line_style, plain
 
-DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (1, 3)), (0, (3, 1)))
-SHADES = ("0.0", "#b2182b", "#2166ac", "0.45", "#542788", "#b35806", "0.0", "0.45")
 _MOST_KINDS = 7
 """Kinds of connections that have a line of their own."""
 
@@ -23,9 +21,9 @@ _MOST_KINDS = 7
 def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:
     """Total and largest contact force, and what the ground carries by contacts, over time."""
     axes = _time_axes(figure, "contact force (kN)", forces.times_s)
-    axes.plot(forces.times_s, forces.total_n / 1e3, **_style(0), label="all contacts together, at least")
-    axes.plot(forces.times_s, forces.largest_n / 1e3, **_style(1), label="largest on one shard")
-    axes.plot(forces.times_s, forces.ground_n / 1e3, **_style(2), label="upward force of the ground")
+    axes.plot(forces.times_s, forces.total_n / 1e3, **line_style(0), label="all contacts together, at least")
+    axes.plot(forces.times_s, forces.largest_n / 1e3, **line_style(1), label="largest on one shard")
+    axes.plot(forces.times_s, forces.ground_n / 1e3, **line_style(2), label="upward force of the ground")
     _finish(figure, axes, impact_s)
 
 
@@ -34,16 +32,16 @@ def load_history(figure: FigureBase, results: Results, impact_s: float | None) -
     axes = _time_axes(figure, "largest load on a shard (kN)", results.times_s)
     sums = largest_on_a_shard(results, results.body_peak_sums_n)
     resultants = largest_on_a_shard(results, results.body_peaks_n)
-    axes.plot(results.times_s, sums / 1e3, **_style(0), label="sum of magnitudes")
-    axes.plot(results.times_s, resultants / 1e3, **_style(1), label="resultant")
+    axes.plot(results.times_s, sums / 1e3, **line_style(0), label="sum of magnitudes")
+    axes.plot(results.times_s, resultants / 1e3, **line_style(1), label="resultant")
     _finish(figure, axes, impact_s)
 
 
 def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
     """The same from a log alone: times (k,), and (k,) largest sum and resultant on any body."""
     axes = _time_axes(figure, "largest load on a body (kN)", times_s)
-    axes.plot(times_s, sums_n / 1e3, **_style(0), label="sum of magnitudes")
-    axes.plot(times_s, resultants_n / 1e3, **_style(1), label="resultant")
+    axes.plot(times_s, sums_n / 1e3, **line_style(0), label="sum of magnitudes")
+    axes.plot(times_s, resultants_n / 1e3, **line_style(1), label="resultant")
     _finish(figure, axes, None)
 
 
@@ -54,7 +52,7 @@ def breaking_history(
     axes = _time_axes(figure, "connections broken (%)", times_s)
     for number, kind in enumerate(kinds[:_MOST_KINDS]):
         label = plain(f"{kind.kind} ({kind.broken[-1]} of {kind.count})")
-        axes.plot(times_s, 100.0 * kind.broken / kind.count, **_style(number + 1), label=label)
+        axes.plot(times_s, 100.0 * kind.broken / kind.count, **line_style(number + 1), label=label)
     count = sum(kind.count for kind in kinds)
     broken = np.sum([kind.broken for kind in kinds], axis=0)
     all_of_them = {"color": "black", "linewidth": 2.5, "label": f"all ({broken[-1]} of {count})"}
@@ -67,7 +65,7 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
     """Height of the centre of mass of every span over time, and of the lowest centre of its shards."""
     axes = _time_axes(figure, "height above the ground (m)", times_s)
     for number, span in enumerate(spans):
-        style = _style(number)
+        style = line_style(number)
         axes.plot(times_s, span.heights_m, **style, label=f"{span.name}: centre of mass")
         axes.plot(times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=f"{span.name}: lowest shard")
     highest = max((float(span.heights_m.max()) for span in spans), default=0.0)
@@ -78,7 +76,7 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
 def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarray, impact_s: float | None) -> None:
     """Progress of the collapse over time."""
     axes = _time_axes(figure, "progress (%)", times_s)
-    axes.plot(times_s, 100.0 * progress, **_style(0), label="progress of the collapse")
+    axes.plot(times_s, 100.0 * progress, **line_style(0), label="progress of the collapse")
     axes.set_ylim(min(0.0, 105.0 * progress.min()), 105.0)
     _finish(figure, axes, impact_s)
 
@@ -86,10 +84,10 @@ def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarr
 def energy_history(figure: FigureBase, energy: Energy, impact_s: float | None) -> None:
     """Potential and kinetic energy, and what is lost of them, over time."""
     axes = _time_axes(figure, "energy (MJ)", energy.times_s)
-    axes.plot(energy.times_s, energy.potential_j / 1e6, **_style(0), label="potential")
-    axes.plot(energy.times_s, energy.kinetic_j / 1e6, **_style(1), label="kinetic")
-    axes.plot(energy.times_s, energy.rotation_j / 1e6, **_style(3), label="part of it in rotation")
-    axes.plot(energy.times_s, energy.dissipated_j / 1e6, **_style(2), label="dissipated")
+    axes.plot(energy.times_s, energy.potential_j / 1e6, **line_style(0), label="potential")
+    axes.plot(energy.times_s, energy.kinetic_j / 1e6, **line_style(1), label="kinetic")
+    axes.plot(energy.times_s, energy.rotation_j / 1e6, **line_style(3), label="part of it in rotation")
+    axes.plot(energy.times_s, energy.dissipated_j / 1e6, **line_style(2), label="dissipated")
     _finish(figure, axes, impact_s)
 
 
@@ -100,8 +98,8 @@ def throw_distribution(figure: FigureBase, throws_m: np.ndarray, masses_kg: np.n
     distances = np.concatenate([[0.0], throws_m[order]])
     by_mass = 100.0 * (1.0 - np.concatenate([[0.0], np.cumsum(masses_kg[order])]) / masses_kg.sum())
     by_number = 100.0 * (1.0 - np.arange(len(distances)) / max(len(throws_m), 1))
-    axes.step(distances, by_mass, where="post", **_style(0), label="by mass")
-    axes.step(distances, by_number, where="post", **_style(1), label="by number of shards")
+    axes.step(distances, by_mass, where="post", **line_style(0), label="by mass")
+    axes.step(distances, by_number, where="post", **line_style(1), label="by number of shards")
     axes.set(xlabel="throw (m)", ylabel="debris thrown farther (%)", ylim=(0.0, 102.0))
     axes.set_xlim(left=0.0)
     axes.grid(alpha=0.3)
@@ -112,7 +110,7 @@ def compared_histories(figure: FigureBase, label: str, histories: Sequence[tuple
     """Lines of several runs in one chart: the name of each, its times (k,) and its values (k,)."""
     axes = _time_axes(figure, label, np.concatenate([times for _, times, _ in histories]))
     for number, (name, times, values) in enumerate(histories):
-        axes.plot(times, values, **_style(number), label=plain(name))
+        axes.plot(times, values, **line_style(number), label=plain(name))
     _finish(figure, axes, None, columns=2)
 
 
@@ -123,10 +121,6 @@ def _time_axes(figure: FigureBase, label: str, times_s: np.ndarray) -> Axes:
     axes.set_xlim(0.0, last if last > 0.0 else 1.0)
     axes.grid(alpha=0.3)
     return axes
-
-
-def _style(number: int) -> dict[str, object]:
-    return {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": 1.4}
 
 
 def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int = 2) -> None:

@@ -19,7 +19,7 @@ from ..core.results.debris import Debris, HeightMap
 from ..core.results.exclusion import ExclusionZone
 from ..core.results.footprint import corners_at, outlines
 from ..core.scenario import Zone
-from .style import PAGE_WIDTH_MM
+from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, plain
 
 NAMED_THROWS = 5
 """Largest throws that the map names."""
@@ -38,8 +38,6 @@ _LETTER_SHARE, _LINE_SHARE = 0.6, 1.5
 
 _AXES_SHARES = (0.85, 0.75)
 """About how much of a map's width and height are left beside its labels, ticks and legend."""
-
-_MM_PER_POINT = 25.4 / 72.0
 
 _MAPS_ABREAST = 2
 _MAP_TITLE_MM, _MAP_LEGEND_MM, _HIGHEST_MAPS_MM = 20.0, 10.0, 220.0
@@ -174,7 +172,7 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
 
 def _name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
     """Write each zone's name where no other name is, if there is such a place at its sides."""
-    letter_m = _NAME_POINTS * _MM_PER_POINT * _metres_per_mm(axes, figure)
+    letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes, figure)
     style = {"fontsize": _NAME_POINTS, "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}, "zorder": 5}
     taken: list[np.ndarray] = []
     for zone in zones:
@@ -203,13 +201,8 @@ def _overlap(first: np.ndarray, second: np.ndarray) -> bool:
 def _metres_per_mm(axes: Axes, figure: FigureBase) -> float:
     """About how many metres of a map are a millimetre of its drawing."""
     shown = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)
-    drawn_mm = 25.4 / figure.dpi * np.array([figure.bbox.width, figure.bbox.height]) * _AXES_SHARES
+    drawn_mm = MM_PER_INCH / figure.dpi * np.array([figure.bbox.width, figure.bbox.height]) * _AXES_SHARES
     return float((shown / drawn_mm).max())
-
-
-def plain(text: str) -> str:
-    """A text that matplotlib does not take for a formula."""
-    return str(text).replace("$", r"\$")
 
 
 def _plan_axes(figure: FigureBase) -> Axes:

@@ -1,6 +1,41 @@
-"""What all charts and pages have in common."""
+"""Style: what all charts and pages have in common."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.backend_bases import FigureCanvasBase
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 MM_PER_INCH = 25.4
+POINTS_PER_INCH = 72.0
+MM_PER_POINT = MM_PER_INCH / POINTS_PER_INCH
 
 PAGE_WIDTH_MM = 170.0
 """Width between the margins of a page."""
+
+DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (1, 3)), (0, (3, 1)))
+SHADES = ("0.0", "#b2182b", "#2166ac", "0.45", "#542788", "#b35806", "0.0", "0.45")
+
+
+def line_style(number: int, width_pt: float = 1.4) -> dict[str, Any]:
+    """Return how the line with a number looks; dashes tell lines apart without colour."""
+    return {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": width_pt}
+
+
+def blank_figure(
+    width_in: float, height_in: float, canvas: type[FigureCanvasBase] = FigureCanvasAgg, **options: Any
+) -> Figure:
+    """Return an empty figure.
+
+    Not from pyplot, which would set up a window system inside Blender and keep every figure alive.
+    """
+    figure = Figure(figsize=(width_in, height_in), **options)
+    canvas(figure)
+    return figure
+
+
+def plain(text: object) -> str:
+    """Return a text that matplotlib does not take for a formula."""
+    return str(text).replace("$", r"\$")

@@ -90,11 +90,6 @@ class ContourSettings:
         if self.logarithmic and self.low <= 0.0:
             raise ContourError(f"range of contours: a logarithmic one has to begin above 0, not at {self.low:g}")
 
-    @property
-    def title(self) -> str:
-        """Name of what is shown."""
-        return TITLES[self.quantity] + (", peak so far" if self.peak else "")
-
 
 @dataclass(frozen=True, slots=True)
 class Scale:

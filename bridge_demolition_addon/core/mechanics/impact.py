@@ -15,7 +15,6 @@ import numpy as np
 _HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamma(9.0 / 10.0)
 """2 ∫ dx / √(1 - x^(5/2)) from 0 to 1: contact time by time to cross the largest compression at full speed, 2.943."""
 
-_PRESSURE_AT_YIELD = 1.6
 """Largest pressure of a contact by the yield stress of the metal that just begins to yield (Johnson 1985, 6.1)."""
 
 
@@ -180,9 +179,10 @@ def hertz_contact_time(contact: Contact, speed_m_s: float) -> float:
 def hertz_peak_force(contact: Contact, speed_m_s: float) -> float:
     """Largest force between two elastic bodies that meet at a speed, N: 4/3 E* √R δ^(3/2) at the largest compression δ.
 
-    It holds for a hit that is elastic throughout, which is a soft one: see `largest_elastic_speed`. In any other, steel
-    yields or concrete crushes at a lower force, and this is an upper bound. The theory also takes the bodies to be much
-    larger than the contact, and not to bend: good for a pier or an abutment, an upper bound for a slab.
+    It holds for a hit that is elastic throughout, which for mild steel ends at some millimetres a second (Johnson,
+    section 11.5). In any other, steel yields or concrete crushes at a lower force, and this is an upper bound. The
+    theory also takes the bodies to be much larger than the contact, and not to bend: good for a pier or an abutment, an
+    upper bound for a slab.
 
     References
     ----------
@@ -203,20 +203,6 @@ def half_sine_peak_force(impulse_ns: float, contact_time_s: float) -> float:
     W. Goldsmith (1960), Impact, Edward Arnold, chapter 4: the pulse of a Hertz impact is close to half a sine.
     """
     return math.pi * impulse_ns / (2.0 * contact_time_s)
-
-
-def largest_elastic_speed(contact: Contact, yield_stress_pa: float) -> float:
-    """Speed above which the softer of two bodies yields at the point of contact, m/s.
-
-    For mild steel it is some millimetres a second: every hit in a demolition is far above it.
-
-    References
-    ----------
-    Johnson (1985), sections 6.1 and 11.5: pressure 1.6 Y, so that ½ m v² = 53 R³ Y⁵ / E*⁴ (equation 11.36).
-    """
-    force = (math.pi * _PRESSURE_AT_YIELD * yield_stress_pa) ** 3 * (contact.radius_m / contact.modulus_pa) ** 2 / 6.0
-    compression = (0.75 * force / (contact.modulus_pa * math.sqrt(contact.radius_m))) ** (2.0 / 3.0)
-    return math.sqrt(2.0 * 0.4 * force * compression / contact.mass_kg)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,19 +10,9 @@ from pathlib import Path
 
 import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
-from matplotlib.figure import Figure
 
-from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM
-from .blocks import (
-    Block,
-    DataTable,
-    Document,
-    Listing,
-    Paragraph,
-    Photo,
-    Picture,
-    Section,
-)
+from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, blank_figure
+from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
 
 _SHORT_TABLE_ROWS = 16
 """Tables of no more rows are not broken over pages."""
@@ -133,8 +123,8 @@ def _table(table: DataTable) -> str:
 def _svg(picture: Picture) -> bytes:
     # A fixed salt, so that the same run gives the same file.
     with matplotlib.rc_context({"svg.hashsalt": "report", "svg.fonttype": "path"}):
-        figure = Figure(figsize=(PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH), layout="constrained")
-        FigureCanvasSVG(figure)
+        size = PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH
+        figure = blank_figure(*size, FigureCanvasSVG, layout="constrained")
         picture.draw(figure)
         file = io.BytesIO()
         figure.savefig(file, format="svg", metadata={"Date": None})

@@ -13,11 +13,8 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.image import imread
 from matplotlib.textpath import TextToPath
 
-from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM
+from ...charts.style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture
-
-POINTS_PER_INCH = 72.0
-MM_PER_POINT = MM_PER_INCH / POINTS_PER_INCH
 
 PAGE_MM = (210.0, 297.0)
 LEFT_MM = (PAGE_MM[0] - PAGE_WIDTH_MM) / 2.0
@@ -206,9 +203,8 @@ class _Pages:
             self._turn()
 
     def _turn(self) -> None:
-        figure = Figure(figsize=tuple(side / MM_PER_INCH for side in PAGE_MM), layout="constrained")
-        FigureCanvasPdf(figure)
-        self.figures.append(figure)
+        size = (side / MM_PER_INCH for side in PAGE_MM)
+        self.figures.append(blank_figure(*size, FigureCanvasPdf, layout="constrained"))
         self._y = TOP_MM
 
 

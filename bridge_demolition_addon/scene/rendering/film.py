@@ -23,8 +23,8 @@ _IMAGE_SETTINGS = ("media_type", "file_format", "color_mode", "color_depth")
 
 
 @dataclass(frozen=True, slots=True)
-class PictureSettings:
-    """What pictures are like.
+class RenderSettings:
+    """Size and renderer of pictures of the contours.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class PictureSettings:
 
 
 @contextmanager
-def set_up_for_pictures(scene: bpy.types.Scene, settings: PictureSettings) -> Iterator[None]:
+def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Iterator[None]:
     """Render PNG pictures of a size; afterwards the scene is at its frame, and as it was.
 
     A scene without a camera has one, beside the road, for the time being.

@@ -15,7 +15,7 @@ from ...core.display.contours import ContourSeries, ContourSettings
 from ...core.display.film_frames import film_rows
 from ...core.errors import ContourError, OutputError
 from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
-from ...scene.rendering.film import PictureSettings, encode_film, set_up_for_pictures
+from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from . import contours
 
 _PICTURE = "contours_{:06d}.png"
@@ -57,26 +57,16 @@ class FilmSettings:
     first_frame: int | None = None
     last_frame: int | None = None
     legend: bool = True
-    picture: PictureSettings = field(default_factory=PictureSettings)
+    picture: RenderSettings = field(default_factory=RenderSettings)
 
     @property
-    def rendered(self) -> PictureSettings:
+    def rendered(self) -> RenderSettings:
         """The part of a picture that is rendered: all but the colour bar."""
         if not self.legend:
             return self.picture
         from ...charts.contour_legend import legend_width  # matplotlib, which switching the add-on on need not wait for
 
         return replace(self.picture, width_px=self.picture.width_px - legend_width(self.picture.height_px))
-
-
-def render_film(
-    scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
-) -> list[Path]:
-    """Render all of it at once: the files written."""
-    rendering = FilmRendering(scene, folder, contour_settings, film_settings)
-    for _ in rendering.pictures():
-        pass
-    return rendering.finish()
 
 
 class FilmRendering:

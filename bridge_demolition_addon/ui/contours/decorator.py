@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import blf
 import bpy
@@ -16,8 +17,9 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 
 from ...core.blast.damage import THRESHOLDS, ring_radii
-from ...core.display.colour_scale import colours, tick_text
-from ...core.display.contours import ContourFrame, ContourSettings, unit_of
+from ...core.display.colour_bar import colour_bar
+from ...core.display.colour_scale import colours
+from ...core.display.contours import ContourFrame, ContourSettings
 from ...core.display.force_arrows import arrows, body_forces, connection_forces, contact_forces
 from ...scene.blast.charges import charges_of
 from ...simulation.display import contours
@@ -146,29 +148,71 @@ def _draw_on_screen(context: bpy.types.Context) -> None:
         _draw_ring_labels(context)
 
 
+@dataclass(frozen=True, slots=True)
+class _BarLayout:
+    """Where the parts of the colour bar are, px from the lower left of the view.
+
+    Attributes
+    ----------
+    left, bottom
+        Of the panel's texts, and of the panel.
+    scale
+        Of Blender's interface.
+    heading_lines
+        How many lines stand above the bar.
+    """
+
+    left: float
+    bottom: float
+    scale: float
+    heading_lines: int
+
+    @property
+    def line(self) -> float:
+        """Height of a line of text."""
+        return _LINE_PX * self.scale
+
+    @property
+    def margin(self) -> float:
+        """Room around the parts."""
+        return _MARGIN_PX * self.scale
+
+    @property
+    def bar(self) -> tuple[float, float, float, float]:
+        """Left, bottom, width and height of the colours."""
+        width, height = (size * self.scale for size in _BAR_PX)
+        return self.left, self.bottom + self.margin + 2.0 * self.line, width, height
+
+    @property
+    def top(self) -> float:
+        """Upper end of the colours."""
+        _, foot, _, height = self.bar
+        return foot + height
+
+    @property
+    def panel(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right and top of the ground that all stands on."""
+        high = self.top + 1.5 * self.margin + self.heading_lines * self.line
+        return self.left - self.margin / 2.0, self.bottom, self.left + _PANEL_PX * self.scale, high
+
+
 def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, frame: ContourFrame) -> None:
     scale = context.preferences.system.ui_scale
-    line, margin = _LINE_PX * scale, _MARGIN_PX * scale
-    width, height = _BAR_PX[0] * scale, _BAR_PX[1] * scale
-    unit = unit_of(settings.quantity, max(abs(frame.scale.low), abs(frame.scale.high)))
-    name, _, more = settings.title.partition(", ")
-    heading = [name, *([more] if more else []), f"({unit.name})"]
-    left, bottom = _tools_width(context) + margin, _BOTTOM_PX * scale
-    foot = bottom + margin + 2.0 * line
-    top = foot + height
-    _draw_rectangle(
-        left - margin / 2.0, bottom, left + _PANEL_PX * scale, top + margin * 1.5 + len(heading) * line, _PANEL_COLOUR
-    )
+    bar = colour_bar(settings, frame)
+    heading = [*filter(None, (bar.title, bar.subtitle)), bar.unit]
+    layout = _BarLayout(_tools_width(context) + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
+    left, foot, width, height = layout.bar
+    _draw_rectangle(*layout.panel, _PANEL_COLOUR)
     _draw_gradient(left, foot, width, height, settings)
-    ticks = frame.scale.ticks()
-    for tick, share in zip(ticks, frame.scale.shares(ticks), strict=True):
+    tick = _TICK_PX * scale
+    for share, text in zip(bar.tick_shares, bar.tick_texts, strict=True):
         y = foot + share * height
-        _draw_rectangle(left + width, y - 0.5, left + width + _TICK_PX * scale, y + 0.5, _TEXT_COLOUR)
-        _write(context, left + width + 2.0 * _TICK_PX * scale, y - 0.35 * _FONT_PX * scale, tick_text(tick / unit.size))
-    for number, text in enumerate(heading):
-        _write(context, left, top + margin + (len(heading) - 1 - number) * line, text)
-    _write(context, left, bottom + margin / 2.0 + line, f"frame {frame.frame}")
-    _write(context, left, bottom + margin / 2.0, f"{frame.time_s:.3f} s")
+        _draw_rectangle(left + width, y - 0.5, left + width + tick, y + 0.5, _TEXT_COLOUR)
+        _write(context, left + width + 2.0 * tick, y - 0.35 * _FONT_PX * scale, text)
+    for number, text in enumerate(reversed(heading)):
+        _write(context, left, layout.top + layout.margin + number * layout.line, text)
+    for number, text in enumerate((bar.time, bar.frame)):
+        _write(context, left, layout.bottom + layout.margin / 2.0 + number * layout.line, text)
 
 
 def _draw_charges(context: bpy.types.Context) -> None:

@@ -6,7 +6,7 @@ import bpy
 
 from ...core.errors import DemolitionError
 from ...core.results.arrays import load_results
-from ...scene.rendering.film import PictureSettings
+from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...simulation.display import contours
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
@@ -147,5 +147,5 @@ def _film_settings(scene: bpy.types.Scene) -> FilmSettings:
         kind=FilmKind[settings.film_kind],
         pictures_per_second=settings.film_rate,
         slowness=settings.film_slowness,
-        picture=PictureSettings(settings.film_width, settings.film_height),
+        picture=RenderSettings(settings.film_width, settings.film_height),
     )

@@ -204,7 +204,7 @@ def test_hidden_connections_work_all_the_same(blender, tmp_path):
 
 def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_frames(blender, tmp_path):
     from bridge_demolition_addon.simulation.display import contours
-    from bridge_demolition_addon.simulation.display.film import FilmKind, render_film
+    from bridge_demolition_addon.simulation.display.film import FilmKind
 
     blocks = Blocks()
     block = blocks.block((0.0, 0.0, 3.0), 100.0)  # falls freely
@@ -223,16 +223,26 @@ def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_fram
     contours.hide(scene)
 
 
+def render_film(*settings):
+    """Render a film, all of it at once: the files written."""
+    from bridge_demolition_addon.simulation.display.film import FilmRendering
+
+    rendering = FilmRendering(*settings)
+    for _ in rendering.pictures():
+        pass
+    return rendering.finish()
+
+
 def small_film(**more):
-    from bridge_demolition_addon.scene.rendering.film import PictureSettings
+    from bridge_demolition_addon.scene.rendering.film import RenderSettings
     from bridge_demolition_addon.simulation.display.film import FilmSettings
 
-    return FilmSettings(picture=PictureSettings(320, 180), **more)
+    return FilmSettings(picture=RenderSettings(320, 180), **more)
 
 
 def test_pictures_of_contours(hanging, tmp_path):
     from bridge_demolition_addon.charts.contour_legend import legend_width
-    from bridge_demolition_addon.simulation.display.film import FilmKind, render_film
+    from bridge_demolition_addon.simulation.display.film import FilmKind
 
     scene, folder = hanging.scene, tmp_path / "pictures"
     scene.frame_set(3)
@@ -254,8 +264,6 @@ def test_pictures_of_contours(hanging, tmp_path):
 
 def test_a_film_has_its_frames_and_colours(hanging, tmp_path):
     import bpy
-
-    from bridge_demolition_addon.simulation.display.film import render_film
 
     scenes, images = len(bpy.data.scenes), len(bpy.data.images)
     settings = small_film(pictures_per_second=24.0, slowness=2.0)
@@ -283,13 +291,12 @@ def test_slow_motion_is_a_film_of_the_same_pictures(hanging, tmp_path):
 
 
 def test_a_film_that_cannot_be_made_is_refused(hanging, tmp_path, blender):
-    from bridge_demolition_addon.scene.rendering.film import PictureSettings
+    from bridge_demolition_addon.scene.rendering.film import RenderSettings
     from bridge_demolition_addon.simulation.display import contours
-    from bridge_demolition_addon.simulation.display.film import render_film
 
     look = look_of(hanging.scene)
     with pytest.raises(OutputError, match="even"):
-        PictureSettings(321, 180)
+        RenderSettings(321, 180)
     with pytest.raises(OutputError, match="none is within 50 to 60"):
         render_film(hanging.scene, tmp_path / "no", FRAME_BY_FRAME, small_film(first_frame=50, last_frame=60))
     (tmp_path / "file").write_text("")
