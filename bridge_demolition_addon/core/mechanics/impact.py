@@ -15,8 +15,6 @@ import numpy as np
 _HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamma(9.0 / 10.0)
 """2 ∫ dx / √(1 - x^(5/2)) from 0 to 1: contact time by time to cross the largest compression at full speed, 2.943."""
 
-"""Largest pressure of a contact by the yield stress of the metal that just begins to yield (Johnson 1985, 6.1)."""
-
 
 @dataclass(frozen=True, slots=True)
 class Elasticity:
