@@ -19,6 +19,7 @@ from .schema import (
     is_required,
     key_fields,
     key_name,
+    numbered_tables,
     shown,
     subtable_class,
     subtable_fields,
@@ -168,18 +169,12 @@ def _subtables(table_class: type[Table], values: dict[str, Any]) -> dict[str, Ta
 
 
 def _tables(table_class: type[Table], values: Any) -> tuple[Table, ...]:
-    """Tables of a list, each written under its own ``[[name]]``; a complaint about one of several gives its number."""
+    """Return the tables of a list, each written under its own ``[[name]]``."""
     if not isinstance(values, list):
         raise ScenarioError(
             f"{table_class.table} is {shown(values)}: expected tables, each under [[{table_class.table}]]"
         )
-    tables = []
-    for number, each in enumerate(values, start=1):
-        try:
-            tables.append(_table(table_class, each))
-        except ScenarioError as error:
-            raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
-    return tuple(tables)
+    return numbered_tables(table_class, values, lambda each: _table(table_class, each))
 
 
 def _refuse_unknown(table: str, values: dict[str, Any], known: Iterable[str]) -> None:

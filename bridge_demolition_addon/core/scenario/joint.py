@@ -6,6 +6,14 @@ from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Springs
 from .schema import Table, key, shown
 
+_SPRINGS = {
+    "move": ("stiffness_n_m", "damping_ns_m"),
+    "turn": ("turning_stiffness_nm_rad", "turning_damping_nms_rad"),
+}
+"""Keys of the springs, stiffness and damping, in each kind of motion."""
+
+_SPRING_KEYS = (*_SPRINGS["move"], *_SPRINGS["turn"])
+
 _STIFFENED = "Bullet softens what is stiffer than a 16th of the body's {} by the square of the sub-step."
 
 
@@ -37,11 +45,11 @@ class JointSettings(Table):
 
     @property
     def springs(self) -> Springs:
-        """The springs that are given."""
-        return Springs(*(getattr(self, name) or 0.0 for name in Springs.__slots__))
+        """Return the springs that are given."""
+        return Springs(**{name: getattr(self, name) or 0.0 for name in _SPRING_KEYS})
 
     def check_type(self, kind: str) -> None:
-        """See that what is free and the springs go with the type of the connection.
+        """Check that what is free and the springs go with the type of the connection.
 
         Raises
         ------
@@ -49,7 +57,7 @@ class JointSettings(Table):
             They do not.
         """
         wrong = {"free": kind not in ("GENERIC", "GENERIC_SPRING")}
-        wrong |= {name: kind != "GENERIC_SPRING" for name in Springs.__slots__}
+        wrong |= {name: kind != "GENERIC_SPRING" for name in _SPRING_KEYS}
         for name, is_wrong in wrong.items():
             value = getattr(self, name)
             if value is not None and is_wrong:
@@ -57,12 +65,12 @@ class JointSettings(Table):
         if kind != "GENERIC_SPRING":
             return
         free = " ".join(self.free or ())
-        for verb, stiffness, damping in (("move", *Springs.__slots__[:2]), ("turn", *Springs.__slots__[2:])):
-            if getattr(self, stiffness) is not None and verb not in free:
-                raise ScenarioError(f'{self.table}.{stiffness} is given: expected a "{verb}" in {self.table}.free')
+        for motion, (stiffness, damping) in _SPRINGS.items():
+            if getattr(self, stiffness) is not None and motion not in free:
+                raise ScenarioError(f'{self.table}.{stiffness} is given: expected a "{motion}" in {self.table}.free')
             if getattr(self, damping) is not None and getattr(self, stiffness) is None:
                 raise ScenarioError(f"{self.table}.{damping} is given: expected {self.table}.{stiffness} with it")
-        if not any(getattr(self, name) for name in Springs.__slots__):
+        if not any(getattr(self, name) for name in _SPRING_KEYS):
             raise ScenarioError(
                 f"{self.table}.stiffness_n_m is missing: expected it or {self.table}.turning_stiffness_nm_rad "
                 'with type "GENERIC_SPRING"'

@@ -1,4 +1,4 @@
-"""The reference of all keys of a scenario file, made from the dataclasses that check them.
+"""Reference of all keys of a scenario file, made from the dataclasses that check them.
 
 ``python -m bridge_demolition_addon.core.scenario.reference docs/scenario.md`` writes it.
 """
@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .file import toml_value
 from .scenario import Scenario
-from .schema import Table, expected, holds_many, is_required, key_fields, subtable_class, subtable_fields
+from .schema import Table, expected, holds_many, is_required, key_fields, key_of, subtable_class, subtable_fields
 
 INTRODUCTION = """\
 # Scenario files
@@ -41,7 +41,7 @@ Tables are merged key by key; values and lists of tables (`[[...]]`) take the pl
 
 
 def scenario_reference() -> str:
-    """Every table and key of a scenario file with its default, limits and meaning, in Markdown."""
+    """Return every table and key of a scenario file with its default, limits and meaning, in Markdown."""
     return "\n".join([INTRODUCTION, *_section(Scenario, required=True)])
 
 
@@ -60,7 +60,7 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
 
 
 def _row(item: Field) -> str:
-    return f"| `{item.name}` | {expected(item)} | {_default(item)} | {item.metadata['key'].description} |"
+    return f"| `{item.name}` | {expected(item)} | {_default(item)} | {key_of(item).description} |"
 
 
 def _default(item: Field) -> str:

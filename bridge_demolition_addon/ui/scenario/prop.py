@@ -1,4 +1,4 @@
-"""A property of Blender for every key of a scenario, made from the dataclasses that check them.
+"""Blender properties for all keys of a scenario, made from the dataclasses that check them.
 
 There is one property group for each table, nested as the tables are. An optional key or table has a check box beside
 it, ``use_`` and its name; a list of tables is a collection with the index of its active one, its name and ``_index``.
@@ -10,8 +10,7 @@ import re
 from dataclasses import MISSING, Field
 from functools import cache
 from pathlib import Path
-from types import NoneType
-from typing import Any, get_args, get_origin
+from typing import Any, get_args
 
 import bpy
 from bpy.props import (
@@ -21,7 +20,6 @@ from bpy.props import (
     FloatProperty,
     FloatVectorProperty,
     IntProperty,
-    IntVectorProperty,
     PointerProperty,
     StringProperty,
 )
@@ -33,9 +31,11 @@ from ...core.scenario.schema import (
     Table,
     expected,
     holds_many,
+    is_optional,
     is_required,
     key_fields,
     key_name,
+    key_of,
     subtable_class,
     subtable_fields,
     value_type,
@@ -47,7 +47,7 @@ DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"
 USE = "use_"
 INDEX = "_index"
 GIVEN = "given"
-"""Of a group: the numbers of its table as they were loaded, in JSON, as Blender keeps single precision only."""
+"""Property of a group: the numbers of its table as they were loaded, in JSON, as Blender has single precision only."""
 
 BLENDER_UNITS = {
     "m": "LENGTH",
@@ -67,52 +67,46 @@ _DECIMALS = 3
 _SMALL_WORDS = {"a", "and", "at", "by", "for", "in", "of", "on", "or", "per", "the", "to"}
 
 
-def is_optional(item: Field) -> bool:
-    """Whether a key or table may be absent, so that it has a check box."""
-    return NoneType in get_args(item.type)
-
-
 def vector_length(item: Field) -> int | None:
-    """Numbers of a key that holds so many, None for any other."""
+    """Return how many numbers a key holds, None for one that does not hold a fixed number of them."""
     kinds = get_args(value_type(item))
-    plain = get_origin(value_type(item)) is tuple and Ellipsis not in kinds and set(kinds) <= {int, float}
-    return len(kinds) if plain else None
+    return len(kinds) if holds_many(item) and set(kinds) == {float} else None
 
 
 def is_written_out(item: Field) -> bool:
-    """Whether a key's value is shown as a text in the syntax of TOML: a list of any length."""
-    return get_origin(value_type(item)) is tuple and vector_length(item) is None
+    """Return whether a key's value is shown as a text in the syntax of TOML: a list that is no vector."""
+    return holds_many(item) and vector_length(item) is None
 
 
 def shown_tables(table_class: type[Table]) -> list[Field]:
-    """Fields of the tables in a table, but for the charges, which are objects of the scene."""
+    """Return the fields of the tables in a table, but for the charges, which are objects of the scene."""
     return [item for item in subtable_fields(table_class) if subtable_class(item) is not ChargeSettings]
 
 
 def label_of(table_class: type[Table], item: Field) -> str:
-    """What a key is called in the sidebar, with its unit where Blender does not show that itself."""
+    """Return what a key is called in the sidebar, with its unit where Blender does not show that itself."""
     if subtable_class(item):
         return _titled(item.name)
-    unit = item.metadata["key"].unit
+    unit = key_of(item).unit
     name = item.name.removesuffix("_" + _in_names(unit)) if unit else item.name
     text = _titled(name)
     return f"{text} ({unit})" if unit and unit != _PER_SECOND and unit_of(item) == "NONE" else text
 
 
 def unit_of(item: Field) -> str:
-    """Blender's name for the unit of a key, NONE where it has none."""
+    """Return Blender's name for the unit of a key, NONE where it has none."""
     kinds = get_args(value_type(item)) or (value_type(item),)
-    return BLENDER_UNITS.get(item.metadata["key"].unit, "NONE") if set(kinds) == {float} else "NONE"
+    return BLENDER_UNITS.get(key_of(item).unit, "NONE") if set(kinds) == {float} else "NONE"
 
 
 def group_name(table_class: type[Table]) -> str:
-    """Name of the property group for a table."""
+    """Return the name of the property group for a table."""
     return "BDA_PG_" + re.sub(r"\W", "_", table_class.table)
 
 
 @cache
 def all_tables() -> tuple[type[Table], ...]:
-    """All tables that have a property group, inner ones first."""
+    """Return all tables that have a property group, inner ones first."""
     found: list[type[Table]] = []
     _gather(Scenario, found)
     return tuple(found)
@@ -120,12 +114,12 @@ def all_tables() -> tuple[type[Table], ...]:
 
 @cache
 def default_scenario() -> Scenario:
-    """What the properties of a new scene say."""
+    """Return what the sidebar of a new scene shows."""
     return read_scenario(DEFAULT_PRESET)
 
 
 def register() -> type[bpy.types.PropertyGroup]:
-    """Make all groups known to Blender and give that of a whole scenario."""
+    """Register all groups with Blender and return that of a whole scenario."""
     defaults: dict[type[Table], Table] = {}
     _gather_defaults(default_scenario(), defaults)
     groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
@@ -136,13 +130,13 @@ def register() -> type[bpy.types.PropertyGroup]:
 
 
 def unregister() -> None:
-    """Take all groups away."""
+    """Unregister all groups."""
     for table_class in reversed(all_tables()):
         bpy.utils.unregister_class(registered_group(group_name(table_class)))
 
 
 def registered_group(name: str) -> type[bpy.types.PropertyGroup]:
-    """The property group of that name that Blender knows."""
+    """Return the registered property group of that name."""
     return bpy.types.PropertyGroup.bl_rna_get_subclass_py(name)
 
 
@@ -189,7 +183,7 @@ def _table_properties(item: Field, defaults: Table | None, group: type[bpy.types
 
 def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict[str, Any]:
     label = label_of(table_class, item)
-    rule: Key = item.metadata["key"]
+    rule = key_of(item)
     name = key_name(table_class, item)
     meaning = _tooltip(f"{rule.description} In a scenario file: {name}, {expected(item)}")
     properties = {item.name: _property(item, default, {"name": label, "description": meaning})}
@@ -199,37 +193,33 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
 
 
 def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
-    rule: Key = item.metadata["key"]
-    held = value_type(item)
-    if held is bool:
+    rule, kind = key_of(item), value_type(item)
+    if kind is bool:
         return BoolProperty(default=bool(default), **words)
-    if rule.choices and held is str:
+    if rule.choices and kind is str:
         items = [(each, each, "") for each in rule.choices]
         return EnumProperty(items=items, default=default or rule.choices[0], **words)
-    if held is str:
+    if kind is str:
         is_path = item.name == "file" or item.name.endswith("_file")
         return StringProperty(default=default or "", subtype="FILE_PATH" if is_path else "NONE", **words)
     if is_written_out(item):
         return StringProperty(default="" if default is None else toml_value(default), **words)
-    if held is int or int in get_args(held):
-        return _whole_numbers(item, default, words)
-    return _numbers(item, default, words)
+    return _number_property(item, default, words)
 
 
-def _whole_numbers(item: Field, default: Any, words: dict[str, str]) -> Any:
-    rule: Key = item.metadata["key"]
-    limits = {"min": rule.at_least if rule.above is None else rule.above + 1, "max": rule.at_most}
-    settings = {name: int(limit) for name, limit in limits.items() if limit is not None} | words
-    if length := vector_length(item):
-        return IntVectorProperty(size=length, default=default or (_least(rule),) * length, **settings)
-    return IntProperty(default=int(_least(rule) if default is None else default), **settings)
+def _number_property(item: Field, default: Any, words: dict[str, str]) -> Any:
+    """Return a property for a number or a vector, with limits that Blender clamps to.
 
-
-def _numbers(item: Field, default: Any, words: dict[str, str]) -> Any:
-    """A number, or several, with limits that Blender clamps to; one to be exceeded is left to the scenario's check."""
-    rule: Key = item.metadata["key"]
-    limits = {"min": rule.at_least if rule.above is None else rule.above, "max": rule.at_most}
-    settings = {name: float(limit) for name, limit in limits.items() if limit is not None} | words
+    Blender has no limit that a number has to exceed: the scenario's own check refuses the limit itself.
+    """
+    rule, kind = key_of(item), value_type(item)
+    is_whole = kind is int
+    limits = {"min": rule.at_least if rule.above is None else rule.above + is_whole, "max": rule.at_most}
+    settings = words | {
+        name: (int if is_whole else float)(limit) for name, limit in limits.items() if limit is not None
+    }
+    if is_whole:
+        return IntProperty(default=int(_least(rule) if default is None else default), **settings)
     settings.update(unit=unit_of(item), precision=_DECIMALS)
     if length := vector_length(item):
         return FloatVectorProperty(size=length, subtype="XYZ", default=default or (_least(rule),) * length, **settings)
@@ -237,7 +227,7 @@ def _numbers(item: Field, default: Any, words: dict[str, str]) -> Any:
 
 
 def _least(rule: Key) -> float:
-    """A value that a number can have, for one that has no default."""
+    """Return a value that is within the limits, for a number without a default."""
     lowest = max((limit for limit in (rule.at_least, rule.above, 0.0) if limit is not None), default=0.0)
     if rule.holds(lowest):
         return lowest
@@ -245,7 +235,7 @@ def _least(rule: Key) -> float:
 
 
 def _default(item: Field, defaults: Table | None) -> Any:
-    """Value of a key in the table of defaults, or its own; of one that has neither, something it can have."""
+    """Return the value of a key in the table of defaults, else its own default, else None."""
     if defaults is not None:
         return getattr(defaults, item.name)
     if not is_required(item):
@@ -259,10 +249,10 @@ def _titled(name: str) -> str:
 
 
 def _in_names(unit: str) -> str:
-    """A unit as it ends the names of keys."""
+    """Return a unit as it ends the names of keys."""
     return unit.lower().translate({ord("/"): "_", ord("³"): "3", ord("²"): "2", ord("°"): "deg", ord("·"): None})
 
 
 def _tooltip(text: str) -> str:
-    """A description as Blender wants it: it ends the sentence itself."""
+    """Return a description without its full stop, which Blender adds."""
     return text.replace("`", "").rstrip(".")

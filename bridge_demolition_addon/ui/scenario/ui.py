@@ -9,9 +9,9 @@ from functools import cache
 import bpy
 
 from ...core.scenario import Scenario
-from ...core.scenario.schema import Table, holds_many, key_fields, key_name, subtable_class, value_type
+from ...core.scenario.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ..sidebar import SidebarPanel, letters_of
-from .prop import INDEX, USE, is_optional, label_of, shown_tables, vector_length
+from .prop import INDEX, USE, label_of, shown_tables, vector_length
 from .table_list import draw_list
 
 _MAIN = {"bridge": "Bridge", "fracture": "Fracture", "connections": "Connections", "shards": "Shards"}

@@ -23,14 +23,16 @@ from ...core.scenario.schema import (
     Table,
     expected,
     holds_many,
+    is_optional,
     key_fields,
     key_name,
+    numbered_tables,
     shown,
     subtable_class,
     value_type,
 )
 from ...scene.blast.charges import charges_of, replace_charges
-from .prop import GIVEN, USE, is_optional, is_written_out, shown_tables, vector_length
+from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length
 
 _MS_PER_S = 1000.0
 _DIGITS = 12
@@ -122,13 +124,7 @@ def _inner(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, 
     inner = getattr(group, item.name)
     if not holds_many(item):
         return None if is_optional(item) and not getattr(group, USE + item.name) else table_of(inner, table_class)
-    tables = []
-    for number, each in enumerate(inner, start=1):
-        try:
-            tables.append(table_of(each, table_class))
-        except ScenarioError as error:
-            raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
-    return tuple(tables)
+    return numbered_tables(table_class, inner, lambda each: table_of(each, table_class))
 
 
 def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, given: Any) -> Any:

@@ -8,12 +8,13 @@ import bridge_demolition_addon
 from bridge_demolition_addon.core.scenario import ChargeSettings, Scenario
 from bridge_demolition_addon.core.scenario.schema import (
     holds_many,
+    is_optional,
     key_fields,
     subtable_class,
     subtable_fields,
     value_type,
 )
-from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, is_optional, label_of, registered_group
+from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, label_of, registered_group
 
 KEYS = [(table, item) for table in all_tables() for item in key_fields(table)]
 NAMES = [f"{table.table}.{item.name}" for table, item in KEYS]
