@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
 
-Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg, and docs/gallery.md is written anew, as is the
-table of examples in the README. With names of examples only those are run again; texts and times of all others stay.
+Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg. The page docs/gallery.md and the table of
+examples in the README are rewritten. With names of examples only those are run again; texts and times of all others stay.
 """
 
 import json
@@ -32,10 +32,11 @@ HEADER = """\
 
 <!-- Made by `scripts/gallery`: change the examples' own comments instead. -->
 
-Every example is a [scenario file](scenario.md) to start from. `bda run examples/NAME.toml --output DIR` runs it, and
-`--report` makes a [report](report.md) of it. Pictures are of the start, of the impact (or of the blast, or of the
-largest force) and of the end. Times are those of a machine with two cores and nothing else to do, pictures included.
-All of them together took {minutes} minutes.
+Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`, and
+add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
+and the end of one run. [One run is one draw](../README.md#one-run-is-one-draw): with another seed single pieces end
+elsewhere. Times are those of a machine with two cores and nothing else to do, pictures included. All examples together
+took {minutes} minutes.
 """
 
 
