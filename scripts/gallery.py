@@ -2,7 +2,7 @@
 """Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
 
 Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg. The page docs/gallery.md and the table of
-examples in the README are rewritten. With names of examples only those are run again; texts and times of all others stay.
+examples in the README are rewritten. With names of examples only those are run again; all other texts and times stay.
 """
 
 import json
@@ -32,8 +32,8 @@ HEADER = """\
 
 <!-- Made by `scripts/gallery`: change the examples' own comments instead. -->
 
-Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`, and
-add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
+Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
+Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
 and the end of one run. [One run is one draw](../README.md#one-run-is-one-draw): with another seed single pieces end
 elsewhere. Times are those of a machine with two cores and nothing else to do, pictures included. All examples together
 took {minutes} minutes.

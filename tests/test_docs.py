@@ -1,4 +1,4 @@
-"""Every link in the documents leads somewhere."""
+"""Every link in the documents leads somewhere, and every file and name of code in them is there."""
 
 import re
 from collections import Counter
@@ -6,7 +6,10 @@ from collections import Counter
 import pytest
 from places import ROOT
 
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
+
+PACKAGE = ROOT / "bridge_demolition_addon"
+FOLDERS = "|".join(path.name for base in (ROOT, PACKAGE) for path in base.iterdir() if path.is_dir())
 
 
 def targets(text):
@@ -51,3 +54,45 @@ def test_a_link_that_leads_nowhere_is_found(tmp_path):
     document = tmp_path / "document.md"
     document.write_text(f"# Here\n\n{good}\n\n{bad}\n")
     assert sorted(broken_links(document, tmp_path)) == ["../outside.md", "none.md", "none.png", "other.md#no-heading"]
+
+
+def named_paths(text):
+    """Paths of the project in a text, wherever they stand: `core/units.py`, `scripts/test`, `examples/i235_*.toml`."""
+    found = re.findall(rf"(?<![\w./])(?:{FOLDERS})/[\w./*]*[\w*]", text)
+    return [path for path in found if "NAME" not in path]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_every_path_in_the_text_is_there(document):
+    paths = set(named_paths(document.read_text(encoding="utf-8")))
+    assert [path for path in paths if not any([*ROOT.glob(path), *PACKAGE.glob(path)])] == []
+
+
+def test_paths_are_found_in_a_text():
+    text = "`core/units.py` [a](../core/b.py) runs/core/c, `scripts/test tests/core -k x`, examples/i235_*.toml."
+    assert named_paths(text) == ["core/units.py", "scripts/test", "tests/core", "examples/i235_*.toml"]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_every_dotted_name_of_code_is_there(document):
+    layers = "|".join(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
+    named = re.findall(rf"`((?:{layers})\.[\w.]+)\.(\w+)`", document.read_text(encoding="utf-8"))
+    assert [
+        names for names in named if not defines(PACKAGE.joinpath(*names[0].split(".")).with_suffix(".py"), names[1])
+    ] == []
+
+
+def defines(module, name):
+    """Whether a module defines a function, a class or a value of a name at any depth."""
+    return re.search(rf"^ *(?:(?:def|class) {name}\b|{name}(?: =|:))", module.read_text(encoding="utf-8"), flags=re.M)
+
+
+def test_every_row_of_the_architecture_names_what_its_files_define():
+    rows = [
+        line for line in (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").splitlines() if ".py)" in line
+    ]
+    assert len(rows) > 4
+    for row in rows:
+        modules = [ROOT / "docs" / path for path in re.findall(r"\]\(([^)]+\.py)\)", row)]
+        for name in re.findall(r"`(\w+)`", row):
+            assert any(defines(module, name) for module in modules), f"{name}: {row}"

@@ -1,4 +1,4 @@
-"""The charges, and how their blast is reckoned with and applied."""
+"""The charges, and how their blast is computed and applied."""
 
 import math
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ class ChargeSettings(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BlastSettings(Table):
-    """When the charges go off, and how their blast is reckoned with and applied."""
+    """When the charges go off, and how their blast is computed and applied."""
 
     table: ClassVar[str] = "blast"
 
@@ -67,7 +67,7 @@ class BlastSettings(Table):
         choices=tuple(loading.value for loading in Loading),
     )
     shielding: bool = key(
-        "Whether shards that stand behind others get less, as rays from the charge tell.", default=False
+        "Whether shards that stand behind others get less, as rays from the charge find out.", default=False
     )
     constant_decay: float | None = key(
         "One decay for all pulses, as the 2019 report has it with 1; by default each pulse gets the one that fits its "
@@ -77,7 +77,7 @@ class BlastSettings(Table):
     )
     apply: str = key(
         "How bodies are pushed: by force-field empties (`fields`), steady within each frame, or straight through the "
-        "physics, anew in every sub-step (`direct`), which costs next to nothing with many shards.",
+        "physics, updated in every sub-step (`direct`), which costs next to nothing with many shards.",
         default="fields",
         choices=("fields", "direct"),
     )
@@ -93,7 +93,7 @@ class BlastSettings(Table):
 
     @property
     def options(self) -> BlastOptions:
-        """How the loads are reckoned."""
+        """How the loads are computed."""
         return BlastOptions(
             start_s=self.start_s,
             model=BlastModel(self.model),

@@ -67,7 +67,7 @@ class Finer(Table):
     table: ClassVar[str] = "fracture.finer"
 
     place_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
-    radius_m: float = key("How far it is felt.", unit="m", above=0)
+    radius_m: float = key("How far its effect reaches.", unit="m", above=0)
     factor: float = key(
         "How many times as many shards a volume in the place itself gets; falls evenly to 1 at the radius.",
         at_least=1,

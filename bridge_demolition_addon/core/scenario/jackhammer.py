@@ -14,7 +14,7 @@ FRAMES_PER_BLOW = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Jackhammer(Table):
-    """A jackhammer: a chisel of steel that goes up and down while it is led over the deck. Nothing stops it, so it
+    """A jackhammer: a chisel of steel that goes up and down while it moves along the deck. Nothing stops it, so it
     pushes away whatever is in its way. Before and after its time it stays clear above the deck.
     """
 

@@ -23,7 +23,7 @@ class JointSettings(Table):
 
     type: str | None = key("Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES)
     free: tuple[str, ...] | None = key(
-        "What a `GENERIC` or `GENERIC_SPRING` connection lets happen, along and about the axes of the bridge: "
+        "Motions that a `GENERIC` or `GENERIC_SPRING` connection allows, along and about the axes of the bridge: "
         '`["move x", "turn y"]` for a bearing that slides along the road and turns about the axis across it.',
         default=None,
         choices=MOTIONS,

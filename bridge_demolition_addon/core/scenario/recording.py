@@ -8,7 +8,7 @@ from .schema import Table, key
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordingSettings(Table):
-    """What is taken down while the simulation runs."""
+    """What is recorded while the simulation runs."""
 
     table: ClassVar[str] = "recording"
 

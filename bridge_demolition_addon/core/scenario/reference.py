@@ -17,14 +17,14 @@ INTRODUCTION = """\
 
 <!-- Made by `python -m bridge_demolition_addon.core.scenario.reference docs/scenario.md`: change the code instead. -->
 
-A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads one and says what follows from it, `bda run FILE`
-runs it; [examples](../examples) has some to start from. Every key carries its unit in its name. A key that is not
-listed here is refused, and so is a value outside its limits.
+A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads it and prints what follows from it, such as
+masses. `bda run FILE` runs it. Start from one of the [examples](../examples). Every key has its unit in its name. A key
+that is not listed here is refused, and so is a value outside its limits.
 
-x runs along the road with the axis of the first pier at 0, y across it with 0 in its middle, z up with the ground at 0.
-The deck's top is at the height of a pier, a pier cap, the girders or the box girder and the deck's slab together.
+x runs along the road, with 0 at the axis of the first pier; y across it, with 0 in its middle; z up, with 0 at the
+ground. The deck's top is as high as a pier, a pier cap, the girders or the box girder and the deck's slab together.
 
-A variant says only in what it differs from another scenario file, such as another place for the ball to fall on:
+A variant gives only the values that differ from another scenario file, such as another place for the ball to fall:
 
 ```toml
 [scenario]
@@ -36,7 +36,7 @@ title = "My bridge, ball on the second span"
 target_m = [19.5, 0.0]
 ```
 
-Tables are merged key by key; values and lists of tables (`[[...]]`) take the place of those in the other file.
+Tables are merged key by key. Values and lists of tables (`[[...]]`) replace those in the other file.
 """
 
 

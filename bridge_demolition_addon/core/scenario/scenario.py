@@ -30,7 +30,7 @@ class Scenario(Table):
 
     title: str = key("Title of the results.")
     seed: int = key(
-        "Start of the random numbers: the same seed cuts the same shards.",
+        "Start of the random numbers: the same seed cuts the same shards, another seed is another draw.",
         default=0,
         at_least=0,
         at_most=LARGEST_INTEGER,

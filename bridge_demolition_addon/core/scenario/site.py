@@ -15,7 +15,7 @@ FEWEST_CORNERS = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Zone(Table):
-    """A zone that the report watches: who enters it, and when. It does not take part in the simulation."""
+    """A zone that the report watches: what enters it, and when. It does not take part in the simulation."""
 
     table: ClassVar[str] = "zones"
 
@@ -77,7 +77,7 @@ class Site(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Neighbour(Table):
-    """A place near the bridge for which the report tells pressure, impulse and ground vibration of the charges."""
+    """A place near the bridge for which the report gives pressure, impulse and ground vibration of the charges."""
 
     table: ClassVar[str] = "neighbours"
 

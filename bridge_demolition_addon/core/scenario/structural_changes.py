@@ -44,8 +44,8 @@ class Change(Table):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Removal(Change):
     """Shards that are taken away in one moment, such as a pier that is kicked out: all of the members, or those whose
-    centres of mass lie in the box. Their connections are cut, they meet nothing any more, and what slept wakes up. They
-    are put out of sight, 1000 m below their places.
+    centres of mass lie in the box. Their connections are cut, they collide with nothing any more, and what slept
+    wakes up. They are put out of sight, 1000 m below their positions.
     """
 
     table: ClassVar[str] = "removals"

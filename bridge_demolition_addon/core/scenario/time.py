@@ -1,4 +1,4 @@
-"""How long is simulated, and in which steps."""
+"""How long the simulation runs, and in which steps."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -13,7 +13,7 @@ MOST_FRAMES = 1_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimeSettings(Table):
-    """How long is simulated, and in which steps."""
+    """How long the simulation runs, and in which steps."""
 
     table: ClassVar[str] = "time"
 

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the documents claim of many seeds is what the measured runs say."""
+
+import sys
+
+import numpy as np
+import pytest
+from places import EXAMPLES, ROOT
+
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import seeds_chart
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return seeds_chart.read_throws(seeds_chart.DATA)
+
+
+def spread(values):
+    """A range as the documents write it."""
+    return f"{values.min():.1f} to {values.max():.1f} m"
+
+
+def words(path):
+    """Text of a file with single blanks, without the marks of comments."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return " ".join(" ".join(line.removeprefix("#") for line in lines).split())
+
+
+def test_every_run_has_a_seed_of_its_own_and_is_in_order_of_its_largest_throw(runs):
+    assert len(runs) == len(set(runs["seed"])) == 24
+    assert (np.diff(runs["largest_throw_m"]) >= 0.0).all()
+    assert (runs["throw_95_percent_m"] <= runs["largest_throw_m"]).all()
+
+
+def test_the_readme_gives_the_ranges_that_were_measured(runs):
+    text = words(ROOT / "README.md")
+    largest = runs["largest_throw_m"]
+    assert f"run {len(runs)} times" in text
+    assert f"stay within {spread(runs['throw_95_percent_m'])}" in text
+    assert f"goes {largest.min():.1f} m in one run and {largest.max():.1f} m in another" in text
+    assert f"farthest of these {len(runs)} with a chance of 1 in {len(runs) + 1}" in text
+
+
+def test_the_example_gives_the_ranges_that_were_measured(runs):
+    text = words(EXAMPLES / "two_spans_13m_explosives.toml")
+    assert f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}" in text
+    assert f"the largest throw is {spread(runs['largest_throw_m'])}" in text
+
+
+def test_the_chart_shows_both_throws_of_every_run(runs):
+    farthest, most = seeds_chart.draw(runs).axes[0].lines
+    np.testing.assert_array_equal(farthest.get_ydata(), runs["largest_throw_m"])
+    np.testing.assert_array_equal(most.get_ydata(), runs["throw_95_percent_m"])
