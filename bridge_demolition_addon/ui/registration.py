@@ -13,14 +13,17 @@ from .contours import ui as contour_ui
 from .recording import last_recording, log_paths, redraw, run, running
 from .recording import operator as recording_operator
 from .recording import ui as recording_ui
-from .results import report
+from .results import operator as results_operator
 from .results import ui as results_ui
 from .scenario import operator as scenario_operator
 from .scenario import table_list, user_meshes
 from .scenario import ui as scenario_ui
 
-_OPERATORS = (scenario_operator, user_meshes, table_list, recording_operator, run, log_paths, contour_operator)
-_PANELS = (blast_operator, recording_ui, contour_ui, results_ui, report)
+_OPERATORS = (
+    *(scenario_operator, user_meshes, table_list),
+    *(recording_operator, run, log_paths, contour_operator, results_operator),
+)
+_PANELS = (blast_operator, recording_ui, contour_ui, results_ui)
 """Below those of the scenario, in the order of the work."""
 
 

@@ -56,7 +56,7 @@ class BDA_OT_add_source_point(bpy.types.Operator):
 
     bl_idname = "bda.add_source_point"
     bl_label = "Add Source Point"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
@@ -75,7 +75,7 @@ class BDA_OT_delete_source_point(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.delete_source_point"
     bl_label = "Delete"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -93,7 +93,7 @@ class BDA_OT_build_force_objects(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.build_force_objects"
     bl_label = "Build Force Objects"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -114,7 +114,7 @@ class BDA_OT_show_total_mass(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.show_total_mass"
     bl_label = "Show Total Mass of Particles"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -152,7 +152,7 @@ class BDA_PT_explosion(SidebarPanel, bpy.types.Panel):
     """Charges, and whether they go off."""
 
     bl_label = "Explosion"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda

@@ -124,7 +124,7 @@ class BDA_OT_toggle_symbols(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.toggle_symbols"
     bl_label = "Hide Connections and Forces"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:

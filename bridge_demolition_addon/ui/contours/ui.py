@@ -45,7 +45,7 @@ class BDA_PT_overlay(SidebarPanel, bpy.types.Panel):
 
     bl_label = "Vectors and Charges"
     bl_parent_id = "BDA_PT_post_processing"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -69,7 +69,7 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
 
     bl_label = "Film"
     bl_parent_id = "BDA_PT_post_processing"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout

@@ -13,7 +13,7 @@ _SUFFIX = ".csv"
 class _LogPathOperator(Refusing, FileWriter):
     """Base of the operators that ask for a log's file; each names the setting and the file's usual name."""
 
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"REGISTER", "UNDO"}
 
     filename_ext = _SUFFIX
     filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})

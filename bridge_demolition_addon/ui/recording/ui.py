@@ -45,7 +45,7 @@ class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
     """Where the logs go."""
 
     bl_label = "Post Processing"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda

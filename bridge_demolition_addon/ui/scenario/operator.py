@@ -26,7 +26,7 @@ class BDA_OT_load_scenario(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.load_scenario"
     bl_label = "Load Scenario"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -46,7 +46,7 @@ class BDA_OT_save_scenario(FileWriter, bpy.types.Operator):
 
     bl_idname = "bda.save_scenario"
     bl_label = "Save Scenario"
-    bl_options = {"REGISTER"}  # noqa: RUF012
+    bl_options = {"REGISTER"}
 
     filename_ext = _SUFFIX
     filter_glob: StringProperty(default="*" + _SUFFIX, options={"HIDDEN"})
@@ -72,7 +72,7 @@ class BDA_OT_new_scenario(bpy.types.Operator):
 
     bl_idname = "bda.new_scenario"
     bl_label = "New Scenario"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         _show(context.scene.bda, default_scenario())
@@ -84,7 +84,7 @@ class BDA_OT_load_preset(bpy.types.Operator):
 
     bl_idname = "bda.load_preset"
     bl_label = "Load Preset"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     preset: StringProperty(name="Preset", description="Name of the preset")
 
@@ -101,7 +101,7 @@ class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.build_scenario"
     bl_label = "Build Scenario"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -140,7 +140,7 @@ class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
 class _Removal(Refusing):
     """Base of the operators that remove something."""
 
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:

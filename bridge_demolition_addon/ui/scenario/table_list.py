@@ -15,7 +15,7 @@ _MOST_NUMBERS = 3
 class _ListOperator:
     """Base of the operators on one list."""
 
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"REGISTER", "UNDO"}
 
     path: StringProperty(name="List", description="Where the list is, from the scene: bda.scenario.fracture.members")
 

@@ -80,7 +80,7 @@ class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):
     """What is done to the bridge."""
 
     bl_label = "Ball and Sequence"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, _context: bpy.types.Context) -> None:
         """All of it is in the panels within."""

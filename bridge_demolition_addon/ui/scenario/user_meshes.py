@@ -26,7 +26,7 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.add_selected_members"
     bl_label = "Add Selected Meshes"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  Blender wants a plain set
+    bl_options = {"REGISTER", "UNDO"}
 
     directory: StringProperty(
         name="Folder", description="Folder that the meshes are written to", subtype="DIR_PATH", options=RELATIVE_PATHS
@@ -76,7 +76,7 @@ class BDA_OT_use_paint(Refusing, FileWriter, bpy.types.Operator):
 
     bl_idname = "bda.use_paint"
     bl_label = "Cut Finer Where Painted"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     filename_ext = _PAINT_SUFFIX
     filter_glob: StringProperty(default="*" + _PAINT_SUFFIX, options={"HIDDEN"})

@@ -1,0 +1,145 @@
+"""Operators of results: looking at a body, opening the folder, drawing charts and making the report."""
+
+import shutil
+import sys
+
+import bpy
+from bpy.props import IntProperty, StringProperty
+
+from ...core.blast.models import BlastModel
+from ...core.errors import DemolitionError, OutputError
+from ...core.results.files import FORCE_CHART
+from ...core.results.summary import first_hit_s
+from ..operators import Refusing, absolute, recording_runs, refused
+from ..recording import last_recording
+from ..viewport import look_at_selected, select_only
+
+_CHARTS = "charts"
+_OPENER = "xdg-open"
+"""Opens folders on Linux. Blender, where it is missing, only writes to the console."""
+_SURROUNDINGS = 3.0
+"""How many times as far away as needed the view stays from a body that is shown."""
+
+
+class BDA_OT_go_to_body(Refusing, bpy.types.Operator):
+    """Go to that frame, select the body and look at it"""
+
+    bl_idname = "bda.go_to_body"
+    bl_label = "Go to Body and Frame"
+    bl_options = {"REGISTER", "UNDO"}
+
+    body: StringProperty(name="Body", description="Name of the body")
+    frame: IntProperty(name="Frame", description="Frame to go to", min=0)
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return recording_runs() or (None if context.mode == "OBJECT" else "Go to object mode first")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        body = context.view_layer.objects.get(self.body)
+        if body is None:
+            self.report({"ERROR"}, f"{self.body!r} is not in this scene any more")
+            return {"CANCELLED"}
+        context.scene.frame_set(self.frame)
+        select_only(context, [body])
+        context.view_layer.objects.active = body
+        look_at_selected(context, _SURROUNDINGS)
+        return {"FINISHED"}
+
+
+class _OfLastRecording(Refusing):
+    """Base of the buttons that work on the last recording."""
+
+    @classmethod
+    def why_not(cls, _context: bpy.types.Context) -> str | None:
+        return None if last_recording.last() else "Nothing was recorded yet: register the handler and play"
+
+
+class BDA_OT_open_results(_OfLastRecording, bpy.types.Operator):
+    """Open the folder of the last recording in the system's file manager"""
+
+    bl_idname = "bda.open_results"
+    bl_label = "Open Folder"
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        folder = last_recording.last().folder
+        if not folder.is_dir():
+            return refused(self, OutputError(f"{folder}: is not there any more"))
+        if sys.platform.startswith("linux") and not shutil.which(_OPENER):
+            return refused(self, OutputError(f"{folder}: this system has no {_OPENER}, which opens folders"))
+        bpy.ops.wm.path_open(filepath=str(folder))
+        return {"FINISHED"}
+
+
+class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
+    """Draw the forces over time, and the charts to choose charges by, into the folder of the last recording"""
+
+    bl_idname = "bda.draw_charts"
+    bl_label = "Draw Charts"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        # Loading matplotlib takes a second, which switching the extension on need not wait for.
+        from ...charts.blast_design import ChartSettings, write_charts
+        from ...charts.force_chart import plot_forces
+
+        last = last_recording.last()
+        folder = last.folder / _CHARTS
+        model = BlastModel(context.scene.bda.scenario.blast.model)
+        try:
+            paths = write_charts(folder, ChartSettings(model=model))
+            plot_forces(last.results, folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary))
+        except DemolitionError as error:
+            return refused(self, error)
+        except OSError as error:
+            return refused(self, OutputError(f"{folder}: cannot be written ({error.strerror})"))
+        self.report({"INFO"}, f"{len(paths) + 1} charts are in {folder}")
+        return {"FINISHED"}
+
+
+class BDA_OT_make_report(Refusing, bpy.types.Operator):
+    """Make a report, as a page and as a PDF, from the results in the folder"""
+
+    bl_idname = "bda.make_report"
+    bl_label = "Make Report"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if not context.scene.bda.output_directory:
+            return "Choose the folder with the results first"
+        return recording_runs()
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.
+        from ...report.write import write_report
+
+        progress = _CursorProgress(context.window_manager)
+        try:
+            written = write_report([absolute(context.scene.bda.output_directory)], None, progress=progress)
+        except DemolitionError as error:
+            return refused(self, error)
+        finally:
+            progress.finish()
+        self.report({"INFO"}, f"Report: {written[0]} and {written[1].name}")
+        return {"FINISHED"}
+
+
+class _CursorProgress:
+    """How far a report is, at the mouse."""
+
+    def __init__(self, manager: bpy.types.WindowManager):
+        self._manager = manager
+        manager.progress_begin(0.0, 1.0)
+
+    def stage(self, text: str) -> None:
+        """Blender's cursor shows numbers only."""
+
+    def part(self, done: int, total: int, text: str) -> None:
+        """Show how many parts of a stage are done."""
+        self._manager.progress_update(done / total)
+
+    def finish(self) -> None:
+        """Give the mouse back."""
+        self._manager.progress_end()
+
+
+CLASSES = (BDA_OT_go_to_body, BDA_OT_open_results, BDA_OT_draw_charts, BDA_OT_make_report)
