@@ -12,6 +12,9 @@ import pytest
 
 import bridge_demolition_addon
 
+# Asserts that stand outside of test files say what they compared, too.
+pytest.register_assert_rewrite("falling_pair")
+
 _session = pytest.StashKey[pytest.Session]()
 _user_folder = pytest.StashKey[str]()
 

@@ -1,25 +1,15 @@
 """``bda check`` says what follows from a scenario, and needs no Blender for it."""
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
 
 import pytest
-from places import I235_FILE, ROOT
+from places import I235_FILE
+from processes import run_bda, run_program
 from scenarios import I235
 
 from bridge_demolition_addon.cli.check import MOST_SHARDS_CUT, scenario_facts
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario.file import scenario_text
-
-CHECK_WITHOUT_BLENDER = """
-import sys
-for name in ("bpy", "mathutils", "bmesh", "gpu"):
-    sys.modules[name] = None
-from bridge_demolition_addon.cli.main import main
-sys.exit(main(sys.argv[1:]))
-"""
 
 
 def facts(scenario):
@@ -112,16 +102,14 @@ def test_a_step_that_concerns_no_member_is_refused_as_by_run(tmp_path, capsys):
 
 
 def test_checking_needs_no_blender():
-    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "check", str(I235_FILE)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, encoding="utf-8")
+    done = run_program("bda_without_blender", "check", I235_FILE)
     assert (done.returncode, done.stderr) == (0, "")
     assert "impact speed" in done.stdout
 
 
 def test_running_without_blender_says_what_is_missing(tmp_path):
     output = tmp_path / "results"
-    command = [sys.executable, "-c", CHECK_WITHOUT_BLENDER, "run", str(I235_FILE), "--output", str(output)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    done = run_program("bda_without_blender", "run", I235_FILE, "--output", output)
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr == "bda: error: Blender is not there: install the bpy package or run inside Blender\n"
     assert not output.exists()
@@ -130,11 +118,9 @@ def test_running_without_blender_says_what_is_missing(tmp_path):
 def test_a_title_that_the_console_cannot_show(tmp_path):
     path = tmp_path / "bridge.toml"
     path.write_text(scenario_text(replace(I235, title="다리")), encoding="utf-8")
-    command = [sys.executable, "-m", "bridge_demolition_addon", "check", str(path)]
-    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=environment)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith(r"\ub2e4\ub9ac")
+    status, printed, complained = run_bda("check", path, PYTHONIOENCODING="ascii")
+    assert (status, complained) == (0, "")
+    assert printed.startswith(r"\ub2e4\ub9ac")
 
 
 def test_help_is_no_failure(capsys):

@@ -1,22 +1,15 @@
 """``bda report``, and the report at the end of ``bda run``."""
 
-import subprocess
-import sys
 from dataclasses import replace
 
 import pytest
-from places import ROOT
+from processes import run_bda, run_program
 from run_folders import flying_shards, keep_run
 from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario import Exclusion
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-
-
-def bda(*arguments):
-    command = [sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, encoding="utf-8", timeout=300)
 
 
 @pytest.fixture
@@ -63,12 +56,7 @@ def test_an_output_that_is_a_file_is_wrong_input(folder, tmp_path, capsys):
 
 
 def test_a_report_needs_no_blender(folder):
-    code = (
-        "import sys; sys.modules['bpy'] = None\n"
-        "from bridge_demolition_addon.cli.main import main\n"
-        f"sys.exit(main(['report', {str(folder)!r}, '--quiet']))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    done = run_program("bda_without_blender", "report", folder, "--quiet")
     assert (done.returncode, done.stderr) == (0, "")
 
 
@@ -76,9 +64,9 @@ def test_a_run_ends_with_a_report_when_asked(tmp_path):
     short = replace(SHORT_RUN, exclusion=Exclusion(buffer_m=3.0))
     path, output = tmp_path / "short.toml", tmp_path / "out"
     path.write_text(scenario_text(short), encoding="utf-8")
-    done = bda("run", path, "--output", output, "--no-pictures", "--report")
-    assert (done.returncode, done.stderr) == (0, "")
-    lines = done.stdout.splitlines()
+    status, printed, complained = run_bda("run", path, "--output", output, "--no-pictures", "--report")
+    assert (status, complained) == (0, "")
+    lines = printed.splitlines()
     for name in (
         "report.html",
         "report.pdf",
@@ -90,5 +78,5 @@ def test_a_run_ends_with_a_report_when_asked(tmp_path):
     assert read_scenario(output / "scenario_as_run.toml") == short
     assert "I-235 bridge, one span, wrecking ball" in (output / "report.html").read_text(encoding="utf-8")
     # Another run in the same folder leaves nothing of the report, which would be that of this one.
-    assert bda("run", path, "--output", output, "--no-pictures", "--overwrite", "--quiet").returncode == 0
+    assert run_bda("run", path, "--output", output, "--no-pictures", "--overwrite", "--quiet")[0] == 0
     assert not list(output.glob("report.*")) and not list(output.glob("tables/*.csv"))

@@ -1,30 +1,17 @@
 """``bda run`` runs a scenario, says how far it is, and ends with a status that tells what happened."""
 
 import signal
-import subprocess
 import sys
 import time
 from dataclasses import replace
 
 import pytest
-from places import ROOT
+from processes import outcome, run_bda, start_bda
 from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
 LOGS = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "scene.blend")
-
-
-def bda(*arguments, **options):
-    """Start the command line in a process of its own, as Blender may not survive two runs in one."""
-    command = [sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)]
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    return subprocess.Popen(command, cwd=ROOT, text=True, encoding="utf-8", **pipes, **options)
-
-
-def outcome(process):
-    printed, complained = process.communicate(timeout=300)
-    return process.returncode, printed, complained
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +26,7 @@ def scenario_path(tmp_path_factory):
 def finished(scenario_path, tmp_path_factory):
     """The output folder of a finished run, and what it printed."""
     output = tmp_path_factory.mktemp("run") / "results"
-    return output, outcome(bda("run", scenario_path, "--output", output, "--no-pictures"))
+    return output, run_bda("run", scenario_path, "--output", output, "--no-pictures")
 
 
 def test_a_run_says_how_far_it_is_and_where_the_results_are(finished):
@@ -61,7 +48,7 @@ def test_no_pictures_are_rendered_when_none_are_wanted(finished):
 
 def test_a_film_is_made_when_it_is_wanted(scenario_path, tmp_path):
     output = tmp_path / "results"
-    status, printed, _ = outcome(bda("run", scenario_path, "--output", output, "--no-pictures", "--film"))
+    status, printed, _ = run_bda("run", scenario_path, "--output", output, "--no-pictures", "--film")
     assert status == 0
     for film in ("contours.mp4", "contours_slow_motion.mp4"):
         assert str(output / film) in printed.splitlines()
@@ -73,7 +60,7 @@ def test_a_film_is_made_when_it_is_wanted(scenario_path, tmp_path):
 def test_results_are_not_overwritten_unasked(finished, scenario_path):
     output, _ = finished
     before = {path: path.stat().st_mtime_ns for path in output.rglob("*")}
-    status, _, complained = outcome(bda("run", scenario_path, "--output", output, "--no-pictures", "--quiet"))
+    status, _, complained = run_bda("run", scenario_path, "--output", output, "--no-pictures", "--quiet")
     assert status == 2
     assert complained.startswith(f"bda: error: {output}: ")
     assert len(complained.splitlines()) == 1
@@ -86,7 +73,7 @@ def test_results_are_overwritten_when_asked(scenario_path, tmp_path):
     (output / "summary.json").write_text("old")
     (output / "notes.txt").write_text("mine")
     arguments = ("run", scenario_path, "--output", output, "--no-pictures", "--overwrite", "--quiet")
-    status, printed, complained = outcome(bda(*arguments))
+    status, printed, complained = run_bda(*arguments)
     assert (status, complained) == (0, "")
     assert printed == ""
     assert (output / "summary.json").read_text() != "old"
@@ -96,7 +83,7 @@ def test_results_are_overwritten_when_asked(scenario_path, tmp_path):
 def test_a_file_is_no_folder_for_results(scenario_path, tmp_path):
     output = tmp_path / "results"
     output.write_text("mine")
-    status, _, complained = outcome(bda("run", scenario_path, "--output", output, "--overwrite"))
+    status, _, complained = run_bda("run", scenario_path, "--output", output, "--overwrite")
     assert status == 2
     assert complained.startswith(f"bda: error: {output}: ")
     assert len(complained.splitlines()) == 1
@@ -109,7 +96,7 @@ def test_an_interrupted_run_says_so_and_keeps_its_logs(scenario_path, tmp_path):
     scenario = read_scenario(scenario_path)
     long.write_text(scenario_text(replace(scenario, time=replace(scenario.time, duration_s=2000))), encoding="utf-8")
     log = tmp_path / "results" / "force_log.csv"
-    process = bda("run", long, "--output", log.parent, "--no-pictures")
+    process = start_bda("run", long, "--output", log.parent, "--no-pictures")
     while not (log.exists() and log.stat().st_size):
         assert process.poll() is None
         time.sleep(0.1)

@@ -1,31 +1,18 @@
 """``bda run`` with several scenarios: a study, whose runs are kept beside each other and compared."""
 
 import signal
-import subprocess
 import sys
 import time
 from dataclasses import replace
 
 import pytest
-from places import ROOT
+from processes import outcome, run_bda, start_bda
 from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
 TEXT = scenario_text(SHORT_RUN)
-
-
-def bda(*arguments):
-    """Start the command line in a process of its own, where Ctrl-C can reach it alone."""
-    command = [sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)]
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    return subprocess.Popen(command, cwd=ROOT, text=True, encoding="utf-8", **pipes)
-
-
-def outcome(process):
-    printed, complained = process.communicate(timeout=300)
-    return process.returncode, printed, complained
 
 
 def keep(path, **changes):
@@ -43,7 +30,7 @@ def files(tmp_path):
 
 def test_each_run_has_its_folder_and_a_report_compares_them(files, tmp_path, capsys):
     output = tmp_path / "out"
-    status, printed, complained = outcome(bda("run", *files, "--output", output, "--no-pictures", "--report"))
+    status, printed, complained = run_bda("run", *files, "--output", output, "--no-pictures", "--report")
     assert (status, complained) == (0, "")
     assert sorted(path.name for path in output.iterdir()) == ["middle", "report", "side"]
     lines = printed.splitlines()
@@ -63,7 +50,7 @@ def test_each_run_has_its_folder_and_a_report_compares_them(files, tmp_path, cap
     again = (*files, "--output", output, "--no-pictures", "--quiet")
     assert f"{output / 'middle'}: exists already" in refused(capsys, *again)
     assert (output / "report" / "report.html").is_file()
-    assert outcome(bda("run", *again, "--overwrite")) == (0, "", "")
+    assert run_bda("run", *again, "--overwrite") == (0, "", "")
     assert not list(output.rglob("report.*")) and not list(output.rglob("tables/*.csv"))
 
 
@@ -124,7 +111,7 @@ def test_none_is_run_where_results_of_one_are_there(files, tmp_path, capsys):
 def test_ctrl_c_stops_all_and_keeps_what_there_is(files, tmp_path):
     long = keep(tmp_path / "in" / "long.toml", time=replace(SHORT_RUN.time, duration_s=2000))
     output = tmp_path / "out"
-    process = bda("run", files[0], long, files[1], "--output", output, "--no-pictures", "--report")
+    process = start_bda("run", files[0], long, files[1], "--output", output, "--no-pictures", "--report")
     log = output / "long" / "force_log.csv"
     while not (log.exists() and log.stat().st_size):
         assert process.poll() is None

@@ -1,11 +1,10 @@
 """Wrong input ends with status 2 and one line that names the file, the key and what was expected."""
 
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from places import ROOT
+from processes import run_bda
 from scenarios import I235
 
 from bridge_demolition_addon.cli.main import main
@@ -311,16 +310,7 @@ def test_wrong_command_lines_are_refused(arguments, words, tmp_path, monkeypatch
 
 
 def test_the_process_ends_with_the_status_too(tmp_path):
-    command = [
-        sys.executable,
-        "-m",
-        "bridge_demolition_addon",
-        "run",
-        "missing.toml",
-        "--output",
-        str(tmp_path / "new"),
-    ]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "bda: error: missing.toml: no such file: expected a scenario in TOML\n"
+    status, printed, complained = run_bda("run", "missing.toml", "--output", tmp_path / "new")
+    assert (status, printed) == (2, "")
+    assert complained == "bda: error: missing.toml: no such file: expected a scenario in TOML\n"
     assert not (tmp_path / "new").exists()

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run examples with many seeds of their fracture, and print the range and the median of what is measured.
+
+A demolition is chaotic: another draw of shards breaks and throws differently. What is claimed of an example has to hold
+for any draw, and its limits come from here. What is measured stands in `tests/example_measures.py`.
+"""
+
+import argparse
+import csv
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
+
+from places import EXAMPLES
+
+AT_ONCE = 2
+"""Runs side by side, each with a core of its own."""
+
+
+def main() -> int:
+    """Run what is asked for and print a table for each example; the exit status."""
+    options = arguments()
+    if options.measure is not None:
+        print_measured(options.names[0], options.measure, options.duration)
+    seeds = range(options.first, options.first + options.seeds)
+    for name in options.names:
+        rows = list(measured(name, seeds, options.duration))
+        print(table(name, rows), flush=True)
+        if options.csv:
+            keep(options.csv / f"{name}.csv", rows)
+    return 0
+
+
+def arguments() -> argparse.Namespace:
+    """What the command line says."""
+    examples = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
+    parser = argparse.ArgumentParser(prog="seeds", description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="+", choices=examples, metavar="NAME", help="examples: " + ", ".join(examples))
+    parser.add_argument("--seeds", type=int, default=24, metavar="COUNT", help="how many seeds (24)")
+    parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first of them (1)")
+    parser.add_argument("--duration", type=float, metavar="S", help="simulate so many seconds (the example's own)")
+    parser.add_argument("--csv", type=Path, metavar="DIR", help="also keep a row for each run in DIR/NAME.csv")
+    parser.add_argument("--measure", type=int, metavar="SEED", help="run this seed alone and print JSON")
+    return parser.parse_args()
+
+
+def measured(name: str, seeds: Sequence[int], duration_s: float | None) -> Iterator[dict[str, float | None]]:
+    """What was measured in the run of each seed, by what it is called and with the seed."""
+    command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
+
+    def run(seed: int) -> dict[str, float | None]:
+        alone = [*command, "--measure", str(seed)]
+        done = subprocess.run(alone, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(f"seeds: {name} with seed {seed} ended with status {done.returncode}:\n{done.stderr}")
+        return {"seed": seed, **json.loads(done.stdout.splitlines()[-1])}
+
+    with ThreadPoolExecutor(AT_ONCE) as threads:
+        for row in threads.map(run, seeds):
+            print(f"{name}: seed {row['seed']} is run", file=sys.stderr, flush=True)
+            yield row
+
+
+def print_measured(name: str, seed: int, duration_s: float | None) -> None:
+    """Run an example with a seed in this process, print what was measured, and end the process."""
+    from example_measures import measures_of
+    from example_runs import example, run_example
+
+    with tempfile.TemporaryDirectory() as folder:
+        run = run_example(replace(example(name, duration_s), seed=seed), Path(folder))
+        print(json.dumps(measures_of(name, run)), flush=True)
+    os._exit(0)  # Blender's own end may hang.
+
+
+def table(name: str, rows: Sequence[dict[str, float | None]]) -> str:
+    """Smallest, median and largest of each quantity, and in how many runs there was any."""
+    lines = [f"\n{name}, {len(rows)} seeds", f"{'':36}{'smallest':>10}{'median':>10}{'largest':>10}{'runs':>6}"]
+    for quantity in columns(rows)[1:]:
+        values = [row[quantity] for row in rows if row.get(quantity) is not None]
+        if values:
+            figures = (min(values), statistics.median(values), max(values))
+            lines.append(f"{quantity:36}" + "".join(f"{each:10.4g}" for each in figures) + f"{len(values):6}")
+        else:
+            lines.append(f"{quantity:36}{'':30}{0:6}")
+    return "\n".join(lines)
+
+
+def columns(rows: Iterable[dict[str, float | None]]) -> list[str]:
+    """Names of all quantities of any run, in their order."""
+    return list(dict.fromkeys(quantity for row in rows for quantity in row))
+
+
+def keep(path: Path, rows: Sequence[dict[str, float | None]]) -> None:
+    """Write a row for each run."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns(rows))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
