@@ -20,12 +20,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from bench_deck import DECK
 
 from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion
+from bridge_demolition_addon.core.blast.explosion import Explosion
+from bridge_demolition_addon.core.blast.settings import Apply, BlastSettings
 from bridge_demolition_addon.core.scenario import FractureSettings
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.blast.charges import create_charges
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
-from bridge_demolition_addon.scene.blast.settings import Apply, ExplosionSettings, keep_explosion
+from bridge_demolition_addon.scene.blast.settings import keep_blast
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.world import START_FRAME
@@ -88,7 +89,7 @@ def _scene(count: int, apply: Apply | None) -> bpy.types.Scene:
     build_demolition(scene, scenario, build_model(scenario))
     if apply:
         create_charges(scene, CHARGES)
-        keep_explosion(scene, ExplosionSettings(True, apply, BlastOptions()))
+        keep_blast(scene, BlastSettings(start_s=0.0, apply=apply.value))
         if apply is Apply.FIELDS:
             build_force_objects(scene, bodies_of(scene))
     return scene

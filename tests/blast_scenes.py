@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from blocks import Blocks
 
 from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.explosion import BlastOptions
+from bridge_demolition_addon.core.blast.settings import BlastSettings
 from bridge_demolition_addon.scene.blast.charges import create_charges
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
-from bridge_demolition_addon.scene.blast.settings import Apply, ExplosionSettings, keep_explosion
+from bridge_demolition_addon.scene.blast.settings import keep_blast
 from bridge_demolition_addon.scene.bodies import bodies_of
 
 IMPULSE_AT_5_PA_S = 40.62
@@ -22,13 +22,13 @@ ARRIVAL_AT_5_S, END_AT_5_S = 8.995e-3, 8.995e-3 + 3.333e-3
 
 def charge(name: str, place_m: Sequence[float], mass_kg: float, delay_s: float = 0.0) -> Charge:
     """A charge of TNT in free air."""
-    return Charge(name=name, place_m=tuple(place_m), mass_kg=mass_kg, delay_s=delay_s)
+    return Charge(name=name, place_m=tuple(place_m), mass_kg=mass_kg, delay_ms=1e3 * delay_s)
 
 
 def set_off(blocks: Blocks, charges: Sequence[Charge], apply: str, explosion: bool = True, **options: float) -> None:
     """Place charges among blocks and have them go off."""
     create_charges(blocks.scene, charges)
-    keep_explosion(blocks.scene, ExplosionSettings(explosion, Apply(apply), BlastOptions(**options)))
+    keep_blast(blocks.scene, BlastSettings(explosion=explosion, apply=apply, **({"start_s": 0.0} | options)))
     if apply == "fields":
         build_force_objects(blocks.scene, bodies_of(blocks.scene))
 

@@ -8,8 +8,7 @@ from moving_boxes import moving_boxes
 from scenarios import I235
 
 from bridge_demolition_addon.core.results.summary import summarise
-from bridge_demolition_addon.core.scenario import Exclusion, Neighbour, Site, Zone
-from bridge_demolition_addon.core.scenario.blast import BlastSettings, ChargeSettings
+from bridge_demolition_addon.core.scenario import BlastSettings, Charge, Exclusion, Neighbour, Site, Zone
 from bridge_demolition_addon.core.scenario.file import scenario_text
 
 G = 9.80665
@@ -25,8 +24,8 @@ TOLD = replace(
     site=Site(latitude_deg=41.6, longitude_deg=-93.6),
     blast=BlastSettings(start_s=0.2),
     charges=(
-        ChargeSettings(place_m=(0, 0, 1), mass_kg=5, explosive="C-4"),
-        ChargeSettings(place_m=(13, 0, 1), mass_kg=2, delay_ms=25),
+        Charge(place_m=(0, 0, 1), mass_kg=5, explosive="C-4"),
+        Charge(place_m=(13, 0, 1), mass_kg=2, delay_ms=25),
     ),
     neighbours=(Neighbour(name="House", place_m=(40, 30, 2)), Neighbour(name="School & yard", place_m=(-60, 10, 2))),
 )

@@ -17,10 +17,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..core.blast.air import AMBIENT_PRESSURE_PA
 from ..core.blast.charge_sizing import smallest_charge_for_overpressure
-from ..core.blast.charges import Charge, ChargeArrays
+from ..core.blast.charges import Charge
 from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.models import BlastModel, blast_wave
-from ..core.blast.projection import lines_of_blast
 from ..core.blast.pulses import Pulses, blast_pulses, pressure_at
 from ..core.blast.wave import Burst
 from ..core.errors import OutputError
@@ -385,10 +384,10 @@ def _along_the_spans() -> np.ndarray:
 
 
 def _pulses_along_bridge(places_m: np.ndarray, settings: ChartSettings) -> Pulses:
-    arrays = ChargeArrays.of(settings.pier_charges)
-    points = np.column_stack((places_m, np.zeros((len(places_m), 2))))
-    stand_offs, _ = lines_of_blast(arrays.places_m, points)
-    return blast_pulses(stand_offs, arrays.tnt_kg, arrays.delays_s, arrays.bursts, model=settings.model)
+    charges = settings.pier_charges
+    stand_offs = abs(places_m[:, None] - [charge.place_m[0] for charge in charges])
+    masses, delays = [charge.tnt_kg for charge in charges], [charge.delay_s for charge in charges]
+    return blast_pulses(stand_offs, masses, delays, [charge.burst for charge in charges], model=settings.model)
 
 
 def _finish_bridge_chart(figure: Figure, axes: Axes, settings: ChartSettings, title: str) -> None:

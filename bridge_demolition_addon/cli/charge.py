@@ -21,8 +21,7 @@ from ..core.blast.vibration import (
 )
 from ..core.blast.wave import scaled_distance
 from ..core.errors import BlastError
-from .blast_options import add_blast_options
-from .numbers import quantity
+from .arguments import add_blast_options, quantity
 
 VIBRATION_DISTANCES_M = (10.0, 20.0, 50.0, 100.0, 200.0)
 

@@ -1,12 +1,13 @@
 """``bda charts``: the charts to choose charges by, as pictures in a folder."""
 
 import argparse
+from functools import partial
 from pathlib import Path
 
+from ..core.blast.charges import LARGEST_CHARGE_KG
 from ..core.blast.models import BlastModel
 from ..core.blast.wave import Burst
-from .blast_options import add_blast_options
-from .numbers import quantity
+from .arguments import add_blast_options, quantity
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -19,7 +20,11 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         "--pulse-kg", type=quantity, default=1e4, metavar="W", help="TNT whose pulses are drawn over time (10000)"
     )
     parser.add_argument(
-        "--pier-kg", type=quantity, default=1e3, metavar="W", help="TNT at each pier of the bridge of two spans (1000)"
+        "--pier-kg",
+        type=partial(quantity, largest=LARGEST_CHARGE_KG),
+        default=1e3,
+        metavar="W",
+        help="TNT at each pier of the bridge of two spans (1000)",
     )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     add_blast_options(parser)

@@ -214,7 +214,7 @@ def _drop_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
 
 
 def _charge_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
-    blast, charges = scenario.blast, scenario.placed_charges
+    blast, charges = scenario.blast, scenario.charges
     if not blast.explosion:
         yield "explosion", "not ticked: nothing goes off"
     for charge in charges:

@@ -64,7 +64,7 @@ def shared_beginning(runs: Sequence[Run]) -> str:
 def _differences(run: Run) -> str:
     if run.scenario is None:
         return "not known"
-    ball, charges = run.scenario.ball, run.scenario.placed_charges
+    ball, charges = run.scenario.ball, run.scenario.charges
     words = []
     if ball:
         words.append(f"ball of {ball.mass_kg / 1e3:g} t {_way_of(ball)}")

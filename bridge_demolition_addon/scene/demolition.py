@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import bpy
 
+from ..core.blast.settings import Apply
 from ..core.bridge.extent import ground_half_size, surface_height
 from ..core.mechanics.strength import MATERIALS, Ductility
 from ..core.scenario import ConnectionSettings, Scenario
 from ..core.structure.model import Model
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
-from .blast.settings import Apply, explosion_settings, keep_explosion
+from .blast.settings import keep_blast
 from .bodies import bodies_of, create_ground, create_shards, mark_member
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
@@ -58,8 +59,8 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
     if not charge_objects(scene):  # those that the user has placed stay the objects that they are
-        create_charges(scene, scenario.placed_charges)
-    keep_explosion(scene, explosion_settings(scenario.blast))
+        create_charges(scene, scenario.charges)
+    keep_blast(scene, scenario.blast)
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)

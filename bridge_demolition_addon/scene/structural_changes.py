@@ -2,42 +2,37 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from dataclasses import asdict
 
 import bpy
 import numpy as np
 
 from ..core.scenario import Change, Removal, SawCut, Weakening
+from ..core.scenario.kept import tables_from_text, tables_text
 from ..core.sequence.events import Event, Structure, schedule
 from .bodies import Kind, kind_of, member_of
 from .inventory import Inventory
 
 _CHANGES = "bda_changes"
-_TABLES = {each.table: each for each in (Removal, SawCut, Weakening)}
 
 
 def keep_changes(scene: bpy.types.Scene, changes: Sequence[Change]) -> None:
-    """Note changes in the scene, which is saved with it; a recording of the scene makes them happen."""
+    """Keep changes in the scene, which is saved with it; a recording of the scene makes them happen."""
     if changes:
-        scene[_CHANGES] = json.dumps([{"table": each.table, **asdict(each)} for each in changes])
+        scene[_CHANGES] = tables_text(changes)
     elif _CHANGES in scene:
         del scene[_CHANGES]
 
 
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
-    """Changes that were noted in a scene.
+    """Return the changes that a scene keeps.
 
     Raises
     ------
     ScenarioError
-        A note holds a value that no change can have.
+        A kept text holds a value that no change can have.
     """
-    notes = json.loads(scene.get(_CHANGES, "[]"))
-    return tuple(
-        _TABLES[note["table"]](**{name: value for name, value in note.items() if name != "table"}) for note in notes
-    )
+    return tables_from_text(scene.get(_CHANGES, ""), (Removal, SawCut, Weakening))
 
 
 def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory) -> tuple[Event, ...]:

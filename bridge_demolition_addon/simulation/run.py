@@ -140,7 +140,7 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> N
     settings = scenario.pictures
     prepare_pictures(scene, points_to_see(scenario, model.members), settings.width_px, settings.height_px)
     if scenario.blast.explosion:
-        for empty, charge in zip(charge_objects(scene), scenario.placed_charges, strict=True):
+        for empty, charge in zip(charge_objects(scene), scenario.charges, strict=True):
             show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
 
 

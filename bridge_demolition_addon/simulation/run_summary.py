@@ -88,7 +88,7 @@ def _of_scenario(scenario: Scenario, recording: Recording, results: Results) -> 
 
 def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
     """What exploded when, and whether all of it reached the bodies; None where nothing did."""
-    charges = [charge for charge in scenario.placed_charges if charge.mass_kg > 0.0]
+    charges = [charge for charge in scenario.charges if charge.mass_kg > 0.0]
     if not scenario.blast.explosion or not charges:
         return None
     times = [scenario.blast.start_s + charge.delay_s for charge in charges]

@@ -8,6 +8,7 @@ import bpy
 
 from ..simulation.recording import handlers
 from .blast import operator as blast_operator
+from .blast import ui as blast_ui
 from .contours import operator as contour_operator
 from .contours import ui as contour_ui
 from .recording import last_recording, log_paths, redraw, run, running
@@ -21,9 +22,9 @@ from .scenario import ui as scenario_ui
 
 _OPERATORS = (
     *(scenario_operator, user_meshes, table_list),
-    *(recording_operator, run, log_paths, contour_operator, results_operator),
+    *(recording_operator, run, log_paths, blast_operator, contour_operator, results_operator),
 )
-_PANELS = (blast_operator, recording_ui, contour_ui, results_ui)
+_PANELS = (blast_ui, recording_ui, contour_ui, results_ui)
 """Below those of the scenario, in the order of the work."""
 
 

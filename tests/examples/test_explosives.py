@@ -47,14 +47,14 @@ def test_blast_pushes_away_from_the_charges(loud):
     # Every charge is below the deck: each shard of it gets its blast upwards.
     impulses = loud.results.blast_impulses_ns.sum(axis=0)[loud.of_members("deck")]
     assert (impulses[:, 2] > 0.0).all()
-    charges = loud.scenario.placed_charges
+    charges = loud.scenario.charges
     assert loud.summary["charges"]["mass_kg"] == sum(charge.mass_kg for charge in charges)
 
 
 @pytest.mark.parametrize("loud", ["single_span_explosives"], indirect=True)
 def test_shards_near_a_charge_fly_away_from_it(loud):
     # In the other example a field spreads each load over a frame of 42 ms, and most columns hold.
-    for charge in loud.scenario.placed_charges:
+    for charge in loud.scenario.charges:
         nearest = loud.near(charge, 3.5)
         loaded = loud.at(loud.scenario.blast.start_s + charge.delay_s) + 1  # the wave is past them within 10 ms
         assert len(nearest) >= 8

@@ -86,7 +86,7 @@ def test_it_stands_until_the_charges_go_off(explosives):
 
 
 def test_shards_fly_away_from_the_charges(explosives):
-    for charge in explosives.scenario.placed_charges:
+    for charge in explosives.scenario.charges:
         nearest = explosives.near(charge, 3.0)
         # By then the wave is past them: 5 m at more than the speed of sound.
         loaded = explosives.at(explosives.scenario.blast.start_s + charge.delay_s + 0.015)

@@ -1,16 +1,20 @@
 """Charges, and what other explosives are worth in TNT."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-
-import numpy as np
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from ..errors import BlastError
+from ..schema import Table, key
 from .wave import Burst
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
 SWISDAK_PRESSURE = "air blast, pressure only; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
 BAKER = "heat of detonation over that of TNT, 4520 kJ/kg; Baker et al., Explosion Hazards and Evaluation (1983)"
+
+MS_PER_S = 1000.0
+
+LARGEST_CHARGE_KG = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,12 +23,12 @@ class Explosive:
 
     Attributes
     ----------
-    name
+    name : str
         What it is called.
-    tnt_by_pressure, tnt_by_impulse
+    tnt_by_pressure, tnt_by_impulse : float
         Mass of TNT with the peak overpressure, and with the impulse, of a unit of mass. Where only one is known, or the
         heat of detonation, it stands for both.
-    source
+    source : str
         What was measured, and who published it.
     """
 
@@ -54,7 +58,7 @@ EXPLOSIVES = {
 
 
 def explosive_named(name: str) -> Explosive:
-    """The explosive of a name, in capitals or not.
+    """Return the explosive of a name, in capitals or not.
 
     Raises
     ------
@@ -68,47 +72,28 @@ def explosive_named(name: str) -> Explosive:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Charge:
-    """A bare charge. One of 0 kg does nothing.
+class Charge(Table):
+    """A bare charge. One of 0 kg does nothing."""
 
-    Attributes
-    ----------
-    name
-        What it is called in logs.
-    place_m
-        Where it is: x, y, z in m.
-    mass_kg
-        Mass of the explosive itself, kg.
-    explosive
-        Name of the explosive.
-    delay_s
-        From the start of the blasting to its detonation, s.
-    burst
-        Whether it detonates in the air or on the ground.
+    table: ClassVar[str] = "charges"
 
-    Raises
-    ------
-    BlastError
-        Mass or delay is negative or not finite, the place is not one of three finite numbers, or explosive or burst is
-        unknown.
-    """
+    name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
+    place_m: tuple[float, float, float] = key("Where it is: along the road, across it, and above the ground.", unit="m")
+    mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0, at_most=LARGEST_CHARGE_KG)
+    explosive: str = key("What it is made of.", default="TNT", choices=tuple(EXPLOSIVES))
+    delay_ms: float = key(
+        "Time from `blast.start_s` to its detonation.", default=0.0, unit="ms", at_least=0, at_most=1e6
+    )
+    burst: str = key(
+        "Whether it detonates in the `air` or on the `surface` of the ground, which throws the wave back.",
+        default=Burst.AIR.value,
+        choices=tuple(burst.value for burst in Burst),
+    )
 
-    name: str
-    place_m: tuple[float, float, float]
-    mass_kg: float
-    explosive: str = "TNT"
-    delay_s: float = 0.0
-    burst: Burst = Burst.AIR
-
-    def __post_init__(self) -> None:
-        self._keep("mass_kg", _at_least_zero(self.mass_kg, f"{self.name}: mass", "kg"))
-        self._keep("delay_s", _at_least_zero(self.delay_s, f"{self.name}: delay", "s"))
-        self._keep("place_m", _place(self.place_m, self.name))
-        try:
-            self._keep("explosive", explosive_named(self.explosive).name)
-            self._keep("burst", Burst(self.burst))
-        except BlastError as error:
-            raise BlastError(f"{self.name}: {error}") from error
+    @property
+    def delay_s(self) -> float:
+        """Time from the start of the blasting to its detonation, s."""
+        return self.delay_ms / MS_PER_S
 
     @property
     def tnt_kg(self) -> float:
@@ -117,60 +102,13 @@ class Charge:
 
     @property
     def tnt_for_pressure_kg(self) -> float:
-        """Mass of TNT with the same peak overpressure, kg: what damage is told by."""
+        """Mass of TNT with the same peak overpressure, kg: what damage depends on."""
         return self.mass_kg * EXPLOSIVES[self.explosive].tnt_by_pressure
 
-    def _keep(self, attribute: str, value: object) -> None:
-        object.__setattr__(self, attribute, value)
 
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ChargeArrays:
-    """Several charges, structure of arrays.
-
-    Attributes
-    ----------
-    places_m
-        (c, 3) in m.
-    tnt_kg, delays_s
-        (c,) masses of TNT with the same impulse in kg, and delays in s.
-    bursts
-        (c,) where they detonate.
-    """
-
-    places_m: np.ndarray
-    tnt_kg: np.ndarray
-    delays_s: np.ndarray
-    bursts: tuple[Burst, ...]
-
-    @classmethod
-    def of(cls, charges: Sequence[Charge]) -> "ChargeArrays":
-        """The arrays of any number of charges."""
-        return cls(
-            np.array([charge.place_m for charge in charges], float).reshape(-1, 3),
-            np.array([charge.tnt_kg for charge in charges], float),
-            np.array([charge.delay_s for charge in charges], float),
-            tuple(charge.burst for charge in charges),
-        )
-
-
-def _at_least_zero(value: float, name: str, unit: str) -> float:
-    number = _number(value)
-    if number is None or number < 0.0:
-        raise BlastError(f"{name} is {value}: expected a finite number of at least 0 ({unit})")
-    return number
-
-
-def _place(values: Sequence[float], name: str) -> tuple[float, float, float]:
-    numbers = [_number(value) for value in values] if np.iterable(values) else []
-    if len(numbers) != 3 or None in numbers:
-        raise BlastError(f"{name}: place is {values}: expected three finite numbers (m)")
-    return tuple(numbers)
-
-
-def _number(value: float) -> float | None:
-    try:
-        number = float(value)
-    except (TypeError, ValueError, OverflowError):
-        return None
-    return number if np.isfinite(number) else None
+def named_charges(charges: Sequence[Charge]) -> tuple[Charge, ...]:
+    """Return charges where those without a name are called after their number."""
+    return tuple(
+        charge if charge.name else replace(charge, name=f"Charge {number}")
+        for number, charge in enumerate(charges, start=1)
+    )

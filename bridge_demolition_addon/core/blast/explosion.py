@@ -8,33 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..geometry.hulls import ConvexHulls
-from .charges import Charge, ChargeArrays
-from .models import BlastModel
+from .charges import Charge
 from .projection import lines_of_blast, projected_areas
-from .pulses import Loading, Pulses, blast_pulses, impulse_between
+from .pulses import Pulses, blast_pulses, impulse_between
+from .settings import BlastSettings
 from .shielding import visible_shares
 from .wave import scaled_distance
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BlastOptions:
-    """How blast loads are reckoned.
-
-    Attributes
-    ----------
-    start_s
-        Simulated time at which a charge without delay detonates.
-    model, loading, constant_decay
-        As for `blast_pulses`.
-    shielding
-        Whether a body that others hide from a charge gets less.
-    """
-
-    start_s: float = 0.0
-    model: BlastModel = BlastModel.KINGERY_BULMASH
-    loading: Loading = Loading.INCIDENT
-    shielding: bool = False
-    constant_decay: float | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -86,20 +65,21 @@ class Explosion:
 
     Parameters
     ----------
-    charges
-        The c charges.
-    hulls
+    charges : (c,) Charge
+        The charges.
+    hulls : ConvexHulls
         Convex hulls of n bodies.
-    options
-        How loads are reckoned.
+    settings : BlastSettings
+        When the charges go off, and how their loads are computed.
     """
 
-    def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, options: BlastOptions):
-        self.charges = tuple(charges)
-        self._arrays = ChargeArrays.of(self.charges)
-        self._detonations_s = options.start_s + self._arrays.delays_s
-        self._hulls, self._options = hulls, options
-        shape = (len(hulls), len(self.charges))
+    def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, settings: BlastSettings):
+        self._hulls, self._settings = hulls, settings
+        self._sources_m = np.array([charge.place_m for charge in charges], float).reshape(-1, 3)
+        self._tnt_kg = np.array([charge.tnt_kg for charge in charges], float)
+        self._detonations_s = settings.start_s + np.array([charge.delay_s for charge in charges], float)
+        self._bursts = [charge.burst for charge in charges]
+        shape = (len(hulls), len(charges))
         self._detonated = np.zeros(shape[1], bool)
         self._pulses = Pulses(np.full(shape, np.inf), np.zeros(shape), np.zeros(shape), np.zeros(shape))
         self._stand_offs = np.zeros(shape)
@@ -126,12 +106,12 @@ class Explosion:
         pairs = bodies, np.searchsorted(active, charges)
         areas = projected_areas(self._hulls, rotations, self._directions[:, active])[pairs]
         areas = areas * self._shares[bodies, charges]
-        pressure_impulses = impulse_between(_columns(pulses, active), start_s, end_s)[pairs]
+        pressure_impulses = impulse_between(pulses.take(active), start_s, end_s)[pairs]
         return StepLoads(
             bodies=bodies,
             charges=charges,
             stand_offs_m=self._stand_offs[bodies, charges],
-            scaled_distances=scaled_distance(self._stand_offs[bodies, charges], self._arrays.tnt_kg[charges]),
+            scaled_distances=scaled_distance(self._stand_offs[bodies, charges], self._tnt_kg[charges]),
             areas_m2=areas,
             directions=self._directions[bodies, charges],
             peaks_pa=pulses.peaks_pa[bodies, charges],
@@ -149,22 +129,20 @@ class Explosion:
         """Fix lines, pulses and shares of some charges (k,) as the bodies are now."""
         if not len(columns):
             return
-        sources = self._arrays.places_m[columns]
+        sources, settings = self._sources_m[columns], self._settings
         stand_offs, directions = lines_of_blast(sources, centres)
-        options = self._options
         pulses = blast_pulses(
             stand_offs,
-            self._arrays.tnt_kg[columns],
+            self._tnt_kg[columns],
             self._detonations_s[columns],
-            [self._arrays.bursts[column] for column in columns],
-            model=options.model,
-            loading=options.loading,
-            constant_decay=options.constant_decay,
+            [self._bursts[column] for column in columns],
+            model=settings.model,
+            loading=settings.loading,
+            constant_decay=settings.constant_decay,
         )
-        for name in Pulses.__dataclass_fields__:
-            getattr(self._pulses, name)[:, columns] = getattr(pulses, name)
+        self._pulses.put(columns, pulses)
         self._stand_offs[:, columns], self._directions[:, columns] = stand_offs, directions
-        if options.shielding:
+        if settings.shielding:
             self._shares[:, columns] = visible_shares(self._hulls, centres, rotations, sources)
         self._detonated[columns] = True
 
@@ -193,7 +171,3 @@ def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
 
 
 _COLUMNS = tuple(StepLoads.__dataclass_fields__)
-
-
-def _columns(pulses: Pulses, columns: np.ndarray) -> Pulses:
-    return Pulses(*(getattr(pulses, name)[:, columns] for name in Pulses.__dataclass_fields__))

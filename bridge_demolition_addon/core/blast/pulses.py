@@ -55,6 +55,22 @@ class Pulses:
         """(n, c) impulse per area of each whole pulse, Pa·s."""
         return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
+    def take(self, columns: np.ndarray) -> "Pulses":
+        """Return the pulses of some charges (k,)."""
+        return Pulses(
+            self.arrivals_s[:, columns],
+            self.peaks_pa[:, columns],
+            self.durations_s[:, columns],
+            self.decays[:, columns],
+        )
+
+    def put(self, columns: np.ndarray, other: "Pulses") -> None:
+        """Replace the pulses of some charges (k,) by others (n, k)."""
+        self.arrivals_s[:, columns] = other.arrivals_s
+        self.peaks_pa[:, columns] = other.peaks_pa
+        self.durations_s[:, columns] = other.durations_s
+        self.decays[:, columns] = other.decays
+
     def load_between(self, start_s: float, end_s: float) -> np.ndarray:
         """(n, c) whether each pulse loads its body at some time between two."""
         return (self.peaks_pa > 0.0) & (self.arrivals_s < end_s) & (start_s < self.ends_s)
@@ -108,13 +124,12 @@ def blast_pulses(
         reflected = Loading(loading) is Loading.REFLECTED
         peak = wave.reflected_overpressure_pa if reflected else wave.peak_overpressure_pa
         impulse = wave.reflected_impulse_pa_s if reflected else wave.incident_impulse_pa_s
-        duration, decay = wave.positive_phase_duration_s, constant_decay
-        if decay is None:
+        duration = wave.positive_phase_duration_s
+        if constant_decay is None:
             duration, decay = friedlander.fitted(peak, duration, impulse)
-        pulses.arrivals_s[:, columns] = wave.arrival_time_s + delays[columns]
-        pulses.peaks_pa[:, columns] = peak
-        pulses.durations_s[:, columns] = duration
-        pulses.decays[:, columns] = decay
+        else:
+            decay = np.full(peak.shape, constant_decay)
+        pulses.put(columns, Pulses(wave.arrival_time_s + delays[columns], peak, duration, decay))
     return pulses
 
 

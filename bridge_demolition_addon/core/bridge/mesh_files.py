@@ -15,7 +15,7 @@ from ..geometry.repair import repaired_solid
 from ..geometry.solids import mesh_of, union
 from ..scenario import Geometry
 from ..scenario.geometry import MESH_FILES
-from ..scenario.schema import FARTHEST_M, SHORTEST_LENGTH_M
+from ..schema import FARTHEST_M, SHORTEST_LENGTH_M
 from .member import Member
 
 _BELOW_GROUND_M = 1e-3

@@ -15,7 +15,7 @@ from ..geometry.mesh import Shard
 from ..geometry.solids import contains
 from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
-from ..scenario.schema import SHORTEST_LENGTH_M
+from ..schema import SHORTEST_LENGTH_M
 from .density import PointDensity, densest, density_around, painted_density
 from .gaps import with_gaps
 from .options import FractureOptions, Recursion

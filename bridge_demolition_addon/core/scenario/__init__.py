@@ -5,8 +5,9 @@ The deck, with its girders, lies on the pier caps, or on the piers where there a
 tables.
 """
 
+from ..blast.charges import Charge
+from ..blast.settings import BlastSettings
 from .ball import Ball, BallHit
-from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
@@ -32,7 +33,7 @@ __all__ = [
     "BoxGirder",
     "Bridge",
     "Change",
-    "ChargeSettings",
+    "Charge",
     "ConnectionBetween",
     "ConnectionSettings",
     "Deck",

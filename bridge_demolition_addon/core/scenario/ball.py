@@ -5,9 +5,9 @@ from dataclasses import dataclass, fields
 from typing import ClassVar
 
 from ..errors import ScenarioError
+from ..schema import SHORTEST_LENGTH_M, Table, expected, key
 from ..units import STANDARD_GRAVITY_M_S2
 from .cable import BallCable
-from .schema import SHORTEST_LENGTH_M, Table, expected, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

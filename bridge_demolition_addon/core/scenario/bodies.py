@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from .schema import Table, key
+from ..schema import Table, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

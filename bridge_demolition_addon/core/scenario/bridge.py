@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
+from ..schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
-from .schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 
 LARGEST_SKEW_DEG = 75.0
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from .schema import ROUNDING, SHORTEST_LENGTH_M, Table, key
+from ..schema import ROUNDING, SHORTEST_LENGTH_M, Table, key
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 

@@ -6,8 +6,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..schema import SHORTEST_LENGTH_M, Table, key
 from ..units import STANDARD_GRAVITY_M_S2
-from .schema import SHORTEST_LENGTH_M, Table, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,9 +5,9 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from ..mechanics.strength import MATERIALS
+from ..schema import key
 from ..units import STANDARD_GRAVITY_M_S2
 from .joint import JointSettings
-from .schema import key
 
 GROUND_NAME = "ground"
 

@@ -6,10 +6,10 @@ from typing import ClassVar
 from ..errors import ScenarioError
 from ..mechanics.joint import TYPES, Joint
 from ..mechanics.strength import MATERIALS, Strength
+from ..schema import LARGEST_INTEGER, check_exactly_one, key, shown
 from ..units import STANDARD_GRAVITY_M_S2
 from .connection_rules import ConnectionBetween
 from .joint import JointSettings
-from .schema import LARGEST_INTEGER, check_exactly_one, key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

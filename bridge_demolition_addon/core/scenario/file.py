@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ScenarioError
-from .scenario import Scenario
-from .schema import (
+from ..schema import (
     Table,
     expected,
     holds_many,
@@ -24,6 +23,7 @@ from .schema import (
     subtable_class,
     subtable_fields,
 )
+from .scenario import Scenario
 from .variant import take_based_on, varied
 
 LIKENESS = 0.68

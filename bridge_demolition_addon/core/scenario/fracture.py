@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from .schema import Table, check_exactly_one, key
+from ..schema import Table, check_exactly_one, key
 
 _EVEN = (1.0, 1.0, 1.0)
 _LEAST_STRETCH, _MOST_STRETCH = 0.01, 100.0

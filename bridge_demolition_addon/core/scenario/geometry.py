@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from .schema import Table, check_exactly_one, key
+from ..schema import Table, check_exactly_one, key
 
 MESH_FILES = (".stl", ".obj", ".ply", ".glb")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from .schema import SHORTEST_LENGTH_M, Table, key
+from ..schema import SHORTEST_LENGTH_M, Table, key
 from .time import TimeSettings
 
 FRAMES_PER_BLOW = 4

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Springs
-from .schema import Table, key, shown
+from ..schema import Table, key, shown
 
 _SPRINGS = {
     "move": ("stiffness_n_m", "damping_ns_m"),

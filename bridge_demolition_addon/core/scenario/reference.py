@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import Field
 from pathlib import Path
 
+from ..schema import Table, expected, holds_many, is_required, key_fields, key_of, subtable_class, subtable_fields
 from .file import toml_value
 from .scenario import Scenario
-from .schema import Table, expected, holds_many, is_required, key_fields, key_of, subtable_class, subtable_fields
 
 INTRODUCTION = """\
 # Scenario files

@@ -3,11 +3,12 @@
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from ..blast.charges import Charge
+from ..blast.charges import Charge, named_charges
+from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
+from ..schema import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from ..timing.timeline import Timeline
 from .ball import Ball, BallHit
-from .blast import BlastSettings, ChargeSettings
 from .bodies import Ground, ShardSettings
 from .bridge import Bridge
 from .connections import ConnectionSettings
@@ -15,7 +16,6 @@ from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
-from .schema import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening, check_times
 from .supports import Support
@@ -45,7 +45,7 @@ class Scenario(Table):
     shards: ShardSettings = field(default_factory=ShardSettings)
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
-    charges: tuple[ChargeSettings, ...] = ()
+    charges: tuple[Charge, ...] = ()
     jackhammers: tuple[Jackhammer, ...] = ()
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
@@ -58,15 +58,10 @@ class Scenario(Table):
     neighbours: tuple[Neighbour, ...] = ()
 
     @property
-    def placed_charges(self) -> tuple[Charge, ...]:
-        """The charges, in their order."""
-        return tuple(each.charge(number) for number, each in enumerate(self.charges, start=1))
-
-    @property
     def timeline(self) -> Timeline:
         """The frames of the run, shorter ones around detonations where that is asked for."""
         frame_s = self.time.step.frame_s
-        slow_motions = self.blast.slow_motions(self.placed_charges, frame_s)
+        slow_motions = self.blast.slow_motions(self.charges, frame_s)
         return Timeline.of(frame_s, self.time.duration_s, slow_motions)
 
     @property
@@ -91,7 +86,8 @@ class Scenario(Table):
         check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
 
     def _check_charges(self) -> None:
-        charges = self.placed_charges
+        charges = named_charges(self.charges)
+        object.__setattr__(self, "charges", charges)
         names = [charge.name for charge in charges]
         for name in names:
             if names.count(name) > 1:

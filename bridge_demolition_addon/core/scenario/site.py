@@ -6,7 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..errors import ScenarioError
-from .schema import Table, key
+from ..schema import Table, key
 
 ZONE_KINDS = ("road", "railway", "power line", "pipeline", "building", "water", "other")
 

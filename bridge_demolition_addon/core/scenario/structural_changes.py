@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from .schema import Table, key, shown
+from ..schema import Table, key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from .schema import Table, key
+from ..schema import Table, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

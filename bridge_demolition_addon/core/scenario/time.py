@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
+from ..schema import Table, key
 from ..timing.time_step import TimeStep
-from .schema import Table, key
 
 MOST_FRAMES = 1_000_000
 """Blender's timeline ends at frame 1 048 574; a run needs a few frames of it before time begins."""

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..errors import ScenarioError
+from ..schema import shown
 from .scenario import Scenario
-from .schema import shown
 
 BASED_ON = "based_on"
 """Key of the table of a scenario: the file of which this one is a variant."""

@@ -68,7 +68,7 @@ def last_event_s(scenario: Scenario) -> float:
     times = [scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
     times += [hammer.end_time_s for hammer in scenario.jackhammers]
     if scenario.blast.explosion:
-        times += [scenario.blast.start_s + charge.delay_s for charge in scenario.placed_charges]
+        times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges]
     if scenario.ball:
         times += [scenario.ball.release_time_s]
         times += [drop.release_time_s + drop.fall_time_s for drop in scenario.ball.drops]

@@ -19,7 +19,7 @@ from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Sect
 
 def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
     """What the charges do around the bridge; None where the scenario has none that does anything."""
-    charges = tuple(charge for charge in scenario.placed_charges if charge.mass_kg > 0.0)
+    charges = tuple(charge for charge in scenario.charges if charge.mass_kg > 0.0)
     if not charges:
         return None
     model = BlastModel(scenario.blast.model)
@@ -65,7 +65,7 @@ def _charge_table(charges: Sequence[Charge]) -> DataTable:
             charge.tnt_for_pressure_kg,
             *charge.place_m,
             1e3 * charge.delay_s,
-            charge.burst.value,
+            charge.burst,
         )
         for charge in charges
     ]

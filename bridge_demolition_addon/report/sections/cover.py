@@ -65,7 +65,7 @@ def trust_section(run: Run) -> Section:
     )
     if run.scenario and run.scenario.ball:
         modelled += ", a wrecking ball"
-    if run.scenario and run.scenario.placed_charges and run.scenario.blast.explosion:
+    if run.scenario and run.scenario.charges and run.scenario.blast.explosion:
         modelled += ", the air blast of charges on the outsides of the shards"
     blocks: list[Block] = [
         Paragraph(f"What is modelled: {modelled[0].lower()}{modelled[1:]}."),

@@ -78,7 +78,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
         facts("Exclusion zone", rows, "exclusion_zone"),
         Paragraph(f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners.csv."),
     ]
-    if run.scenario.placed_charges:
+    if run.scenario.charges:
         warning = "Pressure of the charges is not in this zone: see the rings of damage for how far people have to be."
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return Section("Exclusion zone", tuple(blocks))

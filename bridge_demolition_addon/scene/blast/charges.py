@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from numbers import Real
 
 import bpy
 import trimesh
 from mathutils import Matrix
 
-from ...core.blast.charges import EXPLOSIVES, Charge
-from ...core.errors import BlastError
+from ...core.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
+from ...core.errors import BlastError, DemolitionError
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 
@@ -100,7 +101,7 @@ def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Objec
     empty.show_in_front = True  # charges mostly sit where concrete hides them
     empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
     empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
-    empty[DELAY], empty[BURST] = charge.delay_s, charge.burst.value
+    empty[DELAY], empty[BURST] = charge.delay_s, charge.burst
     for name, shown in _SHOWN.items():
         empty.id_properties_ui(name).update(**shown)
     collection.objects.link(empty)
@@ -110,12 +111,20 @@ def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Objec
 def _charge(empty: bpy.types.Object) -> Charge:
     missing = [name for name in (EXPLOSIVE, DELAY, BURST) if name not in empty]
     if missing:
-        raise BlastError(f"charge {empty.name!r} lacks the property {missing[0]}: delete it and add it anew")
-    return Charge(
-        name=empty.name,
-        place_m=tuple(empty.matrix_world.translation),
-        mass_kg=empty[MASS],
-        explosive=empty[EXPLOSIVE],
-        delay_s=empty[DELAY],
-        burst=empty[BURST],
-    )
+        raise BlastError(f"charge {empty.name!r} lacks the property {missing[0]}: delete it and add it again")
+    try:
+        return Charge(
+            name=empty.name,
+            place_m=tuple(empty.matrix_world.translation),
+            mass_kg=empty[MASS],
+            explosive=explosive_named(empty[EXPLOSIVE]).name,
+            delay_ms=_in_ms(empty[DELAY]),
+            burst=empty[BURST],
+        )
+    except DemolitionError as error:
+        raise BlastError(f"{empty.name}: {error}") from error
+
+
+def _in_ms(delay_s: float) -> float:
+    """Return a delay in ms, as the decimal that was divided to get it in s."""
+    return float(f"{MS_PER_S * delay_s:.15g}") if isinstance(delay_s, Real) else delay_s

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
 import bpy
@@ -11,6 +10,7 @@ import trimesh
 from mathutils import Matrix
 
 from ...core.scenario import Ball
+from ...core.scenario.kept import values_from_text, values_text
 from ...core.sequence.lifting import lift_path
 from ...core.timing.timeline import Timeline
 from ..bodies import Kind, create_body, mesh_of, set_surface
@@ -101,14 +101,15 @@ def plan_lift(
         (k,) share of the lift's time that has passed in the frame before `lift_frame` and in those that follow it,
         from 0 to 1.
     """
-    lifts = json.loads(ball.get(_LIFTS, "[]"))
-    ball[_LIFTS] = json.dumps([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
+    lifts = values_from_text(ball.get(_LIFTS, ""), [])
+    ball[_LIFTS] = values_text([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
     key_values(ball, "location", _frames(lift_frame, shares), lift_path(start_m, end_m, shares))
 
 
 def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """First frame, shares of time (k,) and end (3,) of every lift that was planned."""
-    return [(frame, np.array(shares), np.array(end)) for frame, shares, end in json.loads(ball.get(_LIFTS, "[]"))]
+    lifts = values_from_text(ball.get(_LIFTS, ""), [])
+    return [(frame, np.array(shares), np.array(end)) for frame, shares, end in lifts]
 
 
 def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:

@@ -12,12 +12,13 @@ import numpy as np
 from ...bullet.field_filter import heed_fields, ignore_fields
 from ...bullet.world import BulletWorld
 from ...core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
+from ...core.blast.settings import Apply
 from ...core.errors import LayoutError, SimulationError
 from ...core.geometry.hulls import convex_hulls
 from ...scene.blast.charges import charges_of
 from ...scene.blast.field_reach import Reaches, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
-from ...scene.blast.settings import Apply, explosion_of
+from ...scene.blast.settings import blast_of
 from ...scene.bodies import hull_points
 from ...scene.inventory import Inventory
 
@@ -177,7 +178,7 @@ class Blast:
         inventory: Inventory,
         world: BulletWorld | None,
     ):
-        settings = explosion_of(scene)
+        settings = blast_of(scene)
         self.charges = charges_of(scene)
         self._rows = np.flatnonzero(inventory.masses_kg > 0.0)
         self._count = len(bodies)
@@ -185,11 +186,11 @@ class Blast:
         explosion = Explosion(
             self.charges,
             convex_hulls([hull_points(body) for body in pushed], [body.name for body in pushed]),
-            settings.options,
+            settings,
         )
         self._fields: FieldBlast | None = None
         self._direct: DirectBlast | None = None
-        if settings.apply is Apply.FIELDS:
+        if settings.apply == Apply.FIELDS:
             self._fields = FieldBlast(scene, pushed, explosion)
         elif world is not None:
             self._direct = DirectBlast(world, self._rows, explosion)
@@ -235,7 +236,7 @@ def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> N
     BlastError, SimulationError
         A charge is not as it should be, or an active body lacks the force object that is to push it.
     """
-    if goes_off(scene) and explosion_of(scene).apply is Apply.FIELDS:
+    if goes_off(scene) and blast_of(scene).apply == Apply.FIELDS:
         fields_of(scene, [body for body in bodies if body.rigid_body.type == "ACTIVE"])
 
 
@@ -247,4 +248,4 @@ def goes_off(scene: bpy.types.Scene) -> bool:
     BlastError
         A charge is not as it should be.
     """
-    return explosion_of(scene).explosion and any(charge.mass_kg > 0.0 for charge in charges_of(scene))
+    return blast_of(scene).explosion and any(charge.mass_kg > 0.0 for charge in charges_of(scene))

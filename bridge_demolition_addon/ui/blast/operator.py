@@ -1,4 +1,4 @@
-"""The panel Explosion: charges and how they go off."""
+"""Buttons for charges and for what pushes the shards."""
 
 from __future__ import annotations
 
@@ -7,44 +7,30 @@ import bpy
 from ...core.blast.charges import Charge
 from ...core.errors import DemolitionError
 from ...core.scenario import BlastSettings
-from ...scene.blast.charges import (
-    DELAY,
-    EXPLOSIVE,
-    MASS,
-    charge_collection,
-    charge_objects,
-    create_charges,
-    is_charge,
-)
+from ...scene.blast.charges import charge_collection, charge_objects, create_charges
 from ...scene.blast.force_fields import build_force_objects
-from ...scene.blast.settings import explosion_settings, keep_explosion
+from ...scene.blast.settings import keep_blast
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ..operators import Refusing, no_world, refused
 from ..scenario.values import table_of
-from ..sidebar import SidebarPanel, letters_of
 from .prop import shown_charge
 
 _NEW_CHARGE_KG = 10.0
-_LETTERS_FOR_PLACES = 65
-_LETTERS_FOR_ALL = 90
-"""Width of the sidebar from which a row of the list shows more than name and mass."""
-_SHARE_OF_NAME = 0.35
-"""Of a row of the list: the rest is for numbers."""
 
 
-def keep_blast(scene: bpy.types.Scene) -> None:
-    """Note in the scene what the sidebar says of the blast, for the next recording.
+def keep_shown_blast(scene: bpy.types.Scene) -> None:
+    """Keep in the scene what the sidebar shows of the blast, for the next recording.
 
     Raises
     ------
     ScenarioError
         A value cannot be used.
     """
-    keep_explosion(scene, explosion_settings(table_of(scene.bda.scenario.blast, BlastSettings)))
+    keep_blast(scene, table_of(scene.bda.scenario.blast, BlastSettings))
 
 
 def total_mass_kg(scene: bpy.types.Scene) -> float:
-    """Mass of all active bodies but balls, kg."""
+    """Return the mass of all active bodies but balls, kg."""
     bodies = bodies_of(scene) if scene.rigidbody_world and scene.rigidbody_world.collection else []
     return sum(
         body.rigid_body.mass for body in bodies if body.rigid_body.type == "ACTIVE" and kind_of(body) != Kind.BALL
@@ -101,7 +87,7 @@ class BDA_OT_build_force_objects(Refusing, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
-            keep_blast(context.scene)
+            keep_shown_blast(context.scene)
             built = build_force_objects(context.scene, bodies_of(context.scene))
         except DemolitionError as error:
             return refused(self, error)
@@ -127,65 +113,9 @@ class BDA_OT_show_total_mass(Refusing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_UL_charges(bpy.types.UIList):
-    """The charges of the scene, one row for each."""
-
-    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index) -> None:
-        """Name and mass always, the rest where the sidebar is wide enough for it."""
-        letters = letters_of(context)
-        halves = layout.split(factor=_SHARE_OF_NAME, align=True)
-        halves.prop(item, "name", text="", emboss=False, icon="EMPTY_AXIS")
-        row = halves.row(align=True)
-        if not is_charge(item):
-            row.label(text="no charge")
-            return
-        if letters >= _LETTERS_FOR_PLACES:
-            for axis in range(3):
-                row.prop(item, "location", index=axis, text="")
-        row.prop(item, f'["{MASS}"]', text="kg")
-        if letters >= _LETTERS_FOR_ALL:
-            row.prop(item, f'["{DELAY}"]', text="")
-            row.label(text=str(item.get(EXPLOSIVE, "")))
-
-
-class BDA_PT_explosion(SidebarPanel, bpy.types.Panel):
-    """Charges, and whether they go off."""
-
-    bl_label = "Explosion"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout, settings = self.layout, context.scene.bda
-        layout.prop(settings.scenario.blast, "explosion", text="Explosion")
-        collection = charge_collection(context.scene)
-        if collection:
-            layout.template_list("BDA_UL_charges", "", collection, "objects", settings, "charge_index", rows=3)
-        row = layout.row(align=True)
-        row.operator("bda.add_source_point")
-        row.operator("bda.delete_source_point")
-        charge = shown_charge(context.scene)
-        if charge:
-            self._draw_charge(settings, charge)
-        layout.operator("bda.build_force_objects")
-        layout.operator("bda.show_total_mass")
-        if settings.total_mass:
-            layout.label(text=f"Total mass: {settings.total_mass}")
-
-    def _draw_charge(self, settings: bpy.types.PropertyGroup, charge: bpy.types.Object) -> None:
-        column = self.layout.column(align=True)
-        for axis, name in enumerate("XYZ"):
-            column.prop(charge, "location", index=axis, text=name)
-        column.prop(charge, f'["{MASS}"]', text="Mass (kg)")
-        column.prop(charge, f'["{DELAY}"]', text="Delay")
-        column.prop(settings, "charge_explosive")
-        column.prop(settings, "charge_burst")
-
-
 CLASSES = (
     BDA_OT_add_source_point,
     BDA_OT_delete_source_point,
     BDA_OT_build_force_objects,
     BDA_OT_show_total_mass,
-    BDA_UL_charges,
-    BDA_PT_explosion,
 )

@@ -20,7 +20,7 @@ from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recorder import Recording, check_recordable
 from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
 from ...simulation.run_summary import Subject, rest_watch, run_summary
-from ..blast.operator import keep_blast
+from ..blast.operator import keep_shown_blast
 from ..operators import Refusing, absolute, no_world, recording_runs, refused
 from ..scenario.values import scenario_of, table_of
 from . import last_recording, redraw, running
@@ -95,7 +95,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     check_recordable(scene)
     table = table_of(settings.scenario.recording, RecordingSettings)
     scenario = _scenario_as_recorded(settings)
-    keep_blast(scene)
+    keep_shown_blast(scene)
     forces, debris = (
         _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
     )

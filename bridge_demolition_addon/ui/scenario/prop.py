@@ -24,9 +24,9 @@ from bpy.props import (
     StringProperty,
 )
 
-from ...core.scenario import ChargeSettings, Scenario
+from ...core.scenario import Charge, Scenario
 from ...core.scenario.file import read_scenario, toml_value
-from ...core.scenario.schema import (
+from ...core.schema import (
     Key,
     Table,
     expected,
@@ -80,7 +80,7 @@ def is_written_out(item: Field) -> bool:
 
 def shown_tables(table_class: type[Table]) -> list[Field]:
     """Return the fields of the tables in a table, but for the charges, which are objects of the scene."""
-    return [item for item in subtable_fields(table_class) if subtable_class(item) is not ChargeSettings]
+    return [item for item in subtable_fields(table_class) if subtable_class(item) is not Charge]
 
 
 def label_of(table_class: type[Table], item: Field) -> str:

@@ -5,7 +5,7 @@ from dataclasses import Field
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from ...core.scenario.schema import is_optional, key_fields
+from ...core.schema import is_optional, key_fields
 from .prop import INDEX, USE, all_tables, group_name
 
 LIST = "BDA_UL_tables"

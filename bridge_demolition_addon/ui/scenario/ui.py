@@ -9,7 +9,7 @@ from functools import cache
 import bpy
 
 from ...core.scenario import Scenario
-from ...core.scenario.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
+from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ..sidebar import SidebarPanel, letters_of
 from .prop import INDEX, USE, label_of, shown_tables, vector_length
 from .table_list import draw_list

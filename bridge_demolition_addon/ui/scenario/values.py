@@ -6,20 +6,20 @@ the shortest decimal that single precision takes for it, which is what the user 
 
 from __future__ import annotations
 
-import json
+import math
 import tomllib
 from collections.abc import Iterable
-from dataclasses import Field, asdict
+from dataclasses import Field, replace
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ...core.blast.charges import Charge
 from ...core.errors import BlastError, ScenarioError
-from ...core.scenario import ChargeSettings, Scenario
+from ...core.scenario import Charge, Scenario
 from ...core.scenario.file import toml_value
-from ...core.scenario.schema import (
+from ...core.scenario.kept import table_values, values_from_text, values_text
+from ...core.schema import (
     Table,
     expected,
     holds_many,
@@ -34,9 +34,8 @@ from ...core.scenario.schema import (
 from ...scene.blast.charges import charges_of, replace_charges
 from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length
 
-_MS_PER_S = 1000.0
-_DIGITS = 12
-"""Of a delay in ms that was kept in s: what more digits tell is the rounding of that."""
+_ROUNDING = 1e-14
+"""Relative difference of a delay that only comes from keeping it in s."""
 
 
 def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
@@ -58,7 +57,7 @@ def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others:
     ScenarioError
         A value cannot be used; the text names the key.
     """
-    given = json.loads(getattr(group, GIVEN) or "{}")
+    given = values_from_text(getattr(group, GIVEN), {})
     values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in key_fields(table_class)}
     for item in shown_tables(table_class):
         values[item.name] = _inner(group, item)
@@ -68,10 +67,9 @@ def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others:
 def show_scenario(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
     """Show a scenario in the sidebar, and its charges in the scene in place of those that were there."""
     show_table(settings.scenario, scenario)
-    empties = replace_charges(settings.id_data, scenario.placed_charges)
-    numbered = zip(empties, scenario.charges, strict=True)
-    given = {each.name: {"number": number, **asdict(charge)} for number, (each, charge) in enumerate(numbered, start=1)}
-    settings.charges_given = json.dumps(given)
+    empties = replace_charges(settings.id_data, scenario.charges)
+    given = {each.name: table_values(charge) for each, charge in zip(empties, scenario.charges, strict=True)}
+    settings.charges_given = values_text(given)
     settings.charge_index = 0
 
 
@@ -88,7 +86,7 @@ def show_table(group: bpy.types.PropertyGroup, table: Table) -> None:
         if value_type(item) is float or vector_length(item):
             given[item.name] = value
         setattr(group, item.name, toml_value(value) if is_written_out(item) else value)
-    setattr(group, GIVEN, json.dumps(given))
+    setattr(group, GIVEN, values_text(given))
     for item in shown_tables(type(table)):
         inner = getattr(table, item.name)
         if holds_many(item):
@@ -156,31 +154,23 @@ def _list_of(text: str, name: str, item: Field) -> list:
     raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
 
 
-def _charges(settings: bpy.types.PropertyGroup) -> Iterable[ChargeSettings]:
-    given = json.loads(settings.charges_given or "{}")
+def _charges(settings: bpy.types.PropertyGroup) -> Iterable[Charge]:
+    given = values_from_text(settings.charges_given, {})
     scene = settings.id_data
     scene.view_layers[0].update()  # a script may have moved one just now
     try:
         charges = charges_of(scene)
     except BlastError as error:
         raise ScenarioError(str(error)) from error
-    return tuple(_charge(each, number, given.get(each.name, {})) for number, each in enumerate(charges, start=1))
+    return tuple(_as_given(charge, given.get(charge.name, {})) for charge in charges)
 
 
-def _charge(charge: Charge, number: int, given: dict[str, Any]) -> ChargeSettings:
-    """A charge of the scene, with what it was loaded from, if it was."""
-    name = given["name"] if given and (given["name"] or given["number"] == number) else charge.name
-    delay_ms = given.get("delay_ms")
-    if delay_ms is None or delay_ms / _MS_PER_S != charge.delay_s:
-        delay_ms = float(f"{charge.delay_s * _MS_PER_S:.{_DIGITS}g}")
-    try:
-        return ChargeSettings(
-            name=name,
-            place_m=tuple(map(_number, charge.place_m, given.get("place_m", (None,) * 3))),
-            mass_kg=charge.mass_kg,
-            explosive=charge.explosive,
-            delay_ms=delay_ms,
-            burst=charge.burst.value,
-        )
-    except ScenarioError as error:
-        raise ScenarioError(f"charge {charge.name!r}: {error}") from error
+def _as_given(charge: Charge, given: dict[str, Any]) -> Charge:
+    """Return a charge of the scene; what did not change since it was loaded is exactly what was loaded."""
+    delay_ms = given.get("delay_ms", charge.delay_ms)
+    return replace(
+        charge,
+        name=given.get("name") or charge.name,
+        place_m=tuple(map(_number, charge.place_m, given.get("place_m", (None,) * 3))),
+        delay_ms=delay_ms if math.isclose(delay_ms, charge.delay_ms, rel_tol=_ROUNDING) else charge.delay_ms,
+    )

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.blast.charges import EXPLOSIVES, Charge, ChargeArrays, explosive_named
+from bridge_demolition_addon.core.blast.charges import EXPLOSIVES, Charge, explosive_named, named_charges
 from bridge_demolition_addon.core.blast.wave import Burst
-from bridge_demolition_addon.core.errors import BlastError
+from bridge_demolition_addon.core.errors import BlastError, ScenarioError
 
 
 def charge(**changes):
@@ -36,50 +36,48 @@ def test_every_explosive_has_a_source_and_a_plausible_worth():
 @pytest.mark.parametrize("name", ["anfo", " ANFO ", "Anfo"])
 def test_names_in_any_letters(name):
     assert explosive_named(name) is EXPLOSIVES["ANFO"]
-    assert charge(explosive=name).explosive == "ANFO"
+
+
+@pytest.mark.parametrize("name", ["jelly", None])
+def test_unknown_explosives_are_refused(name):
+    with pytest.raises(BlastError, match=f"explosive is {name!r}: expected one of TNT, ANFO, C-4"):
+        explosive_named(name)
 
 
 def test_values_are_kept_as_what_they_are():
-    kept = charge(place_m=np.array([1, 2, 3]), mass_kg=np.float32(2), delay_s=1, burst="surface")
+    kept = charge(place_m=[1, 2, 3], mass_kg=np.float32(2), delay_ms=1, burst="surface")
     assert kept.place_m == (1.0, 2.0, 3.0)
-    assert [type(value) for value in (*kept.place_m, kept.mass_kg, kept.delay_s)] == [float] * 5
-    assert kept.burst is Burst.SURFACE
+    assert [type(value) for value in (*kept.place_m, kept.mass_kg, kept.delay_ms)] == [float] * 5
+    assert kept.burst == Burst.SURFACE
+    assert kept.delay_s == 0.001
     assert charge(mass_kg=0.0).tnt_kg == 0.0
 
 
-def test_arrays_of_charges():
-    arrays = ChargeArrays.of([charge(), charge(explosive="ANFO", delay_s=0.25, burst=Burst.SURFACE)])
-    assert arrays.places_m.tolist() == [[1.0, 2.0, 3.0]] * 2
-    assert arrays.tnt_kg == pytest.approx([10.0, 8.2])
-    assert arrays.delays_s.tolist() == [0.0, 0.25]
-    assert arrays.bursts == (Burst.AIR, Burst.SURFACE)
-
-
-def test_arrays_of_no_charges():
-    arrays = ChargeArrays.of([])
-    assert arrays.places_m.shape == (0, 3)
-    assert arrays.tnt_kg.shape == arrays.delays_s.shape == (0,)
+def test_charges_without_a_name_are_called_after_their_number():
+    named = named_charges([charge(), charge(name=None), charge(name="last")])
+    assert [each.name for each in named] == ["mid pier", "Charge 2", "last"]
+    assert named_charges(named) == named
 
 
 @pytest.mark.parametrize(
     "changes, message",
     [
-        ({"mass_kg": -1.0}, "mid pier: mass is -1.0: expected a finite number of at least 0 (kg)"),
-        ({"mass_kg": float("nan")}, "mid pier: mass is nan: expected a finite number"),
-        ({"mass_kg": float("inf")}, "mid pier: mass is inf: expected a finite number"),
-        ({"mass_kg": "much"}, "mid pier: mass is much: expected a finite number"),
-        ({"mass_kg": None}, "mid pier: mass is None: expected a finite number"),
-        ({"delay_s": -0.001}, "mid pier: delay is -0.001: expected a finite number of at least 0 (s)"),
-        ({"delay_s": float("nan")}, "mid pier: delay is nan"),
-        ({"place_m": (0.0, 0.0)}, "mid pier: place is (0.0, 0.0): expected three finite numbers (m)"),
-        ({"place_m": (0.0, 0.0, float("inf"))}, "mid pier: place is (0.0, 0.0, inf): expected three finite numbers"),
-        ({"place_m": 3.0}, "mid pier: place is 3.0: expected three finite numbers"),
-        ({"explosive": "jelly"}, "explosive is 'jelly': expected one of TNT, ANFO, C-4"),
-        ({"explosive": None}, "explosive is None: expected one of TNT"),
-        ({"burst": "water"}, "Burst is 'water': expected one of air, surface"),
+        ({"mass_kg": -1.0}, "charges.mass_kg is -1.0: expected a number from 0 to 1000000 (kg)"),
+        ({"mass_kg": float("nan")}, "charges.mass_kg is nan: expected a number"),
+        ({"mass_kg": float("inf")}, "charges.mass_kg is inf: expected a number"),
+        ({"mass_kg": "much"}, 'charges.mass_kg is "much": expected a number'),
+        ({"mass_kg": None}, "charges.mass_kg is missing: expected a number"),
+        ({"delay_ms": -1.0}, "charges.delay_ms is -1.0: expected a number from 0"),
+        ({"delay_ms": float("nan")}, "charges.delay_ms is nan"),
+        ({"place_m": (0.0, 0.0)}, "charges.place_m is a list of length 2: expected a list of 3 numbers (m)"),
+        ({"place_m": (0.0, 0.0, float("inf"))}, "charges.place_m[2] is inf: expected a list of 3 numbers"),
+        ({"place_m": 3.0}, "charges.place_m is 3.0: expected a list of 3 numbers"),
+        ({"explosive": "jelly"}, 'charges.explosive is "jelly": expected one of "TNT", "ANFO", "C-4"'),
+        ({"explosive": None}, 'charges.explosive is missing: expected one of "TNT"'),
+        ({"burst": "water"}, 'charges.burst is "water": expected one of "air", "surface"'),
     ],
 )
 def test_impossible_charges_are_refused(changes, message):
-    with pytest.raises(BlastError) as refusal:
+    with pytest.raises(ScenarioError) as refusal:
         charge(**changes)
     assert message in str(refusal.value)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.explosion import BlastOptions, Explosion, sum_of_loads
+from bridge_demolition_addon.core.blast.explosion import Explosion, sum_of_loads
+from bridge_demolition_addon.core.blast.settings import BlastSettings
 from bridge_demolition_addon.core.geometry.hulls import convex_hulls
 from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, WIDEST_M, isolating_reaches
 
@@ -16,11 +17,11 @@ IMPULSE_AT_5_PA_S = 40.62
 
 
 def explosion(*charges, **options):
-    return Explosion(charges, convex_hulls([CUBE, CUBE]), BlastOptions(**options))
+    return Explosion(charges, convex_hulls([CUBE, CUBE]), BlastSettings(**({"start_s": 0.0} | options)))
 
 
 def charge(place, mass=1.0, delay=0.0):
-    return Charge(name=str(place), place_m=place, mass_kg=mass, delay_s=delay)
+    return Charge(name=str(place), place_m=place, mass_kg=mass, delay_ms=1e3 * delay)
 
 
 CENTRES = np.array([[5.0, 0.0, 0.0], [0.0, 10.0, 0.0]])

@@ -23,7 +23,7 @@ from bridge_demolition_addon.core.scenario import (
     ShardSettings,
     TimeSettings,
 )
-from bridge_demolition_addon.core.scenario.schema import key_fields, shown, subtable_class, subtable_fields
+from bridge_demolition_addon.core.schema import key_fields, shown, subtable_class, subtable_fields
 
 DECK = Deck(width_m=8.5, thickness_m=0.25, overhang_m=0.5)
 PIERS = Piers(columns=2, column_length_m=0.7, column_width_m=0.7, height_m=4.9)

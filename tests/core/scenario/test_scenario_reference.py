@@ -4,7 +4,7 @@ from places import ROOT
 
 from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.reference import scenario_reference
-from bridge_demolition_addon.core.scenario.schema import holds_many, key_fields, subtable_class, subtable_fields
+from bridge_demolition_addon.core.schema import holds_many, key_fields, subtable_class, subtable_fields
 
 DOCUMENT = ROOT / "docs" / "scenario.md"
 

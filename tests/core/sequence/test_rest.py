@@ -65,7 +65,7 @@ def test_last_event():
     assert last_event_s(replace(I235, ball=None)) == 0.0
     assert last_event_s(replace(I235, saw_cuts=[SawCut(time_s=3, point_m=(6, 0, 5), normal=(1, 0, 0))])) == 3.0
     explosive = read_scenario(EXAMPLES / "single_span_explosives.toml")
-    detonations = [explosive.blast.start_s + charge.delay_s for charge in explosive.placed_charges]
+    detonations = [explosive.blast.start_s + charge.delay_s for charge in explosive.charges]
     assert last_event_s(replace(explosive, ball=None)) == max(detonations) > 0.0
     quiet = replace(explosive.blast, explosion=False)
     assert last_event_s(replace(explosive, ball=None, blast=quiet)) == 0.2  # its warm-up

@@ -4,9 +4,10 @@ import pytest
 from places import SMALL
 
 from bridge_demolition_addon.core.blast.charges import EXPLOSIVES
+from bridge_demolition_addon.core.blast.settings import BlastSettings
 from bridge_demolition_addon.scene.blast.charges import charge_objects, charges_of
-from bridge_demolition_addon.scene.blast.settings import explosion_of
-from bridge_demolition_addon.ui.blast.operator import keep_blast
+from bridge_demolition_addon.scene.blast.settings import blast_of, keep_blast
+from bridge_demolition_addon.ui.blast.operator import keep_shown_blast
 
 
 @pytest.fixture
@@ -108,10 +109,28 @@ def test_buttons_without_a_world_are_greyed(extension):
 def test_what_is_ticked_counts(built, settings):
     settings.scenario.blast.explosion = False
     built.ops.bda.build_force_objects()
-    assert not explosion_of(built.context.scene).explosion
+    assert not blast_of(built.context.scene).explosion
     settings.scenario.blast.explosion = True
     settings.scenario.blast.start_s = 0.1
     settings.scenario.blast.apply = "direct"
-    keep_blast(built.context.scene)
-    found = explosion_of(built.context.scene)
-    assert (found.explosion, found.apply, found.options.start_s) == (True, "direct", 0.1)
+    keep_shown_blast(built.context.scene)
+    found = blast_of(built.context.scene)
+    assert (found.explosion, found.apply, found.start_s) == (True, "direct", 0.1)
+
+
+def test_settings_saved_before_are_read(extension):
+    scene = extension.context.scene
+    assert blast_of(scene) == BlastSettings(explosion=False)
+    saved = {"explosion": True, "apply": "direct", "start_s": 0.2, "model": "kinney-graham", "loading": "reflected"}
+    for name, value in (saved | {"shielding": True, "constant_decay": -1.0}).items():
+        scene[f"bda_blast_{name}"] = value
+    assert blast_of(scene) == BlastSettings(**saved, shielding=True)
+    scene["bda_blast_constant_decay"] = 1.0
+    assert blast_of(scene).constant_decay == 1.0
+
+
+def test_settings_are_read_as_they_were_kept(extension):
+    scene = extension.context.scene
+    for settings in (BlastSettings(start_s=0.1, slow_frame_ms=2.0, constant_decay=0.0), BlastSettings()):
+        keep_blast(scene, settings)
+        assert blast_of(scene) == settings

@@ -8,7 +8,7 @@ from places import EXAMPLES, SMALL
 from random_scenarios import varied
 
 from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.scenario import ChargeSettings
+from bridge_demolition_addon.core.scenario import Charge
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, shortest, show_scenario
@@ -38,9 +38,7 @@ def test_another_scenario_leaves_nothing_of_the_one_before(settings):
 def test_random_scenarios_come_back_as_they_were(settings, seed):
     random = np.random.default_rng(seed)
     scenario = varied(read_scenario(FILES[seed % len(FILES)]), random)
-    charge = ChargeSettings(
-        place_m=tuple(random.normal(size=3)), mass_kg=random.uniform(0, 9), delay_ms=random.uniform(0, 9)
-    )
+    charge = Charge(place_m=tuple(random.normal(size=3)), mass_kg=random.uniform(0, 9), delay_ms=random.uniform(0, 9))
     time = replace(scenario.time, duration_s=max(scenario.time.duration_s, scenario.blast.start_s + 1.0))
     scenario = replace(scenario, time=time, charges=(*scenario.charges, charge, replace(charge, name="x" * 80)))
     show_scenario(settings, scenario)

@@ -15,7 +15,7 @@ from unicodedata import category
 
 import numpy as np
 
-from ..errors import ScenarioError
+from .errors import ScenarioError
 
 LARGEST_INTEGER = 2**31 - 1
 """Largest whole number that Blender's properties hold."""

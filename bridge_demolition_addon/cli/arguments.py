@@ -1,0 +1,43 @@
+"""Arguments that several commands have in common, refused with what was expected instead."""
+
+import argparse
+import math
+
+from ..core.blast.models import BlastModel
+from ..core.blast.wave import Burst
+
+SMALLEST, LARGEST = 1e-6, 1e9
+"""What a mass, a distance or a load on the command line has to lie between."""
+
+
+def quantity(text: str, largest: float = LARGEST) -> float:
+    """Return a number for something that there is: above 0, and of a size that means something.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        It is none; the parser adds the option's name.
+    """
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not SMALLEST <= number <= largest:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a number from {SMALLEST:g} to {largest:g}")
+    return number
+
+
+def add_blast_options(parser: argparse.ArgumentParser) -> None:
+    """Add where the charge detonates, and where the wave comes from."""
+    parser.add_argument(
+        "--burst",
+        choices=[burst.value for burst in Burst],
+        default=Burst.AIR.value,
+        help="where the charge detonates: free in the air, or on the ground, which sends its wave back up (air)",
+    )
+    parser.add_argument(
+        "--model",
+        choices=[model.value for model in BlastModel],
+        default=BlastModel.KINGERY_BULMASH.value,
+        help="formulas for the blast wave (kingery-bulmash)",
+    )
