@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
-DATA = DOCS / "data" / "seeds_two_spans_13m_explosives.csv"
+DATA = DOCS / "data" / "seeds" / "two_spans_13m_explosives.csv"
 PICTURE = DOCS / "pictures" / "seeds_two_spans_13m_explosives.png"
 
 
