@@ -25,7 +25,7 @@ MOMENTS = ("before", "impact", "after")
 PICTURE_PX, GAP_PX = (640, 360), 10
 QUALITY = 85
 LEFT_OUT = "Every key is explained"
-"""How the paragraph of an example begins that the page needs only once."""
+"""Beginning of a paragraph that examples have and the page does without."""
 
 HEADER = """\
 # Gallery
@@ -41,7 +41,7 @@ took {minutes} minutes.
 
 
 def main(names: list[str]) -> int:
-    """Run examples and write the page; the exit status."""
+    """Run examples, write the page and return the exit status."""
     wanted = [EXAMPLES / f"{name}.toml" for name in names] or examples()
     if missing := [path.stem for path in wanted if not path.exists()]:
         print(f"gallery: there is no example {', '.join(missing)}", file=sys.stderr)
@@ -57,12 +57,12 @@ def main(names: list[str]) -> int:
 
 
 def examples() -> list[Path]:
-    """All examples, by name."""
+    """Return all examples, by name."""
     return sorted(EXAMPLES.glob("*.toml"))
 
 
 def run(path: Path) -> float:
-    """Run an example as a reader does, and take the time."""
+    """Run an example as a reader does and return the seconds it took."""
     bda = Path(sys.executable).parent / "bda"
     began = time.perf_counter()
     subprocess.run([bda, "run", path, "--output", RUNS / path.stem, "--overwrite"], check=True)
@@ -70,7 +70,7 @@ def run(path: Path) -> float:
 
 
 def times() -> dict[str, float]:
-    """Seconds of every run so far, by name."""
+    """Return the seconds of every run so far, by name."""
     return json.loads(TIMES.read_text(encoding="utf-8")) if TIMES.exists() else {}
 
 
@@ -86,14 +86,14 @@ def side_by_side(folder: Path, target: Path) -> None:
 
 
 def page() -> str:
-    """The page, from what the examples say of themselves."""
+    """Return the page, made of the comments of the examples."""
     taken = times()
     header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)))
     return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples())])
 
 
 def with_table(readme: str) -> str:
-    """The README with a table of all examples and their times in its place."""
+    """Return the README with a new table of all examples and their times."""
     before, rest = readme.split(TABLE[0])
     _, after = rest.split(TABLE[1])
     taken = times()
@@ -105,21 +105,21 @@ def with_table(readme: str) -> str:
 
 
 def title(path: Path) -> str:
-    """Title of a scenario."""
+    """Return the title of a scenario."""
     return tomllib.loads(path.read_text(encoding="utf-8"))["scenario"]["title"]
 
 
 def section(path: Path, seconds: float | None) -> str:
-    """One example: its title, its pictures, its words and how long it takes."""
-    told = [each for each in paragraphs(path) if not each.startswith(LEFT_OUT)]
+    """Return the section of an example: its title, its pictures, its words and how long it takes."""
+    words = [each for each in paragraphs(path) if not each.startswith(LEFT_OUT)]
     took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
     file = f"[{path.name}](../examples/{path.name})"
     picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"
-    return "\n\n".join([f"## {title(path)}", picture, *told, " ".join([f"Scenario: {file}.", *took])]) + "\n"
+    return "\n\n".join([f"## {title(path)}", picture, *words, " ".join([f"Scenario: {file}.", *took])]) + "\n"
 
 
 def paragraphs(path: Path) -> list[str]:
-    """What stands in the comment at the head of an example, paragraph by paragraph."""
+    """Return the paragraphs of the comment at the head of an example."""
     lines = []
     for line in path.read_text(encoding="utf-8").splitlines():
         if not line.startswith("#"):
@@ -129,7 +129,7 @@ def paragraphs(path: Path) -> list[str]:
 
 
 def rounded(seconds: float) -> int:
-    """To 5 s, as the next run takes a little more or less."""
+    """Return seconds to the next 5, as the next run takes a little more or less."""
     return max(5, 5 * round(seconds / 5.0))
 
 

@@ -1,4 +1,4 @@
-"""``bda check``: what follows from a scenario, without running it."""
+"""``bda check``: print what follows from a scenario, without running it."""
 
 import argparse
 from collections.abc import Iterator, Sequence
@@ -24,7 +24,7 @@ from ..core.sequence.checked_model import runnable_model
 from ..core.structure.model import Model
 
 MOST_FIELDS = 300
-"""Force fields up to which they cost less than the rest of a frame: Blender holds every one against every body."""
+"""Force fields up to which they cost less than the rest of a frame: Blender tests every one against every body."""
 
 MOST_SHARDS_CUT = 2000
 """Cutting so many shards and comparing them with their neighbours takes some seconds."""
@@ -46,7 +46,7 @@ def check(arguments: argparse.Namespace) -> None:
 
 
 def scenario_facts(scenario: Scenario) -> Iterator[str]:
-    """Lines on a scenario's bridge, time steps, connections and ball."""
+    """Yield lines on a scenario's bridge, time steps, connections, ball, sequence and charges."""
     yield scenario.title
     prepared = prepared_members(scenario)
     if scenario.bridge:
@@ -94,7 +94,7 @@ def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
 
 
 def _overlap_facts(model: Model | None) -> Iterator[tuple[str, str]]:
-    """Whether shards lie in each other, which would throw them apart when the simulation begins."""
+    """Yield whether shards lie in each other, which would throw them apart when the simulation begins."""
     if model is None:
         yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_CUT}"
         return
@@ -141,7 +141,7 @@ def _rule_facts(connections: ConnectionSettings) -> Iterator[tuple[str, str]]:
 
 
 def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:
-    """What a connection of a rule holds, and what breaks it where that is not as elsewhere."""
+    """Return what a connection of a rule holds, and what breaks it where that is not as elsewhere."""
     words = [joint.type]
     if joint.free:
         words.append(f"free: {', '.join(joint.free)}")
@@ -173,7 +173,7 @@ def _ball_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
 
 
 def _sequence_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
-    """What is planned besides hits and charges, in order of time."""
+    """Yield what is planned besides hits and charges, in order of time."""
     steps = [(change.time_s, f"{change.kind}, {_where(change)}") for change in scenario.changes]
     for hammer in scenario.jackhammers:
         work = f"jackhammer until {hammer.end_time_s:g} s, at up to {hammer.largest_speed_m_s:.1f} m/s"

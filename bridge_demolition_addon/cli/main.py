@@ -1,4 +1,4 @@
-"""The command line ``bda``: which commands there are, and what each kind of failure says and returns."""
+"""Command line ``bda``: its commands, and what each kind of failure prints and returns."""
 
 import argparse
 import os
@@ -22,7 +22,7 @@ class UsageError(DemolitionError):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors go the way of all others: one line, without the usage."""
+    """A parser whose errors are printed as all others are: one line, without the usage."""
 
     def error(self, message: str) -> NoReturn:
         """Refuse a command line."""

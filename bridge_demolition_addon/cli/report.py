@@ -1,4 +1,4 @@
-"""``bda report``: what an engineer hands over, from the folder of a run; several folders are set side by side."""
+"""``bda report``: write what an engineer hands over, from the folder of a run or of several side by side."""
 
 import argparse
 import sys

@@ -14,6 +14,7 @@ from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import runnable_model
+from ..core.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
 from .progress import Progress, progress_on
 
@@ -55,7 +56,7 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         with _blender_silenced() if arguments.quiet else nullcontext():
             if len(scenarios) == 1:
-                _run_and_report(scenarios[0], arguments.output, arguments, progress)
+                _run_and_report(scenarios[0], None, arguments.output, arguments, progress)
             else:
                 _run_study(scenarios, arguments, progress)
     finally:
@@ -71,16 +72,13 @@ def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, pro
     progress.stage(f"checking {len(scenarios)} scenarios")
     for folder in [*folders, comparison] if arguments.report else folders:
         check_folder(folder, overwrite=arguments.overwrite)
-    for path, scenario in zip(arguments.scenarios, scenarios, strict=True):
-        try:
-            runnable_model(scenario)
-        except (GeometryError, ScenarioError) as error:
-            raise type(error)(f"{path}: {error}") from error
+    models = [_model_of(path, scenario) for path, scenario in zip(arguments.scenarios, scenarios, strict=True)]
     if arguments.overwrite:
         remove_report(comparison)  # it would be that of earlier runs
-    for number, (path, scenario, folder) in enumerate(zip(arguments.scenarios, scenarios, folders, strict=True), 1):
+    plan = zip(arguments.scenarios, scenarios, models, folders, strict=True)
+    for number, (path, scenario, model, folder) in enumerate(plan, 1):
         progress.stage(f"scenario {number} of {len(scenarios)}: {path}")
-        _run_and_report(scenario, folder, arguments, progress)
+        _run_and_report(scenario, model, folder, arguments, progress)
     if arguments.report:
         progress.stage(f"comparing {len(scenarios)} runs")
         written = _report(folders, comparison, progress)
@@ -89,8 +87,16 @@ def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, pro
             _print_paths(written)
 
 
+def _model_of(path: str, scenario: Scenario) -> Model:
+    """Return the model of a scenario file; what is wrong with it is said with the file's name."""
+    try:
+        return runnable_model(scenario)
+    except (GeometryError, ScenarioError) as error:
+        raise type(error)(f"{path}: {error}") from error
+
+
 def study_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
-    """Folders of the runs of several scenario files, called like these.
+    """Return the folders of the runs of several scenario files, called like these.
 
     Raises
     ------
@@ -109,8 +115,10 @@ def study_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
     return [output / Path(file).stem for file in scenarios]
 
 
-def _run_and_report(scenario: Scenario, output: Path, arguments: argparse.Namespace, progress: Progress) -> None:
-    summary = _run_scenario(scenario, output, arguments, progress)
+def _run_and_report(
+    scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
+) -> None:
+    summary = _run_scenario(scenario, model, output, arguments, progress)
     report = _report([output], None, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
@@ -118,7 +126,7 @@ def _run_and_report(scenario: Scenario, output: Path, arguments: argparse.Namesp
 
 
 def _run_scenario(
-    scenario: Scenario, output: Path, arguments: argparse.Namespace, progress: Progress
+    scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> Mapping[str, Any]:
     try:
         from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
@@ -129,6 +137,7 @@ def _run_scenario(
     return run_scenario(
         scenario,
         output,
+        model=model,
         overwrite=arguments.overwrite,
         pictures=not arguments.no_pictures,
         film=arguments.film,
@@ -138,7 +147,7 @@ def _run_scenario(
 
 @contextmanager
 def _blender_silenced() -> Iterator[None]:
-    """Drop what is written to standard output, also past Python: Blender tells of each file it saves."""
+    """Drop what is written to standard output, also past Python: Blender names each file that it saves."""
     sys.stdout.flush()
     standard_output = os.dup(1)
     with open(os.devnull, "wb") as nowhere:

@@ -1,4 +1,4 @@
-"""What is in a run's folder, whole or cut short."""
+"""Read a run's folder, whole or cut short."""
 
 from __future__ import annotations
 
@@ -30,7 +30,15 @@ from ..core.scenario.file import read_scenario
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LoggedForces:
-    """What a force log tells by itself: (k,) times, and largest sum and resultant on any body but the ground."""
+    """What a force log holds without results.
+
+    Attributes
+    ----------
+    times_s : (k,) float
+        Times of the frames.
+    sums_n, resultants_n : (k,) float
+        Largest sum of magnitudes and largest resultant on any body but the ground.
+    """
 
     times_s: np.ndarray
     sums_n: np.ndarray
@@ -68,12 +76,12 @@ class Run:
 
     @property
     def name(self) -> str:
-        """What the run is called beside others."""
+        """Name of the run beside others."""
         return self.folder.resolve().name
 
     @property
     def title(self) -> str:
-        """The scenario's title, or else the folder's name."""
+        """Title of the scenario, or else name of the folder."""
         if self.scenario:
             return self.scenario.title
         return str(self.summary["title"]) if self.summary and "title" in self.summary else self.name
@@ -144,7 +152,7 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
 
 
 def _reason(error: Exception, path: Path) -> str:
-    """What an error says, without the path that it begins with: a report is read elsewhere."""
+    """Return what an error says without the path at its beginning: a report is read elsewhere."""
     return str(error).removeprefix(f"{path}: ")
 
 
@@ -182,7 +190,7 @@ def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
 
 
 def _pictures(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
-    """Those of the rendered pictures that are there and whole."""
+    """Return those of the rendered pictures that are there and whole."""
     found = {}
     for name in PICTURES:
         path = folder / PICTURE_FOLDER / f"{name}.png"
@@ -198,7 +206,7 @@ def _pictures(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
 
 
 def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None:
-    """Largest forces of every frame that the log holds whole."""
+    """Return the largest forces of every frame that the log holds whole."""
     largest: dict[float, tuple[float, float]] = {}
     bodies_of_frame: dict[float, int] = {}
     try:

@@ -15,7 +15,7 @@ from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF
 from ..core.results.footprint import footprint
 from ..core.scenario.file import scenario_text
 from .comparison import comparison
-from .document.blocks import Document, Picture, Section, write_tables
+from .document.blocks import DataTable, Document, Picture, write_tables
 from .document.html import write_html
 from .document.pdf import write_pdf
 from .run_folder import Run, read_run
@@ -93,7 +93,7 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
     progress.stage("evaluating debris, zones, forces and energy")
     zone = zone_of(run)
     plans: list[Path] = []
-    extra = []
+    only_as_file: list[DataTable] = []
     if zone is not None:
         layers = {
             "exclusion zone": zone.whole,
@@ -106,7 +106,7 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
         if run.scenario.site:
             plans.append(target / GEOJSON_FILE)
             write_geojson(plans[1], layers, run.scenario.site)
-        extra.append(corner_table(zone))
+        only_as_file.append(corner_table(zone))
     sections = [cover_section(run, add_on_version()), trust_section(run)]
     if run.results is not None and len(run.results.of_kind("shard")):
         sections.append(debris_section(run, trajectories=trajectories))
@@ -121,15 +121,14 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
     document = Document(run.title, subtitle, tuple(sections))
-    only_as_table = Document("", "", (Section("", tuple(extra)),))
-    return [*_written(document, target, progress, only_as_table), *plans]
+    return [*_written(document, target, progress, *only_as_file), *plans]
 
 
 def _outline(run: Run) -> CrossSection:
     return footprint(run.results, run.results.of_kind("shard"), 0)
 
 
-def _written(document: Document, target: Path, progress: Progress, *more_tables: Document) -> list[Path]:
+def _written(document: Document, target: Path, progress: Progress, *only_as_file: DataTable) -> list[Path]:
     pictures = sum(isinstance(block, Picture) for block in document.blocks())
     drawn = 0
 
@@ -144,5 +143,5 @@ def _written(document: Document, target: Path, progress: Progress, *more_tables:
     write_pdf(document, target / REPORT_PDF, lambda done, total: progress.part(done, total, "pages written"))
     tables = target / TABLE_FOLDER
     tables.mkdir(exist_ok=True)
-    written = [path for each in (document, *more_tables) for path in write_tables(each, tables)]
+    written = write_tables([*document.named_tables(), *only_as_file], tables)
     return [target / REPORT_PAGE, target / REPORT_PDF, *written]

@@ -50,7 +50,14 @@ class Progress(Protocol):
 
 
 def run_scenario(
-    scenario: Scenario, output: Path, *, overwrite: bool, pictures: bool, progress: Progress, film: bool = False
+    scenario: Scenario,
+    output: Path,
+    *,
+    overwrite: bool,
+    pictures: bool,
+    progress: Progress,
+    film: bool = False,
+    model: Model | None = None,
 ) -> dict[str, Any]:
     """Simulate a scenario in a new, otherwise empty Blender file and keep everything in a folder.
 
@@ -69,6 +76,8 @@ def run_scenario(
     film
         Whether to render a film of the contours, in real time and in slow motion, which takes a second or more for
         every frame without a graphics card.
+    model
+        Its model, where it is built already.
 
     Returns
     -------
@@ -88,7 +97,7 @@ def run_scenario(
     """
     began = time.perf_counter()
     progress.stage("building the bridge and its shards")
-    model = runnable_model(scenario)
+    model = model or runnable_model(scenario)
     folder = prepared_folder(output, overwrite=overwrite)
     (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
     scene = _empty_scene(scenario.title)

@@ -136,7 +136,7 @@ def test_a_table_is_read_and_is_a_file(tmp_path):
     table = DataTable("speeds", "Speeds", columns, [(1.23456789, 'a, "b"'), (None, None), (float("nan"), "c")])
     assert table.shown_rows() == [["1.2", 'a, "b"'], ["-", "-"], ["-", "c"]]
     document = Document("", "", (Section("", (table, facts("Read only", [("a", "b")]))),))
-    (path,) = write_tables(document, tmp_path)
+    (path,) = write_tables(document.named_tables(), tmp_path)
     assert path.read_text(encoding="utf-8") == 'speed_m_s,who\n1.23456789,"a, ""b"""\n,\nnan,c\n'
 
 

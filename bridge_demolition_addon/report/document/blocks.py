@@ -1,10 +1,10 @@
-"""What a report consists of, for a browser or as a PDF: sections of text, tables and pictures."""
+"""Blocks of a report, for a browser or as a PDF: sections of text, tables and pictures."""
 
 from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -49,7 +49,7 @@ class Column:
     form: str = ""
 
     def shown(self, value: Any) -> str:
-        """A value as people read it."""
+        """Return a value as people read it."""
         if value is None or (isinstance(value, float) and not math.isfinite(value)):
             return MISSING
         return format(value, self.form) if self.form else str(value)
@@ -75,7 +75,7 @@ class DataTable:
     rows: Sequence[tuple[Any, ...]]
 
     def shown_rows(self) -> list[list[str]]:
-        """All rows as people read them."""
+        """Return all rows as people read them."""
         return [[column.shown(value) for column, value in zip(self.columns, row, strict=True)] for row in self.rows]
 
 
@@ -126,25 +126,28 @@ class Document:
     sections: tuple[Section, ...]
 
     def blocks(self) -> Iterator[Block]:
-        """All blocks of all sections in order."""
+        """Return all blocks of all sections in order."""
         for section in self.sections:
             yield from section.blocks
 
+    def named_tables(self) -> list[DataTable]:
+        """Return the tables that are also files."""
+        return [block for block in self.blocks() if isinstance(block, DataTable) and block.name]
+
 
 def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:
-    """A table of names and values."""
+    """Return a table of names and values."""
     return DataTable(name, title, (Column("", "fact"), Column("", "value")), rows)
 
 
-def write_tables(document: Document, folder: Path) -> list[Path]:
-    """Write every table that has a name as CSV, with all digits; what is not known stays empty."""
+def write_tables(tables: Iterable[DataTable], folder: Path) -> list[Path]:
+    """Write tables as CSV, each in a file of its name, with all digits; what is not known stays empty."""
     written = []
-    for table in document.blocks():
-        if isinstance(table, DataTable) and table.name:
-            path = folder / f"{table.name}.csv"
-            with path.open("w", encoding="utf-8", newline="") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(column.key for column in table.columns)
-                writer.writerows(["" if value is None else value for value in row] for row in table.rows)
-            written.append(path)
+    for table in tables:
+        path = folder / f"{table.name}.csv"
+        with path.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(column.key for column in table.columns)
+            writer.writerows(["" if value is None else value for value in row] for row in table.rows)
+        written.append(path)
     return written

@@ -1,4 +1,4 @@
-"""A report as one page for a browser, with everything in it: it can be mailed and needs no script and no network."""
+"""Write a report as one page for a browser, with everything in it: no script, no network, no other file."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ ol.contents a { color: inherit; }
 
 
 def write_html(document: Document, path: Path, drawn: Callable[[Picture], None] = lambda _: None) -> None:
-    """Write a report.
+    """Write a report as a page.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def write_html(document: Document, path: Path, drawn: Callable[[Picture], None] 
     path
         File to write.
     drawn
-        Told about every picture that is drawn.
+        Called with every picture that is drawn.
     """
     path.write_text("\n".join(_lines(document, drawn)) + "\n", encoding="utf-8")
 

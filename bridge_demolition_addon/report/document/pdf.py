@@ -1,4 +1,4 @@
-"""A report as a PDF: pages laid out here and drawn by matplotlib, so that no other program is needed."""
+"""Write a report as a PDF: pages are laid out here and drawn by matplotlib, so that pictures stay vectors."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ PHOTO_DOTS_PER_INCH = 150.0
 
 
 def write_pdf(document: Document, path: Path, finished: Callable[[int, int], None] = lambda *_: None) -> None:
-    """Write a report.
+    """Write a report as pages.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def write_pdf(document: Document, path: Path, finished: Callable[[int, int], Non
     path
         File to write.
     finished
-        Told how many pages are written, and how many there are.
+        Called with how many pages are written, and how many there are.
     """
     # Letters that stay letters: text can be searched and copied.
     with matplotlib.rc_context({"pdf.fonttype": 42}):
@@ -57,7 +57,7 @@ def write_pdf(document: Document, path: Path, finished: Callable[[int, int], Non
 
 
 def laid_out(document: Document) -> list[Figure]:
-    """The pages of a report."""
+    """Return the pages of a report."""
     pages = _Pages()
     pages.text(document.title, TITLE_PT, weight="bold")
     pages.text(document.subtitle, TEXT_PT)
@@ -96,7 +96,7 @@ class _Pages:
                 self._photo(block)
 
     def heading(self, text: str, first: Block | None) -> None:
-        """A section's heading, never at the foot of a page alone."""
+        """Write a section's heading, never at the foot of a page alone."""
         self._need(22.0 + min(_height_mm(first), 160.0))
         self._y += 6.0
         self.text(text, HEADING_PT, weight="bold", after_mm=0.5)
@@ -104,7 +104,7 @@ class _Pages:
         self._y += 3.0
 
     def text(self, text: str, size_pt: float, *, weight: str = "normal", after_mm: float = 2.5) -> None:
-        """A paragraph."""
+        """Write a paragraph."""
         for line in _wrapped(text, PAGE_WIDTH_MM, size_pt, weight):
             self._line(line, size_pt, weight=weight)
         self._y += after_mm
@@ -135,29 +135,27 @@ class _Pages:
         height = 8.0 + sum(_row_height(row, widths) for row in [headings, *rows])
         self._need(height if height < _KEPT_TOGETHER_MM else 20.0)
         self.text(table.title, TEXT_PT, weight="bold", after_mm=1.0)
-        has_heading = any(headings)
-        if has_heading:
-            self._row(headings, widths, table, weight="bold")
-            self._rule(0.8)
+        self._headings(headings, widths, table)
         for row in rows:
             if self._needs(_row_height(row, widths)):
                 self._turn()
-                if has_heading:
-                    self._row(headings, widths, table, weight="bold")
-                    self._rule(0.8)
+                self._headings(headings, widths, table)
             self._row(row, widths, table)
             self._rule(0.25)
         self._y += 4.0
+
+    def _headings(self, texts: Sequence[str], widths: Sequence[float], table: DataTable) -> None:
+        if any(texts):
+            self._row(texts, widths, table, weight="bold")
+            self._rule(0.8)
 
     def _row(self, texts: Sequence[str], widths: Sequence[float], table: DataTable, weight: str = "normal") -> None:
         top, left = self._y, LEFT_MM
         for text, width, column in zip(texts, widths, table.columns, strict=True):
             for number, line in enumerate(_wrapped(text, width, SMALL_PT, weight)):
                 y = top + 0.8 + number * SMALL_PT * LINE * MM_PER_POINT
-                if column.form:
-                    _put(self.figures[-1], left + width, y, line, SMALL_PT, weight=weight, align="right")
-                else:
-                    _put(self.figures[-1], left, y, line, SMALL_PT, weight=weight)
+                x, align = (left + width, "right") if column.form else (left, "left")
+                _put(self.figures[-1], x, y, line, SMALL_PT, weight=weight, align=align)
             left += width + GAP_MM
         self._y = top + _row_height(texts, widths, weight)
 
@@ -195,7 +193,7 @@ class _Pages:
         page.add_artist(rule)
 
     def _needs(self, height_mm: float) -> bool:
-        """Whether so much does not fit on the page any more; on an empty page everything has to."""
+        """Return whether so much does not fit on the page any more; on an empty page everything has to."""
         return self._y + height_mm > BOTTOM_MM and self._y > TOP_MM
 
     def _need(self, height_mm: float) -> None:
@@ -209,20 +207,11 @@ class _Pages:
 
 
 def _part(page: Figure, top_mm: float, height_mm: float) -> FigureBase:
-    """A part of a page between its margins."""
-    grid = page.add_gridspec(
-        3,
-        3,
-        left=0.0,
-        right=1.0,
-        top=1.0,
-        bottom=0.0,
-        wspace=0.0,
-        hspace=0.0,
-        width_ratios=[LEFT_MM, PAGE_WIDTH_MM, PAGE_MM[0] - LEFT_MM - PAGE_WIDTH_MM],
-        height_ratios=[top_mm, height_mm, PAGE_MM[1] - top_mm - height_mm],
-    )
-    return page.add_subfigure(grid[1, 1])
+    """Return a part of a page between its margins, for a picture."""
+    widths = [LEFT_MM, PAGE_WIDTH_MM, PAGE_MM[0] - LEFT_MM - PAGE_WIDTH_MM]
+    heights = [top_mm, height_mm, PAGE_MM[1] - top_mm - height_mm]
+    edges = {"left": 0.0, "right": 1.0, "top": 1.0, "bottom": 0.0, "wspace": 0.0, "hspace": 0.0}
+    return page.add_subfigure(page.add_gridspec(3, 3, width_ratios=widths, height_ratios=heights, **edges)[1, 1])
 
 
 def _put(
@@ -238,21 +227,12 @@ def _put(
 ) -> None:
     # On its base line, as letters without descenders would stand too low by their top.
     y = 1.0 - (top_mm + size_pt * MM_PER_POINT) / PAGE_MM[1]
-    page.text(
-        left_mm / PAGE_MM[0],
-        y,
-        text,
-        fontsize=size_pt,
-        weight=weight,
-        family=family,
-        ha=align,
-        va="baseline",
-        parse_math=False,
-    )
+    font = {"fontsize": size_pt, "weight": weight, "family": family}
+    page.text(left_mm / PAGE_MM[0], y, text, ha=align, va="baseline", parse_math=False, **font)
 
 
 def _height_mm(block: Block | None) -> float:
-    """Roughly how much of a page the beginning of a block takes."""
+    """Return about how much of a page the beginning of a block takes."""
     match block:
         case Picture():
             return block.height_mm
@@ -263,7 +243,7 @@ def _height_mm(block: Block | None) -> float:
 
 
 def _column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
-    """Widths in mm: what the texts need where there is room, otherwise taken off the widest columns."""
+    """Return widths in mm: what the texts need where there is room, else less for the widest columns."""
     widths = [max(_width_mm(text, SMALL_PT, "bold") for text in column) for column in zip(*rows, strict=True)]
     room = PAGE_WIDTH_MM - GAP_MM * (len(widths) - 1)
     while sum(widths) > room and max(widths) > SMALLEST_COLUMN_MM:
@@ -280,7 +260,7 @@ def _row_height(texts: Sequence[str], widths: Sequence[float], weight: str = "no
 def _wrapped(
     text: str, width_mm: float, size_pt: float, weight: str = "normal", family: str = "sans-serif"
 ) -> Iterator[str]:
-    """Text in lines that fit; a word that is longer than a line is cut."""
+    """Yield lines that fit; a word that is longer than a line is cut."""
     line = text[: len(text) - len(text.lstrip())]
     slack = 1e-6
     for word in text.split():
@@ -291,12 +271,11 @@ def _wrapped(
         if line.strip():
             yield line
         while _width_mm(word, size_pt, weight, family) > width_mm + slack and len(word) > 1:
-            fitting = max(
-                (n for n in range(1, len(word)) if _width_mm(word[:n], size_pt, weight, family) <= width_mm),
-                default=1,
+            cut = max(
+                (n for n in range(1, len(word)) if _width_mm(word[:n], size_pt, weight, family) <= width_mm), default=1
             )
-            yield word[:fitting]
-            word = word[fitting:]
+            yield word[:cut]
+            word = word[cut:]
         line = word
     if line.strip():
         yield line
