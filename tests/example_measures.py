@@ -32,7 +32,7 @@ def deck_falls(run: ExampleRun) -> dict[str, float | None]:
     if run.scenario.bridge is None:
         return {}
     deck = run.of_members("deck")
-    along_m = run.results.places_m[0, deck, 0]
+    along_m = run.results.frames.positions_m[0, deck, 0]
     found = {}
     for number, (begin_m, end_m) in enumerate(pairwise(pier_axes(run.scenario.bridge)), start=1):
         fallen_m = run.fallen_m(deck[(along_m > begin_m) & (along_m < end_m)])

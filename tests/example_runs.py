@@ -21,38 +21,42 @@ class ExampleRun:
 
     @property
     def shards(self):
-        return self.results.of_kind("shard")
+        return self.results.inventory.of_kind("shard")
 
     def of_members(self, *kinds):
         """Indices of the shards of kinds of members."""
-        return self.shards[np.isin(self.results.body_member_kinds[self.shards], kinds)]
+        return self.shards[np.isin(self.results.inventory.body_member_kinds[self.shards], kinds)]
 
     def at(self, time_s):
         """Recorded step that begins a frame at a time or, where none does, the one after."""
-        return int(np.searchsorted(self.results.times_s, time_s - 1e-6))
+        return int(np.searchsorted(self.results.frames.time_s, time_s - 1e-6))
 
     def moved_m(self, bodies, step=-1):
         """How far bodies are from where they were at first, (n,) m."""
-        return np.linalg.norm(self.results.places_m[step, bodies] - self.results.places_m[0, bodies], axis=1)
+        return np.linalg.norm(
+            self.results.frames.positions_m[step, bodies] - self.results.frames.positions_m[0, bodies], axis=1
+        )
 
     def fallen_m(self, bodies, step=-1):
         """How far bodies have come down, (n,) m."""
-        return self.results.places_m[0, bodies, 2] - self.results.places_m[step, bodies, 2]
+        return self.results.frames.positions_m[0, bodies, 2] - self.results.frames.positions_m[step, bodies, 2]
 
     def throws_m(self, bodies):
         """How far bodies are on plan from where they were at first, (n,) m."""
-        return np.linalg.norm((self.results.places_m[-1, bodies] - self.results.places_m[0, bodies])[:, :2], axis=1)
+        return np.linalg.norm(
+            (self.results.frames.positions_m[-1, bodies] - self.results.frames.positions_m[0, bodies])[:, :2], axis=1
+        )
 
     def outwards(self, charge, bodies, step):
         """Cosine of the angle between the velocity of each body and its direction from a charge, (n,)."""
-        directions = self.results.places_m[0, bodies] - np.array(charge.place_m)
-        velocities = self.results.velocities_m_s[step, bodies]
+        directions = self.results.frames.positions_m[0, bodies] - np.array(charge.place_m)
+        velocities = self.results.frames.velocities_m_s[step, bodies]
         lengths = np.linalg.norm(directions, axis=1) * np.linalg.norm(velocities, axis=1)
         return (directions * velocities).sum(axis=1) / np.maximum(lengths, 1e-12)
 
     def near(self, charge, distance_m):
         """Shards whose centres of mass are at first within a distance of a charge."""
-        places = self.results.places_m[0, self.shards]
+        places = self.results.frames.positions_m[0, self.shards]
         return self.shards[np.linalg.norm(places - np.array(charge.place_m), axis=1) < distance_m]
 
 

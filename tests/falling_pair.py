@@ -57,7 +57,7 @@ def assert_whole(recording, folder, frames, bodies=3):
     """Results and logs hold all frames, and the logs end with a whole line."""
     results = recording.results()
     assert results.frames.tolist() == list(frames)
-    assert np.isfinite(results.body_forces_n).all()
+    assert np.isfinite(results.frames.loads.body_forces_n).all()
     logged = {"force": bodies * len(frames), "debris": 2 * bodies, "breaking": 0}
     for log, count in logged.items():
         text = (folder / f"{log}_log.csv").read_text(encoding="utf-8")

@@ -33,7 +33,7 @@ def moving_boxes(
     rotations, kinds, masses_kg, velocities_m_s
         (k, n, 3, 3), (n,), (n,) and (k, n, 3); upright shards at rest of 1000 kg/m³ unless given.
     **more
-        Other fields of `Results`.
+        Other arrays of `Results`, by their names in the file.
     """
     times_s, sizes_m, places_m = np.array(times_s, float), np.array(sizes_m, float), np.array(places_m, float)
     steps, count = len(times_s), len(sizes_m)
@@ -83,4 +83,4 @@ def moving_boxes(
         "ball_impulses_ns": np.zeros((0, 0, 3)),
         "ball_velocities_m_s": np.zeros((0, 0, 3)),
     }
-    return Results(**fields | more)
+    return Results.of_arrays(fields | more)

@@ -4,8 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from bridge_demolition_addon.core.mechanics.frame_loads import FrameLoads, SubstepLoads
+from bridge_demolition_addon.core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from bridge_demolition_addon.core.results.arrays import Results
+from bridge_demolition_addon.core.results.frames import BallHistory, Frame, FrameSeries
+from bridge_demolition_addon.core.results.inventory import Inventory
 
 G = 9.80665
 GRAVITY = np.array([0.0, 0.0, -G])
@@ -21,32 +23,6 @@ CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], 
 SIZES_M = np.array([[20.0, 20.0, 2.0], [1.0, 1.0, 4.0], [0.5**0.5, 0.5**0.5, 4.0], [0.5, 0.5, 0.5]])
 VOLUMES_M3 = np.array([0.0, 4.0, 2.0, 0.125])
 BALL_POINT = np.array([5.0, 0.0, 22.0])
-
-FRAME_SERIES = (
-    "frames",
-    "times_s",
-    "substep_s",
-    "places_m",
-    "rotations",
-    "velocities_m_s",
-    "spins_rad_s",
-    "asleep",
-    "intact",
-    "body_forces_n",
-    "body_peaks_n",
-    "body_sums_n",
-    "body_peak_sums_n",
-    "body_contact_impulses_ns",
-    "body_signed_2019_n",
-    "stresses_pa",
-    "von_mises_pa",
-    "connection_forces_n",
-    "connection_moments_nm",
-    "connection_peaks_n",
-    "connection_peak_forces_n",
-    "connection_peak_moments_nm",
-)
-"""The arrays of a recording that have one entry per frame."""
 
 
 def hanging_chain() -> Results:
@@ -69,11 +45,7 @@ def hanging_chain() -> Results:
     asleep[:3, 1:3] = True
     ball_times = SUBSTEP_S * np.arange(1, 4 * SUBSTEPS + 1)
     fall_s = np.interp(ball_times, FRAME_S * np.array([0.0, 1.0, 3.5, 4.0]), FRAME_S * np.array([0.0, 0.0, 2.5, 0.0]))
-    return Results(
-        reading=np.array("every sub-step"),
-        frames=np.arange(2, 7),
-        times_s=times,
-        substep_s=np.array([0.0, *[SUBSTEP_S] * 4]),
+    inventory = Inventory(
         body_names=np.array(["Ground", "upper", "lower", "Wrecking ball"]),
         body_kinds=np.array(["ground", "shard", "shard", "ball"]),
         masses_kg=np.array([0.0, 300.0, 200.0, 1000.0]),
@@ -82,41 +54,51 @@ def hanging_chain() -> Results:
         body_member_kinds=np.array(["", "pier", "pier", ""]),
         vertices_m=np.concatenate([size / 2.0 * CUBE for size in SIZES_M]),
         vertex_counts=np.full(4, 8),
-        places_m=places,
-        rotations=np.broadcast_to(np.eye(3), (5, 4, 3, 3)).copy(),
-        velocities_m_s=velocities,
-        spins_rad_s=np.zeros((5, 4, 3)),
-        asleep=asleep,
-        blast_impulses_ns=np.zeros((5, 4, 3)),
         connection_names=np.array(["Connection", "Connection.001"]),
         pairs=PAIRS,
         points_m=POINTS,
         areas_m2=np.array([1.0, 0.5]),
         normals=NORMALS,
         second_moments_m4=np.array([1.0, 0.25])[:, None, None] * np.eye(2) / 12.0,
-        intact=intact,
-        balls=np.array([3]),
-        ball_times_s=ball_times,
-        ball_impulses_ns=SUBSTEP_S * _contact_forces()[1:].reshape(-1, 1, 3),
-        ball_velocities_m_s=(fall_s[:, None] * GRAVITY)[:, None],
-        **_loads(connections=2),
     )
+    frames = [
+        Frame(
+            number=2 + step,
+            time_s=times[step],
+            substep_s=SUBSTEP_S if step else 0.0,
+            positions_m=places[step],
+            rotations=np.tile(np.eye(3), (4, 1, 1)),
+            velocities_m_s=velocities[step],
+            angular_velocities_rad_s=np.zeros((4, 3)),
+            asleep=asleep[step],
+            intact=intact[step],
+            blast_impulses_ns=np.zeros((4, 3)),
+            loads=loads,
+        )
+        for step, loads in enumerate(_loads(connections=2))
+    ]
+    balls = BallHistory(
+        bodies=np.array([3]),
+        times_s=ball_times,
+        impulses_ns=SUBSTEP_S * _contact_forces()[1:].reshape(-1, 1, 3),
+        velocities_m_s=(fall_s[:, None] * GRAVITY)[:, None],
+    )
+    return Results("every sub-step", inventory, FrameSeries.of(frames), balls)
+
+
+def changed(results: Results, **arrays: np.ndarray) -> Results:
+    """The same recording with some arrays replaced, by their names in the file."""
+    assert not set(arrays) - set(results.arrays())
+    return Results.of_arrays(results.arrays() | arrays)
 
 
 def without_connections(results: Results) -> Results:
     """The same recording as if there never had been a connection."""
     names = ("connection_names", "pairs", "points_m", "areas_m2", "normals", "second_moments_m4")
-    return replace(
-        results,
-        **{name: getattr(results, name)[:0] for name in names},
-        intact=results.intact[:, :0],
-        **_loads(connections=0),
-    )
-
-
-def frame_of(results: Results, step: int) -> dict:
-    """One recorded frame by itself."""
-    return {name: getattr(results, name)[step] for name in FRAME_SERIES}
+    arrays = results.arrays()
+    loads = FrameSeries.of([replace(results.frames[step], loads=loads) for step, loads in enumerate(_loads(0))]).loads
+    results = replace(results, frames=replace(results.frames, loads=loads))
+    return changed(results, intact=arrays["intact"][:, :0], **{name: arrays[name][:0] for name in names})
 
 
 def _connection_forces() -> np.ndarray:
@@ -136,24 +118,25 @@ def _contact_forces() -> np.ndarray:
     return forces
 
 
-def _loads(connections: int) -> dict[str, np.ndarray]:
+def _loads(connections: int) -> list[FrameLoads]:
     """Loads of all frames by the first so many connections and by the contact of the ball."""
-    gathered, frames = FrameLoads(PAIRS[:connections], VOLUMES_M3, lambda _: NORMALS[:connections]), []
+    gathered, frames = LoadAccumulator(PAIRS[:connections], VOLUMES_M3, lambda _: NORMALS[:connections]), []
     for step, (of_connections, of_contact) in enumerate(zip(_connection_forces(), _contact_forces(), strict=True)):
         gathered.begin()
         for substep in range(SUBSTEPS if step else 0):
             forces = of_connections[substep, :connections]
             loads = SubstepLoads(
+                substep_s=SUBSTEP_S,
                 connection_forces_n=forces,
                 connection_moments_nm=np.zeros((connections, 3)),
                 connection_points_m=POINTS[:connections],
-                signed_2019_n=np.linalg.norm(forces, axis=1),
+                signed_2019_ns=SUBSTEP_S * np.linalg.norm(forces, axis=1),
                 contact_pairs=np.array([[3, 0]]),
-                contact_forces_n=of_contact[substep, None],
+                contact_impulses_ns=SUBSTEP_S * of_contact[substep, None],
                 contact_points_m=BALL_POINT[None],
                 centres_m=CENTRES,
                 rotations=np.tile(np.eye(3), (4, 1, 1)),
             )
-            gathered.add(loads, SUBSTEP_S)
+            gathered.add(loads)
         frames.append(gathered.finish())
-    return {name: np.array([frame[name] for frame in frames]) for name in frames[0]}
+    return frames

@@ -25,9 +25,9 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     """
     figure = blank_figure(9.0, 5.0, dpi=120, layout="constrained")
     force_axes = figure.add_subplot()
-    sums = largest_on_a_shard(results, results.body_peak_sums_n)
-    resultants = largest_on_a_shard(results, results.body_peaks_n)
-    times = results.times_s
+    sums = largest_on_a_shard(results, results.frames.loads.body_peak_sums_n)
+    resultants = largest_on_a_shard(results, results.frames.loads.body_peaks_n)
+    times = results.frames.time_s
     lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
     lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
     force_axes.set_title(title, parse_math=False, wrap=True)  # a title may hold dollar signs
@@ -35,7 +35,7 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     force_axes.set_ylim(bottom=0.0)
     force_axes.grid(alpha=0.3)
     count_axes = force_axes.twinx()
-    intact = results.intact.sum(axis=1)
+    intact = results.frames.intact.sum(axis=1)
     lines += count_axes.plot(times, intact, color="#4d4d4d", linestyle="--", label="connections intact")
     count_axes.set(ylabel="connections intact", ylim=(0.0, 1.05 * max(1, intact.max())))
     if impact_s is not None:

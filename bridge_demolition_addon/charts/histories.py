@@ -29,11 +29,11 @@ def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: f
 
 def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
     """Largest load on any shard over time, by connections and contacts together."""
-    axes = _time_axes(figure, "largest load on a shard (kN)", results.times_s)
-    sums = largest_on_a_shard(results, results.body_peak_sums_n)
-    resultants = largest_on_a_shard(results, results.body_peaks_n)
-    axes.plot(results.times_s, sums / 1e3, **line_style(0), label="sum of magnitudes")
-    axes.plot(results.times_s, resultants / 1e3, **line_style(1), label="resultant")
+    axes = _time_axes(figure, "largest load on a shard (kN)", results.frames.time_s)
+    sums = largest_on_a_shard(results, results.frames.loads.body_peak_sums_n)
+    resultants = largest_on_a_shard(results, results.frames.loads.body_peaks_n)
+    axes.plot(results.frames.time_s, sums / 1e3, **line_style(0), label="sum of magnitudes")
+    axes.plot(results.frames.time_s, resultants / 1e3, **line_style(1), label="resultant")
     _finish(figure, axes, impact_s)
 
 

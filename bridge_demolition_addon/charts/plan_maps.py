@@ -68,16 +68,23 @@ def debris_map(
         hull = CrossSection.hull_points(corners_at(results, -1, body)[:, :2])
         draw_area(axes, hull, facecolor="0.78", edgecolor="0.45", linewidth=0.3)
     if trajectories:
-        paths = np.swapaxes(results.places_m[:, debris.bodies, :2], 0, 1)
+        paths = np.swapaxes(results.frames.positions_m[:, debris.bodies, :2], 0, 1)
         axes.add_collection(LineCollection(list(paths), colors="0.3", linewidths=0.3, label="paths of the shards"))
     draw_area(axes, debris.area, fill=False, edgecolor="black", linewidth=1.0, label="footprint of the debris")
     draw_area(axes, debris.outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
-    for ball in results.of_kind("ball"):
+    for ball in results.inventory.of_kind("ball"):
         hull = CrossSection.hull_points(corners_at(results, -1, ball)[:, :2])
-        draw_area(axes, hull, facecolor="0.25", edgecolor="black", linewidth=0.5, label=plain(results.body_names[ball]))
+        draw_area(
+            axes,
+            hull,
+            facecolor="0.25",
+            edgecolor="black",
+            linewidth=0.5,
+            label=plain(results.inventory.body_names[ball]),
+        )
     largest = np.argsort(-debris.throws_m, kind="stable")[:NAMED_THROWS]
     for number, row in enumerate(largest, start=1):
-        first, last = results.places_m[[0, -1], debris.bodies[row], :2]
+        first, last = results.frames.positions_m[[0, -1], debris.bodies[row], :2]
         axes.annotate("", last, first, arrowprops=_ARROW)
         box = {"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "black", "linewidth": 0.6}
         axes.annotate(str(number), last, ha="center", va="center", fontsize=6, bbox=box)

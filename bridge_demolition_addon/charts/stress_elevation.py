@@ -27,18 +27,18 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     step
         Recorded step.
     """
-    shards = results.of_kind("shard")
-    stresses_mpa = np.nan_to_num(results.von_mises_pa[step, shards]) / 1e6
+    shards = results.inventory.of_kind("shard")
+    stresses_mpa = np.nan_to_num(results.frames.loads.von_mises_pa[step, shards]) / 1e6
     largest = float(stresses_mpa.max(initial=0.0)) or 1.0
     scale = LogNorm(largest / 10.0**DECADES, largest)
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="box")
-    nearest_last = np.argsort(-results.places_m[step, shards, 1], kind="stable")
+    nearest_last = np.argsort(-results.frames.positions_m[step, shards, 1], kind="stable")
     polygons = [_elevation(results, step, body) for body in shards[nearest_last]]
     drawn = PolyCollection(polygons, edgecolors="black", linewidths=0.25, cmap="YlOrRd", norm=scale)
     drawn.set_array(np.maximum(stresses_mpa[nearest_last], scale.vmin))
     axes.add_collection(drawn)
-    for ball in results.of_kind("ball"):
+    for ball in results.inventory.of_kind("ball"):
         ball_outline = _elevation(results, step, ball)
         axes.add_collection(PolyCollection([ball_outline], facecolors="0.25", edgecolors="black", linewidths=0.5))
     axes.axhline(0.0, color="black", linewidth=1.2)

@@ -93,14 +93,18 @@ def _finding_table(runs: Sequence[tuple[str, Run]]) -> DataTable:
 
 
 def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
-    progress = [(name, run.results.times_s, 100.0 * collapse_progress(run.results)) for name, run in runs]
+    progress = [(name, run.results.frames.time_s, 100.0 * collapse_progress(run.results)) for name, run in runs]
     broken = [
-        (name, run.results.times_s, 100.0 * (~run.results.intact).mean(axis=1))
+        (name, run.results.frames.time_s, 100.0 * (~run.results.frames.intact).mean(axis=1))
         for name, run in runs
-        if run.results.intact.shape[1]
+        if run.results.frames.intact.shape[1]
     ]
     loads = [
-        (name, run.results.times_s, largest_on_a_shard(run.results, run.results.body_peak_sums_n) / 1e3)
+        (
+            name,
+            run.results.frames.time_s,
+            largest_on_a_shard(run.results, run.results.frames.loads.body_peak_sums_n) / 1e3,
+        )
         for name, run in runs
     ]
     charts = (

@@ -28,8 +28,8 @@ def findings(run: Run) -> list[Finding]:
     """Main findings of a run that has results, always in the same order; the value is None where there is none."""
     results = run.results
     debris, rest = debris_of(results), rest_of(results)
-    broken = int((~results.intact[-1]).sum())
-    count = results.intact.shape[1]
+    broken = int((~results.frames.intact[-1]).sum())
+    count = results.frames.intact.shape[1]
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
     found = [
         _finding(IMPACT, "s", run.hit_s, ".3f"),
@@ -48,7 +48,7 @@ def _throws(run: Run, debris: Debris) -> list[Finding]:
     if not len(debris.bodies):
         return [Finding(label, "m", None, "no debris") for label in labels]
     farthest = debris.throws_m.argmax()
-    largest, body = float(debris.throws_m[farthest]), run.results.body_names[debris.bodies[farthest]]
+    largest, body = float(debris.throws_m[farthest]), run.results.inventory.body_names[debris.bodies[farthest]]
     (most_of_it,) = percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,)).tolist()
     return [
         _finding(labels[0], "m", most_of_it, ".2f"),
@@ -59,11 +59,12 @@ def _throws(run: Run, debris: Debris) -> list[Finding]:
 
 def _largest_load(run: Run) -> Finding:
     results = run.results
-    peaks = most_loaded(results.body_peak_sums_n, results.of_kind("shard"), 1)
+    peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if not peaks:
         return Finding("Largest load on a shard", "kN", None, "not known")
     (peak,) = peaks
-    words = f"{peak.force_n / 1e3:.0f} kN on {results.body_names[peak.row]} at {results.times_s[peak.step]:.3f} s"
+    name, time_s = results.inventory.body_names[peak.row], results.frames.time_s[peak.step]
+    words = f"{peak.force_n / 1e3:.0f} kN on {name} at {time_s:.3f} s"
     return Finding("Largest load on a shard", "kN", peak.force_n / 1e3, words)
 
 

@@ -108,7 +108,7 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
             write_geojson(plans[1], layers, run.scenario.site)
         only_as_file.append(corner_table(zone))
     sections = [cover_section(run, add_on_version()), trust_section(run)]
-    if run.results is not None and len(run.results.of_kind("shard")):
+    if run.results is not None and len(run.results.inventory.of_kind("shard")):
         sections.append(debris_section(run, trajectories=trajectories))
         sections.append(exclusion_section(zone, run, [path.name for path in plans]))
         sections.append(force_section(run))
@@ -125,7 +125,7 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
 
 
 def _outline(run: Run) -> CrossSection:
-    return footprint(run.results, run.results.of_kind("shard"), 0)
+    return footprint(run.results, run.results.inventory.of_kind("shard"), 0)
 
 
 def _written(document: Document, target: Path, progress: Progress, *only_as_file: DataTable) -> list[Path]:

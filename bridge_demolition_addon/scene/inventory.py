@@ -1,54 +1,17 @@
-"""What is in a scene's rigid-body world: bodies and connections, as arrays."""
+"""Reading the bodies and connections of a scene's rigid-body world."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
 from ..core.errors import SimulationError
 from ..core.geometry.solids import volumes_and_centres
+from ..core.results.inventory import Inventory
 from .bodies import kind_of, member_of, triangulated
 from .connections.constraints import sections_of
-
-
-@dataclass(frozen=True, slots=True)
-class Inventory:
-    """The n bodies and m connections of a world, as they stand when its simulation begins.
-
-    Attributes
-    ----------
-    body_names, body_kinds
-        (n,) names, and kinds (shard, ball, ground, tool, crane).
-    masses_kg, volumes_m3
-        (n,) both 0 for a body that never moves.
-    body_members, body_member_kinds
-        (n,) name and kind of the member that each body is a piece of; empty where it is of none.
-    vertices_m, vertex_counts
-        (v, 3) vertices of all bodies, each in its own axes from its origin, and (n,) how many each body has.
-    connection_names, pairs
-        (m,) names and (m, 2) indices of the connected bodies.
-    points_m, areas_m2, normals, second_moments_m4
-        (m, 3) where the connections are, (m,) the areas they stand for, (m, 3) unit normals from first to second body,
-        (m, 2, 2) second moments of these areas about the sections' y and z axes.
-    """
-
-    body_names: np.ndarray
-    body_kinds: np.ndarray
-    masses_kg: np.ndarray
-    volumes_m3: np.ndarray
-    body_members: np.ndarray
-    body_member_kinds: np.ndarray
-    vertices_m: np.ndarray
-    vertex_counts: np.ndarray
-    connection_names: np.ndarray
-    pairs: np.ndarray
-    points_m: np.ndarray
-    areas_m2: np.ndarray
-    normals: np.ndarray
-    second_moments_m4: np.ndarray
 
 
 def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> Inventory:

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ..core.results.inventory import Inventory
 from ..core.scenario import Change, Removal, SawCut, Weakening
 from ..core.scenario.kept import tables_from_text, tables_text
 from ..core.sequence.events import Event, Structure, schedule
 from .bodies import Kind, kind_of, member_of
-from .inventory import Inventory
 
 _CHANGES = "bda_changes"
 

@@ -190,6 +190,6 @@ def _interruptible() -> Iterator[threading.Event]:
 
 def _render(scene: bpy.types.Scene, folder: Path, results: Results) -> None:
     """Pictures at the start, at the moment that tells most and at the end."""
-    telling = int(results.frames[telling_step(results, np.array(scene.gravity))])
+    telling = int(results.frames.number[telling_step(results, np.array(scene.gravity))])
     for name, frame in zip(PICTURES, (START_FRAME, telling, scene.frame_end), strict=True):
         render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")

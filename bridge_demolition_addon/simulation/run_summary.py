@@ -63,7 +63,7 @@ def run_summary(recording: Recording, results: Results, subject: Subject, *, com
         "blender": bpy.app.version_string,
         "substep_s": subject.substep_s,
         **summarise(results, subject.gravity, contact_time_s),
-        "events": recording.happenings,
+        "events": recording.applied_events,
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results)
 
@@ -76,7 +76,9 @@ def rest_watch(scenario: Scenario) -> Rest:
 
 def _of_scenario(scenario: Scenario, recording: Recording, results: Results) -> dict[str, Any]:
     rest = rest_watch(scenario)
-    for motion in zip(results.times_s, results.places_m, results.rotations, results.asleep, strict=True):
+    for motion in zip(
+        results.frames.time_s, results.frames.positions_m, results.frames.rotations, results.frames.asleep, strict=True
+    ):
         rest.observe(*motion)
     return {
         "seed": scenario.seed,

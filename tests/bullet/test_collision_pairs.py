@@ -12,9 +12,9 @@ def test_block_lands_on_the_ground_it_was_connected_to(blender, tmp_path):
     block = blocks.block((0, 0, 1.5), 100.0)
     blocks.connect("FIXED", (0, 0, 0.5), ground, block, WEAK_N)
     results = blocks.play(tmp_path, 48)
-    assert not results.intact[-1][0]
+    assert not results.frames.intact[-1][0]
     # Contacts rest within some millimetres of touching.
-    assert results.places_m[-1, 1, 2] == pytest.approx(0.5, abs=0.01)
+    assert results.frames.positions_m[-1, 1, 2] == pytest.approx(0.5, abs=0.01)
 
 
 def test_bodies_stay_apart_only_for_as_long_as_one_connection_holds(blender, tmp_path):
@@ -25,6 +25,6 @@ def test_bodies_stay_apart_only_for_as_long_as_one_connection_holds(blender, tmp
     blocks.connect("FIXED", (0, 0, 0), ground, block)
     blocks.connect("POINT", (0, 0, 0), ground, block, WEAK_N)
     results = blocks.play(tmp_path, 24)
-    assert results.intact[-1].tolist() == [True, False]
+    assert results.frames.intact[-1].tolist() == [True, False]
     # Were they to collide, the ground would push the block out of its 10 cm inside.
-    assert results.places_m[-1, 1, 2] == pytest.approx(0.4, abs=1e-3)
+    assert results.frames.positions_m[-1, 1, 2] == pytest.approx(0.4, abs=1e-3)

@@ -20,10 +20,10 @@ def test_block_rests_on_the_ground_with_its_weight(blender, tmp_path):
     blocks.block((0, 0, 0.5), 250.0)
     results = blocks.play(tmp_path, 48)
     weight = 250.0 * GRAVITY
-    np.testing.assert_allclose(results.body_forces_n[-1, 1], (0, 0, weight), atol=RESTING * weight)
-    np.testing.assert_allclose(results.body_forces_n[-1, 0], (0, 0, -weight), atol=RESTING * weight)
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 1], (0, 0, weight), atol=RESTING * weight)
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 0], (0, 0, -weight), atol=RESTING * weight)
     frame_s = blocks.time.step.frame_s
-    assert results.body_contact_impulses_ns[-1, 1, 2] == pytest.approx(weight * frame_s, rel=RESTING)
+    assert results.frames.loads.body_contact_impulses_ns[-1, 1, 2] == pytest.approx(weight * frame_s, rel=RESTING)
 
 
 def test_each_level_of_a_stack_carries_all_above_it(blender, tmp_path):
@@ -33,10 +33,12 @@ def test_each_level_of_a_stack_carries_all_above_it(blender, tmp_path):
         blocks.block((0, 0, 0.5 + level), mass)
     results = blocks.play(tmp_path, 96)
     weights = np.array(masses) * GRAVITY
-    np.testing.assert_allclose(results.body_forces_n[-1, 1:, 2], weights, rtol=RESTING)
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 1:, 2], weights, rtol=RESTING)
     above = np.cumsum(weights[::-1])[::-1]
     # Every block is pressed by what is on it and by what it stands on.
-    np.testing.assert_allclose(results.body_sums_n[-1, 1:], above + np.append(above[1:], 0.0), rtol=2 * RESTING)
+    np.testing.assert_allclose(
+        results.frames.loads.body_sums_n[-1, 1:], above + np.append(above[1:], 0.0), rtol=2 * RESTING
+    )
 
 
 def test_block_on_a_slope_is_held_by_friction(blender, tmp_path):
@@ -49,7 +51,7 @@ def test_block_on_a_slope_is_held_by_friction(blender, tmp_path):
         body.rigid_body.friction = 1.0  # tan 20° would do
     results = blocks.play(tmp_path, 96)
     weight = mass * GRAVITY
-    force = results.body_forces_n[-1, 1]
+    force = results.frames.loads.body_forces_n[-1, 1]
     assert force @ normal == pytest.approx(weight * math.cos(slope), rel=RESTING)
     np.testing.assert_allclose(
         force - (force @ normal) * normal, (0, 0, weight) - weight * math.cos(slope) * normal, atol=RESTING * weight
@@ -64,8 +66,8 @@ def test_more_contacts_than_fit_into_the_pool_of_bullet(blender, tmp_path):
         for column in range(side):
             blocks.block((3.0 * row - 99.0, 3.0 * column - 99.0, 0.5), mass)
     results = blocks.play(tmp_path, 24)
-    np.testing.assert_allclose(results.body_forces_n[-1, 1:, 2], mass * GRAVITY, rtol=1e-2)
-    assert results.body_forces_n[-1, 0, 2] == pytest.approx(-(side**2) * mass * GRAVITY, rel=RESTING)
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 1:, 2], mass * GRAVITY, rtol=1e-2)
+    assert results.frames.loads.body_forces_n[-1, 0, 2] == pytest.approx(-(side**2) * mass * GRAVITY, rel=RESTING)
 
 
 def test_sleeping_block_keeps_its_resting_load_and_is_marked(blender, tmp_path):
@@ -74,9 +76,9 @@ def test_sleeping_block_keeps_its_resting_load_and_is_marked(blender, tmp_path):
     sleeper = blocks.block((0, 0, 0.5), 100.0)
     sleeper.rigid_body.use_deactivation = True
     results = blocks.play(tmp_path, 24 * 6)
-    assert not results.asleep[1, 1]
-    assert results.asleep[-1, 1]
-    assert results.body_forces_n[-1, 1, 2] == pytest.approx(100.0 * GRAVITY, rel=1e-2)
+    assert not results.frames.asleep[1, 1]
+    assert results.frames.asleep[-1, 1]
+    assert results.frames.loads.body_forces_n[-1, 1, 2] == pytest.approx(100.0 * GRAVITY, rel=1e-2)
 
 
 def test_frames_played_back_are_not_recorded_again(blender, tmp_path):
@@ -90,4 +92,4 @@ def test_frames_played_back_are_not_recorded_again(blender, tmp_path):
         blocks.scene.frame_set(frame)
     handlers.stop()
     assert recording.error is None
-    assert recording.results().frames.tolist() == list(range(2, 11))
+    assert recording.results().frames.number.tolist() == list(range(2, 11))

@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from sample_results import FRAME_S, FRAME_SERIES, G, hanging_chain, without_connections
+from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.charts.force_chart import plot_forces
+from bridge_demolition_addon.core.results.frames import FrameSeries
 
 # Nothing acts in the first frame, in which no time passes; in the fourth, the largest is not the mean.
 SUMS_KN = np.array([0.0, 700 * G, 700 * G, 500 * G + np.hypot(200 * G, 1000), 300 * G]) / 1e3
@@ -80,14 +81,14 @@ def test_picture_has_its_size_and_is_not_empty(tmp_path):
 
 
 def first_frame(results):
-    return replace(results, **{name: getattr(results, name)[:1] for name in FRAME_SERIES})
+    return replace(results, frames=FrameSeries.of([results.frames[0]]))
 
 
 def unknown_at_first(results):
-    changed = {name: getattr(results, name).copy() for name in ("body_peaks_n", "body_peak_sums_n")}
-    for values in changed.values():
+    unknown = {name: results.arrays()[name].copy() for name in ("body_peaks_n", "body_peak_sums_n")}
+    for values in unknown.values():
         values[0] = np.nan
-    return replace(results, **changed)
+    return changed(results, **unknown)
 
 
 @pytest.mark.parametrize("change", [without_connections, first_frame, unknown_at_first])
@@ -100,7 +101,7 @@ def test_little_to_draw_is_drawn_without_complaint(tmp_path, change):
 
 def test_without_shards_there_are_no_forces_to_draw(tmp_path):
     results = hanging_chain()
-    only_ground = replace(results, body_kinds=np.full(4, "ground"))
+    only_ground = changed(results, body_kinds=np.full(4, "ground"))
     svg = drawn(tmp_path, only_ground)
     assert "<!-- connections intact -->" in svg
     for colour in ("#b2182b", "#2166ac"):
@@ -110,6 +111,9 @@ def test_without_shards_there_are_no_forces_to_draw(tmp_path):
 def test_ball_and_ground_do_not_count(tmp_path):
     """In the last frame the ball loads the ground with ten times what any shard carries."""
     results = hanging_chain()
-    assert results.body_peaks_n[4, [0, 3]].min() >= 10 * results.body_peaks_n[4, [1, 2]].max() - 1e-9  # rounding
+    assert (
+        results.frames.loads.body_peaks_n[4, [0, 3]].min()
+        >= 10 * results.frames.loads.body_peaks_n[4, [1, 2]].max() - 1e-9
+    )  # rounding
     sums = curve(drawn(tmp_path, results), "#b2182b")[:, 1]
     assert sums[4] > sums[3]  # lower in the picture

@@ -16,7 +16,7 @@ def test_nothing_happens_to_it_but_its_own_weight(awake):
     scenario = awake.scenario
     assert scenario.ball is None and not scenario.charges and not scenario.changes and not scenario.jackhammers
     assert scenario.connections.breaking_force_kgf == 10_000  # of the report, Table 2
-    assert awake.results.masses_kg[awake.shards].sum() == pytest.approx(107_000.0, rel=1e-6)
+    assert awake.results.inventory.masses_kg[awake.shards].sum() == pytest.approx(107_000.0, rel=1e-6)
 
 
 def test_awake_it_falls(awake):
@@ -37,5 +37,5 @@ def test_deactivated_it_stands(awake, tmp_path):
     assert asleep.moved_m(asleep.shards).max() < 1e-5
     # The one that is awake has begun to break and to fall by then.
     step = awake.at(0.5)
-    assert not awake.results.intact[step].all()
+    assert not awake.results.frames.intact[step].all()
     assert awake.fallen_m(awake.of_members("deck"), step).max() > 0.1

@@ -31,21 +31,21 @@ def test_bridge_stands_without_its_explosion(blender, tmp_path, name):
 
 
 def test_bridge_stands_until_its_charges_go_off(loud):
-    before = loud.results.times_s < loud.scenario.blast.start_s
-    assert (~loud.results.intact[before]).sum(axis=1).max() <= 0.03 * loud.summary["connections"]["count"]
+    before = loud.results.frames.time_s < loud.scenario.blast.start_s
+    assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.03 * loud.summary["connections"]["count"]
 
 
 def test_bridge_comes_down_with_its_charges(loud):
     assert loud.summary["connections"]["broken"] > 0.1 * loud.summary["connections"]["count"]
     deck, spans_m = loud.of_members("deck"), loud.scenario.bridge.spans_m
-    inner = deck[abs(loud.results.places_m[0, deck, 0] - spans_m / 2.0) < 0.4 * spans_m]
-    fallen = loud.fallen_m(inner) / loud.results.places_m[0, inner, 2]
+    inner = deck[abs(loud.results.frames.positions_m[0, deck, 0] - spans_m / 2.0) < 0.4 * spans_m]
+    fallen = loud.fallen_m(inner) / loud.results.frames.positions_m[0, inner, 2]
     assert np.median(fallen) > 0.25
 
 
 def test_blast_pushes_away_from_the_charges(loud):
     # Every charge is below the deck: each shard of it gets its blast upwards.
-    impulses = loud.results.blast_impulses_ns.sum(axis=0)[loud.of_members("deck")]
+    impulses = loud.results.frames.blast_impulses_ns.sum(axis=0)[loud.of_members("deck")]
     assert (impulses[:, 2] > 0.0).all()
     charges = loud.scenario.charges
     assert loud.summary["charges"]["mass_kg"] == sum(charge.mass_kg for charge in charges)
@@ -68,7 +68,7 @@ def test_fields_and_direct_loads_agree_where_nothing_breaks(blender, tmp_path):
     totals = []
     for apply in ("fields", "direct"):
         run = run_example(replace(scenario, blast=replace(scenario.blast, apply=apply)), tmp_path / apply)
-        totals.append(run.results.blast_impulses_ns.sum(axis=0))
+        totals.append(run.results.frames.blast_impulses_ns.sum(axis=0))
     sizes = np.linalg.norm(totals[0], axis=1)
     # The bridge moves by millimetres before the second charges go off, a little differently either way.
     np.testing.assert_array_less(np.linalg.norm(totals[0] - totals[1], axis=1), 0.002 * sizes.max())

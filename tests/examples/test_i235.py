@@ -53,15 +53,15 @@ class Demolition:
     @property
     def impact(self) -> int:
         """Recorded step in which the ball is stopped."""
-        return int(np.flatnonzero(self.results.frames == self.summary["impact"]["frame"])[0])
+        return int(np.flatnonzero(self.results.frames.number == self.summary["impact"]["frame"])[0])
 
     def deck(self, *names: str) -> np.ndarray:
         """Shards of decks."""
-        return np.flatnonzero(np.isin(self.results.body_members, names))
+        return np.flatnonzero(np.isin(self.results.inventory.body_members, names))
 
     def drops_m(self, bodies: np.ndarray) -> np.ndarray:
         """How far bodies have come down at the end."""
-        return (self.results.places_m[0] - self.results.places_m[-1])[bodies, 2]
+        return (self.results.frames.positions_m[0] - self.results.frames.positions_m[-1])[bodies, 2]
 
 
 def run(scenario, folder):
@@ -112,13 +112,13 @@ def test_shards_are_as_large_as_those_of_one_span_in_200(demolition):
 def test_nothing_moves_and_nothing_breaks_before_the_ball_arrives(demolition):
     """Bullet wakes the bridge when the ball's bounding box meets the deck's, one sub-step or two before they touch."""
     results, hit = demolition.results, demolition.impact
-    shards = results.of_kind("shard")
-    moved = abs(results.places_m[:hit, shards] - results.places_m[0, shards])
+    shards = results.inventory.of_kind("shard")
+    moved = abs(results.frames.positions_m[:hit, shards] - results.frames.positions_m[0, shards])
     assert (moved[:-1] == 0.0).all()
     assert moved.max() < 1e-3
-    assert results.intact[:hit].all()
-    assert not results.intact[hit].all()
-    fallen = results.times_s[hit] - demolition.scenario.ball.release_time_s
+    assert results.frames.intact[:hit].all()
+    assert not results.frames.intact[hit].all()
+    fallen = results.frames.time_s[hit] - demolition.scenario.ball.release_time_s
     # Free fall takes sqrt(2 h / g); the impact is told of with the end of the frame that it happens in.
     free = math.sqrt(2.0 * demolition.scenario.ball.drop_height_m / STANDARD_GRAVITY_M_S2)
     assert 0.0 <= fallen - free <= demolition.scenario.time.step.frame_s
@@ -127,21 +127,21 @@ def test_nothing_moves_and_nothing_breaks_before_the_ball_arrives(demolition):
 def test_the_span_that_is_hit_falls(demolition):
     deck = demolition.deck(demolition.case.hit)
     down = demolition.drops_m(deck) > 1.0
-    masses = demolition.results.masses_kg[deck]
+    masses = demolition.results.inventory.masses_kg[deck]
     # A few pieces of a deck may stay on its piers.
     assert masses[down].sum() > 0.95 * masses.sum()
 
 
 def test_the_ball_goes_through_the_deck(demolition):
     results, scenario = demolition.results, demolition.scenario
-    heights = results.places_m[:, results.of_kind("ball")[0], 2]
+    heights = results.frames.positions_m[:, results.inventory.of_kind("ball")[0], 2]
     # It comes down to the ground, or to a piece of the deck that lies on it,
     assert heights.min() < scenario.ball.diameter_m / 2.0 + scenario.bridge.deck.thickness_m + 0.02
     # through the deck and not with it: most of that is higher when the ball is half-way down,
     half_way = int(np.flatnonzero(heights < deck_underside(scenario.bridge) / 2.0)[0])
     deck = demolition.deck(demolition.case.hit)
-    higher = results.places_m[half_way, deck, 2] > heights[half_way]
-    assert results.masses_kg[deck][higher].sum() > 0.5 * results.masses_kg[deck].sum()
+    higher = results.frames.positions_m[half_way, deck, 2] > heights[half_way]
+    assert results.inventory.masses_kg[deck][higher].sum() > 0.5 * results.inventory.masses_kg[deck].sum()
     # and stays below.
     assert heights[half_way:].max() < deck_underside(scenario.bridge)
 
@@ -151,12 +151,12 @@ def test_the_other_spans_stay(demolition):
     case, results, hit = demolition.case, demolition.results, demolition.impact
     staying = demolition.deck(*case.staying)
     # Awake, they carry their own weight: they sag by some centimetres, as connections give way in ten iterations.
-    assert not results.asleep[hit : hit + 24, staying].any()
-    assert abs(results.places_m[-1] - results.places_m[0])[staying].max() < 0.1
+    assert not results.frames.asleep[hit : hit + 24, staying].any()
+    assert abs(results.frames.positions_m[-1] - results.frames.positions_m[0])[staying].max() < 0.1
     # Shards at the edges settle, and hang from each other by a point.
-    within = np.isin(results.pairs, staying).all(axis=1)
-    assert (~results.intact[-1, within]).mean() < 0.02
-    piers = np.flatnonzero(np.isin(results.body_member_kinds, ("pier", "pier cap")))
+    within = np.isin(results.inventory.pairs, staying).all(axis=1)
+    assert (~results.frames.intact[-1, within]).mean() < 0.02
+    piers = np.flatnonzero(np.isin(results.inventory.body_member_kinds, ("pier", "pier cap")))
     assert demolition.drops_m(piers).max() < 0.1
 
 
@@ -174,17 +174,22 @@ def test_debris_stays_nearer_than_what_flies_off_with_the_speed_of_the_ball(demo
 
 def test_forces_are_largest_where_the_ball_hits(demolition):
     results, hit, ball = demolition.results, demolition.impact, demolition.scenario.ball
-    shards = results.of_kind("shard")
-    most = shards[results.body_peak_sums_n[hit, shards].argmax()]
+    shards = results.inventory.of_kind("shard")
+    most = shards[results.frames.loads.body_peak_sums_n[hit, shards].argmax()]
     # It touches the ball: some of it lies within the ball's radius around the target, in plan.
-    corners = results.vertices_of(most)[:, :2] + results.places_m[0, most, :2]
-    apart = np.linalg.norm(results.places_m[0, most, :2] - ball.target_m)
-    assert apart < ball.diameter_m / 2.0 + np.linalg.norm(corners - results.places_m[0, most, :2], axis=1).max()
+    corners = results.inventory.vertices_of(most)[:, :2] + results.frames.positions_m[0, most, :2]
+    apart = np.linalg.norm(results.frames.positions_m[0, most, :2] - ball.target_m)
+    assert (
+        apart < ball.diameter_m / 2.0 + np.linalg.norm(corners - results.frames.positions_m[0, most, :2], axis=1).max()
+    )
     # So far nothing has been loaded as much, and what is farther away is loaded less.
-    assert results.body_peak_sums_n[: hit + 1, shards].max() == results.body_peak_sums_n[hit, most]
+    assert (
+        results.frames.loads.body_peak_sums_n[: hit + 1, shards].max()
+        == results.frames.loads.body_peak_sums_n[hit, most]
+    )
     deck = demolition.deck(demolition.case.hit)
-    distances = np.linalg.norm(results.places_m[0, deck, :2] - ball.target_m, axis=1)
-    loads = results.body_peak_sums_n[hit, deck]
+    distances = np.linalg.norm(results.frames.positions_m[0, deck, :2] - ball.target_m, axis=1)
+    loads = results.frames.loads.body_peak_sums_n[hit, deck]
     assert loads[distances < 2.0].mean() > 2.0 * loads[distances > 4.0].mean()
 
 
@@ -200,11 +205,11 @@ def awake_without_ball(scenario, duration_s):
 def test_two_spans_carry_their_own_weight(tmp_path):
     scenario = awake_without_ball(read_scenario(EXAMPLES / "i235_two_spans.toml"), 1.5)
     summary, results = run(scenario, tmp_path / "run")
-    assert abs(results.places_m[-1] - results.places_m[0]).max() < 0.1
+    assert abs(results.frames.positions_m[-1] - results.frames.positions_m[0]).max() < 0.1
     assert summary["connections"]["broken"] < 0.01 * summary["connections"]["count"]
     # What they carry at rest, as the header says in t: single axes, as Bullet compares each by itself.
-    tonnes = abs(results.connection_forces_n[-1]).max(axis=1) / (1000.0 * STANDARD_GRAVITY_M_S2)
-    kinds = np.sort(results.body_member_kinds[results.pairs], axis=1)
+    tonnes = abs(results.frames.loads.connection_forces_n[-1]).max(axis=1) / (1000.0 * STANDARD_GRAVITY_M_S2)
+    kinds = np.sort(results.inventory.body_member_kinds[results.inventory.pairs], axis=1)
     largest = {
         pair: tonnes[(kinds == pair).all(axis=1)].max() for pair in (("deck", "deck"), ("pier", "pier"), ("", "pier"))
     }
@@ -217,7 +222,7 @@ def test_two_spans_would_fall_by_themselves_if_their_piers_broke_like_their_deck
     between = tuple(rule for rule in scenario.connections.between if rule.none)
     weak = replace(scenario, connections=replace(scenario.connections, between=between))
     _, results = run(weak, tmp_path / "run")
-    decks = np.flatnonzero(results.body_member_kinds == "deck")
+    decks = np.flatnonzero(results.inventory.body_member_kinds == "deck")
     for name in ("span 1 deck", "span 2 deck"):
-        deck = decks[results.body_members[decks] == name]
-        assert np.median((results.places_m[0] - results.places_m[-1])[deck, 2]) > 1.0
+        deck = decks[results.inventory.body_members[decks] == name]
+        assert np.median((results.frames.positions_m[0] - results.frames.positions_m[-1])[deck, 2]) > 1.0

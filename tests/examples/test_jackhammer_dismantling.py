@@ -23,21 +23,21 @@ def from_path(run, bodies):
     """Distance on plan (n,) of bodies from the way that the chisel went."""
     (first, across), (last, _) = run.scenario.jackhammers[0].path_m
     end = min(last, first + HAMMER.speed_m_s * (run.scenario.jackhammers[0].end_time_s - HAMMER.start_time_s))
-    places = run.results.places_m[0, bodies]
+    places = run.results.frames.positions_m[0, bodies]
     beyond = places[:, 0] - np.clip(places[:, 0], first, end)
     return np.hypot(beyond, places[:, 1] - across)
 
 
 def test_it_stands_until_the_first_blow(dismantled):
     before = dismantled.at(HAMMER.start_time_s)
-    assert dismantled.results.intact[before].all()
+    assert dismantled.results.frames.intact[before].all()
     assert dismantled.moved_m(dismantled.shards, before).max() < 0.01
 
 
 def test_the_deck_is_cut_finer_along_the_path(dismantled):
     deck = dismantled.of_members("deck")
     distances = from_path(dismantled, deck)
-    volumes = dismantled.results.volumes_m3[deck]
+    volumes = dismantled.results.inventory.volumes_m3[deck]
     # The density there is more than four times that at the edges, where none of the places reaches.
     assert volumes[distances < 0.5].mean() < volumes[distances > 2.0].mean() / 4.0
 
@@ -68,6 +68,6 @@ def test_debris_falls_under_the_hole(dismantled):
 def test_forces_are_highest_at_the_chisel(dismantled):
     results, deck = dismantled.results, dismantled.of_members("deck")
     first_blow = dismantled.at(HAMMER.start_time_s + 0.5 / HAMMER.blows_per_second)
-    forces = results.body_peak_sums_n[: first_blow + 1, deck].max(axis=0)
+    forces = results.frames.loads.body_peak_sums_n[: first_blow + 1, deck].max(axis=0)
     start = np.array(HAMMER.path_m[0])
-    assert np.linalg.norm(results.places_m[0, deck[forces.argmax()], :2] - start) < 1.0
+    assert np.linalg.norm(results.frames.positions_m[0, deck[forces.argmax()], :2] - start) < 1.0

@@ -18,13 +18,13 @@ def test_span_is_taken_down_in_steps(tmp_path):
     results = load_results(tmp_path / "run" / "results.npz")
     assert [each["kind"] for each in summary["events"]] == ["weakening", "saw cut", "removal"]
     assert [each["time_s"] for each in summary["events"]] == pytest.approx([7.5, 8.0, 8.5], abs=1.0 / 240.0)
-    removed = [results.body_names.tolist().index(name) for name in summary["events"][2]["shards"]]
-    assert (results.places_m[-1, removed, 2] < -900.0).all()
+    removed = [results.inventory.body_names.tolist().index(name) for name in summary["events"][2]["shards"]]
+    assert (results.frames.positions_m[-1, removed, 2] < -900.0).all()
     # Nobody else falls through the ground, and the deck over the removed pier comes down.
-    others = np.setdiff1d(results.of_kind("shard"), removed)
-    assert results.places_m[-1, others, 2].min() > 0.0
-    broken = (~results.intact).sum(axis=1)
-    by_hammer, by_ball = (broken[np.searchsorted(results.times_s, time_s)] for time_s in (1.9, 4.0))
+    others = np.setdiff1d(results.inventory.of_kind("shard"), removed)
+    assert results.frames.positions_m[-1, others, 2].min() > 0.0
+    broken = (~results.frames.intact).sum(axis=1)
+    by_hammer, by_ball = (broken[np.searchsorted(results.frames.time_s, time_s)] for time_s in (1.9, 4.0))
     assert 0 < by_hammer < by_ball < broken[-1]
     hits = [hit["time_s"] for hit in summary["hits_of_the_ball"]]
     assert any(3.0 < time_s < 3.6 for time_s in hits)

@@ -11,7 +11,7 @@ MASS_KG = 196_000.0
 def decks_of(run):
     """Deck shards of the first span and of the second."""
     deck = run.of_members("deck")
-    along = run.results.places_m[0, deck, 0]
+    along = run.results.frames.positions_m[0, deck, 0]
     return deck[along < 13.0], deck[along > 13.0]
 
 
@@ -29,7 +29,7 @@ def explosives(tmp_path_factory):
 def test_mass_and_spans_are_those_of_the_report(ball):
     assert ball.scenario.bridge.span_lengths_m == (13.0, 13.0)
     # Blender keeps masses as float32.
-    assert ball.results.masses_kg[ball.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)
+    assert ball.results.inventory.masses_kg[ball.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)
     assert sum(ball.summary["members_kg"].values()) == pytest.approx(MASS_KG, rel=1e-9)
 
 
@@ -37,7 +37,9 @@ def test_it_stands_until_the_ball_hits(ball):
     before = ball.at(ball.summary["impact"]["time_s"]) - 1
     # Decks that sag on their bearings, by Bullet's own compliance with 50 iterations and not by that of concrete.
     assert ball.moved_m(ball.shards, before).max() < 0.04
-    assert (~ball.results.intact[before]).sum() <= 0.03 * ball.summary["connections"]["count"]  # slivers of faces
+    assert (~ball.results.frames.intact[before]).sum() <= 0.03 * ball.summary["connections"][
+        "count"
+    ]  # slivers of faces
 
 
 def test_the_ball_hits_as_hard_as_its_fall_makes_it(ball):
@@ -49,18 +51,21 @@ def test_the_ball_hits_as_hard_as_its_fall_makes_it(ball):
 
 def test_forces_are_highest_where_the_ball_hits(ball):
     step = ball.at(ball.summary["impact"]["time_s"])
-    forces = ball.results.body_peak_sums_n[step, ball.shards]
-    place = ball.results.places_m[0, ball.shards[forces.argmax()], :2]
+    forces = ball.results.frames.loads.body_peak_sums_n[step, ball.shards]
+    place = ball.results.frames.positions_m[0, ball.shards[forces.argmax()], :2]
     # Under the ball, of 0.67 m, on a shard of which the middle is up to 0.7 m away.
     assert np.linalg.norm(place - ball.scenario.ball.target_m) < 0.67 + 0.7
     # The ten that are loaded most lie within a quarter of the span.
     ten = ball.shards[np.argsort(forces)[-10:]]
-    assert np.median(np.linalg.norm(ball.results.places_m[0, ten, :2] - ball.scenario.ball.target_m, axis=1)) < 3.3
+    assert (
+        np.median(np.linalg.norm(ball.results.frames.positions_m[0, ten, :2] - ball.scenario.ball.target_m, axis=1))
+        < 3.3
+    )
 
 
 def test_the_ball_goes_through(ball):
-    (row,) = ball.results.of_kind("ball")
-    assert ball.results.places_m[-1, row, 2] < 2.0  # the underside of the deck was at 5.5 m
+    (row,) = ball.results.inventory.of_kind("ball")
+    assert ball.results.frames.positions_m[-1, row, 2] < 2.0  # the underside of the deck was at 5.5 m
 
 
 def test_the_span_that_was_hit_falls_and_its_neighbour_stands(ball):
@@ -69,7 +74,7 @@ def test_the_span_that_was_hit_falls_and_its_neighbour_stands(ball):
     assert np.median(ball.fallen_m(hit)) > 3.0
     assert (ball.fallen_m(hit) > 2.0).mean() > 0.75
     assert ball.moved_m(neighbour).max() < 0.2
-    east = ball.shards[np.isin(ball.results.body_members[ball.shards], ["pier 3 cap", "pier 3 column 1"])]
+    east = ball.shards[np.isin(ball.results.inventory.body_members[ball.shards], ["pier 3 cap", "pier 3 column 1"])]
     assert ball.moved_m(east).max() < 0.05
 
 
@@ -82,7 +87,7 @@ def test_it_stands_until_the_charges_go_off(explosives):
     before = explosives.at(explosives.scenario.blast.start_s) - 1
     assert explosives.moved_m(explosives.shards, before).max() < 0.04
     assert explosives.scenario.ball is None
-    assert explosives.results.masses_kg[explosives.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)
+    assert explosives.results.inventory.masses_kg[explosives.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)
 
 
 def test_shards_fly_away_from_the_charges(explosives):

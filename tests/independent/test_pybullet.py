@@ -119,8 +119,10 @@ def test_impulse_of_a_ball_that_falls_on_a_plate(blender, tmp_path, engine, rest
     mass, height, radius = 1000.0, 3.0, 0.5
     ball = {"mass_kg": mass, "radius_m": radius, "height_m": height, "restitution": restitution}
     recorded, computed = fall_in_blender(tmp_path, **ball), fall_in_engine(engine, **ball)
-    impulses = recorded.ball_impulses_ns[:, 0, 2]
-    np.testing.assert_allclose(recorded.body_contact_impulses_ns[1:, 1, 2], impulses, rtol=1e-12)  # a frame is a step
+    impulses = recorded.balls.impulses_ns[:, 0, 2]
+    np.testing.assert_allclose(
+        recorded.frames.loads.body_contact_impulses_ns[1:, 1, 2], impulses, rtol=1e-12
+    )  # a frame is a step
     hit, hit_computed = int(impulses.argmax()), int(computed[:, 2].argmax())
     assert hit == hit_computed
     # Without restitution a second step takes up what the first has left of the fall.
@@ -128,14 +130,14 @@ def test_impulse_of_a_ball_that_falls_on_a_plate(blender, tmp_path, engine, rest
     assert impulse == pytest.approx(computed[hit : hit + 2, 2].sum(), rel=AGREEMENT)
 
     # By hand: what the velocity changed by, but for gravity's share. Blender keeps gravity in single precision.
-    velocities = recorded.ball_velocities_m_s[:, 0, 2]
+    velocities = recorded.balls.velocities_m_s[:, 0, 2]
     change = velocities[hit + 1] - velocities[hit - 1] + STANDARD_GRAVITY_M_S2 * 2 * STEP_S
     assert impulse == pytest.approx(mass * change, rel=1e-6)
 
     # By hand. Bullet finds a contact before it closes and lets the rest of the gap be covered in that step: a rebound
     # is slower by gap / step than restitution alone would have it. Without restitution the ball just comes to rest.
     speed = np.sqrt(2 * STANDARD_GRAVITY_M_S2 * height)
-    gap = recorded.places_m[hit, 1, 2] - radius
+    gap = recorded.frames.positions_m[hit, 1, 2] - radius
     rebound = restitution * speed - gap / STEP_S if restitution else 0.0
     assert impulse == pytest.approx(mass * (speed + rebound), rel=AGREEMENT)
 
@@ -160,19 +162,19 @@ def test_pile_at_rest(blender, tmp_path, engine):
     computed = places_in_engine(engine, pile)
 
     # Bullet lets bodies at rest overlap by up to some hundredths of a millimetre.
-    np.testing.assert_allclose(results.places_m[-1, 1:, 2], computed[:, 2], atol=1e-4)
+    np.testing.assert_allclose(results.frames.positions_m[-1, 1:, 2], computed[:, 2], atol=1e-4)
     np.testing.assert_allclose(computed[:, 2], 0.5 + layers, atol=1e-4)
     # Landing moves them sideways by up to a quarter of a millimetre.
-    np.testing.assert_allclose(results.places_m[-1, 1:, :2], computed[:, :2], atol=1e-3)
+    np.testing.assert_allclose(results.frames.positions_m[-1, 1:, :2], computed[:, :2], atol=1e-3)
     # At rest: below 0.1 mm/s.
-    assert abs(results.velocities_m_s[-1]).max() < 1e-3
+    assert abs(results.frames.velocities_m_s[-1]).max() < 1e-3
 
     # The resultant on each is its own weight. How a block shares its load between the two under it is another matter:
     # statics leaves that open where faces touch faces, and it differs between the engines by a sixth.
     resultants, _ = forces_in_engine(engine, [ground, *pile])
     weights = STANDARD_GRAVITY_M_S2 * np.append(masses.sum(), masses)
-    assert (abs(results.body_forces_n[-1] - resultants).max(axis=1) < AGREEMENT * weights).all()
-    np.testing.assert_allclose(results.body_forces_n[-1, 1:, 2], weights[1:], rtol=AGREEMENT)
+    assert (abs(results.frames.loads.body_forces_n[-1] - resultants).max(axis=1) < AGREEMENT * weights).all()
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 1:, 2], weights[1:], rtol=AGREEMENT)
 
 
 def test_forces_through_a_pile_at_rest(blender, tmp_path, engine):
@@ -203,9 +205,9 @@ def test_forces_through_a_pile_at_rest(blender, tmp_path, engine):
     resultants, sums = forces_in_engine(engine, [ground, *pile])
 
     weights = STANDARD_GRAVITY_M_S2 * masses
-    np.testing.assert_allclose(results.body_sums_n[-1], sums, rtol=AGREEMENT)
-    np.testing.assert_allclose(results.body_forces_n[-1, :, 2], resultants[:, 2], rtol=AGREEMENT)
-    np.testing.assert_allclose(results.body_forces_n[-1, 1:, 2], weights, rtol=AGREEMENT)
+    np.testing.assert_allclose(results.frames.loads.body_sums_n[-1], sums, rtol=AGREEMENT)
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, :, 2], resultants[:, 2], rtol=AGREEMENT)
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 1:, 2], weights, rtol=AGREEMENT)
 
     # By hand: three supports, from the balance of forces and of moments about both axes.
     arms = np.vstack((np.ones(3), supports.T))
@@ -214,4 +216,4 @@ def test_forces_through_a_pile_at_rest(blender, tmp_path, engine):
     carried = np.linalg.solve(arms, loads)
     lower, upper = weights[4:]
     by_hand = [*(2 * carried + weights[:3]), carried.sum() + lower + upper, lower + 2 * upper, upper]
-    np.testing.assert_allclose(results.body_sums_n[-1], [weights.sum(), *by_hand], rtol=AGREEMENT)
+    np.testing.assert_allclose(results.frames.loads.body_sums_n[-1], [weights.sum(), *by_hand], rtol=AGREEMENT)

@@ -5,7 +5,7 @@ import re
 import shutil
 import subprocess
 from base64 import b64decode
-from dataclasses import fields, replace
+from dataclasses import replace
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from moving_boxes import moving_boxes
 from run_folders import TOLD, flying_shards, keep_run
+from sample_results import changed
 from scenarios import I235
 
 from bridge_demolition_addon.charts.blast_maps import overpressure_map
@@ -23,7 +24,6 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
 from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.results.arrays import Results
 from bridge_demolition_addon.core.scenario import BallCable, BallHit
 from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
@@ -135,7 +135,7 @@ def test_the_same_run_gives_the_same_report(whole, tmp_path):
 def test_tables_hold_what_the_results_say(whole):
     folder, _, _ = whole
     results = flying_shards()
-    first, last = results.places_m[0, :-1], results.places_m[-1, :-1]
+    first, last = results.frames.positions_m[0, :-1], results.frames.positions_m[-1, :-1]
     throws = np.hypot(*(last - first)[:, :2].T)
     rows = table(folder, "largest_throws")
     assert [row["shard"] for row in rows] == [f"Shard {row:05d}" for row in np.argsort(-throws)[:10]]
@@ -146,7 +146,7 @@ def test_tables_hold_what_the_results_say(whole):
     assert {row["charge"]: float(row["mass_kg"]) for row in table(folder, "charges")} == {"Charge 1": 5, "Charge 2": 2}
     assert [row["neighbour"] for row in table(folder, "neighbours")] == ["House", "School & yard"]
     broken = sum(int(row["broken"]) for row in table(folder, "breaking"))
-    assert broken == (~results.intact[-1]).sum()
+    assert broken == (~results.frames.intact[-1]).sum()
     (hit,) = table(folder, "hits_of_the_ball")
     assert float(hit["impulse_kNs"]) == pytest.approx(50.0)
 
@@ -184,13 +184,9 @@ def test_the_map_of_a_charge_whose_rings_do_not_reach_the_ground_shows_the_bridg
 
 def test_a_run_of_one_frame_says_so(tmp_path):
     results = flying_shards()
-    series = {
-        item.name: getattr(results, item.name)[:1]
-        for item in fields(Results)
-        if getattr(results, item.name).shape[:1] == (25,)
-    }
-    no_ball = {name: getattr(results, name)[:0] for name in ("ball_times_s", "ball_impulses_ns", "ball_velocities_m_s")}
-    page, written = made(keep_run(tmp_path / "run", replace(results, **series | no_ball)))
+    series = {name: array[:1] for name, array in results.arrays().items() if np.shape(array)[:1] == (25,)}
+    no_ball = {name: results.arrays()[name][:0] for name in ("ball_times_s", "ball_impulses_ns", "ball_velocities_m_s")}
+    page, written = made(keep_run(tmp_path / "run", changed(results, **series | no_ball)))
     assert any("Only one frame" in text for text in page.notices)
     assert any("there is no debris" in text for text in page.notices)
     assert written[1].stat().st_size > 0
@@ -282,10 +278,10 @@ def test_damaged_results_are_said_and_left_out(tmp_path):
 def test_a_recording_without_forces_is_reported_without_them(tmp_path):
     results = flying_shards()
     unknown = {
-        name: np.full_like(getattr(results, name), np.nan)
+        name: np.full_like(results.arrays()[name], np.nan)
         for name in ("body_sums_n", "body_peak_sums_n", "body_contact_impulses_ns", "von_mises_pa", "stresses_pa")
     }
-    page, _ = made(keep_run(tmp_path / "run", replace(results, **unknown)))
+    page, _ = made(keep_run(tmp_path / "run", changed(results, **unknown)))
     assert any("Forces were not recorded" in text for text in page.notices)
     assert "6 Collapse" in page.texts
 
@@ -308,10 +304,10 @@ def test_what_is_no_run_is_refused(tmp_path, what):
 @pytest.mark.parametrize("share, words", [(0.0, "nothing moved"), (1.0, "not at rest at the end")])
 def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, share, words):
     flying = flying_shards(6, 13)
-    places, speeds = flying.places_m, flying.velocities_m_s
+    places, speeds = flying.frames.positions_m, flying.frames.velocities_m_s
     run = keep_run(
         tmp_path / "run",
-        replace(flying, places_m=places[:1] + share * (places - places[:1]), velocities_m_s=share * speeds),
+        changed(flying, places_m=places[:1] + share * (places - places[:1]), velocities_m_s=share * speeds),
     )
     (rest,) = (each for each in findings(read_run(run)) if each.label == "All shards at rest from")
     assert (rest.value, rest.text) == (None, words)
@@ -319,7 +315,10 @@ def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, s
 
 def test_runs_are_set_side_by_side(tmp_path):
     results = flying_shards()
-    halved = replace(results, places_m=results.places_m[:1] + (results.places_m - results.places_m[:1]) / 2)
+    halved = changed(
+        results,
+        places_m=results.frames.positions_m[:1] + (results.frames.positions_m - results.frames.positions_m[:1]) / 2,
+    )
     folders = [keep_run(tmp_path / name / "run", each) for name, each in (("a", results), ("b", halved))]
     page, _ = made(*folders, output=tmp_path / "both")
     rows = {row["finding"]: row for row in table(tmp_path / "both", "comparison")}

@@ -68,10 +68,10 @@ def test_9_a_field_pushes_with_the_load_and_only_its_own_body(blender, tmp_path,
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields")
     assert set(force_objects(blocks.scene)) == {near, far}
     results = blocks.play(tmp_path, int(0.05 * fps) + 3)
-    got = 1000.0 * results.velocities_m_s[-1, :, 0]
+    got = 1000.0 * results.frames.velocities_m_s[-1, :, 0]
     assert got[0] == pytest.approx(IMPULSE_AT_5_PA_S, rel=1e-3)
     # Z = 6.2: an impulse about as 1 / Z, with nothing added from the field of the block before it.
-    assert got[1] == pytest.approx(results.blast_impulses_ns[:, 1, 0].sum(), rel=1e-5)
+    assert got[1] == pytest.approx(results.frames.blast_impulses_ns[:, 1, 0].sum(), rel=1e-5)
     assert 0.75 * got[0] < got[1] < 0.9 * got[0]
 
 

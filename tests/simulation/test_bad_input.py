@@ -115,7 +115,7 @@ def test_other_scene_plays_untouched(blender, pair, tmp_path):
     assert recording.error is None
     handlers.stop()
     assert_whole(recording, tmp_path, range(2, FRAMES + 11))
-    assert "Other block" not in recording.results().body_names
+    assert "Other block" not in recording.results().inventory.body_names
     assert_handlers_gone(blender)
 
 

@@ -35,13 +35,13 @@ def test_net_force_comes_from_the_change_of_momentum(strange_blender, tmp_path):
     assert recording.error is None
     assert "friction" in str(recording.distrust)
     results = recording.results()
-    assert str(results.reading) == "change of momentum between frames"
+    assert results.reading == "change of momentum between frames"
     weight = mass * STANDARD_GRAVITY_M_S2
-    assert results.body_forces_n[-1, 3, 2] == pytest.approx(weight, rel=0.01)
+    assert results.frames.loads.body_forces_n[-1, 3, 2] == pytest.approx(weight, rel=0.01)
     # Over the fall, the impact and the rest, the ground has given the block all the momentum that gravity did.
-    impulse = np.nansum(results.body_forces_n[:, 1, 2]) / 240.0
-    assert impulse == pytest.approx(weight * results.times_s[-1], rel=0.02)
-    assert np.isnan(results.body_sums_n).all()
+    impulse = np.nansum(results.frames.loads.body_forces_n[:, 1, 2]) / 240.0
+    assert impulse == pytest.approx(weight * results.frames.time_s[-1], rel=0.02)
+    assert np.isnan(results.frames.loads.body_sums_n).all()
     summary = summarise(results, np.array(blocks.scene.gravity))
     assert summary["reading"] == "change of momentum between frames"
     assert summary["largest_force_sum"] is None
@@ -58,12 +58,12 @@ def test_spin_comes_from_the_change_of_direction(strange_blender, tmp_path):
         blocks.scene.frame_set(frame)
     handlers.stop()
     results = recording.results()
-    spins = results.spins_rad_s[:, 1]
+    spins = results.frames.angular_velocities_rad_s[:, 1]
     # The end at larger x goes down: positive about y.
     assert spins[-1, 1] > 1.0
-    turned = results.rotations[-1, 1]
+    turned = results.frames.rotations[-1, 1]
     angle = np.arctan2(-turned[2, 0], turned[0, 0])
-    steps = np.diff(results.times_s)
+    steps = np.diff(results.frames.time_s)
     assert np.sum(spins[1:, 1] * steps) == pytest.approx(angle, rel=1e-3)
     np.testing.assert_allclose(spins[:, [0, 2]], 0.0, atol=0.05)
 

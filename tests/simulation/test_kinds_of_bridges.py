@@ -71,12 +71,12 @@ def played(scene, scenario, folder):
 @pytest.mark.parametrize("name", BRIDGES)
 def test_it_stands_and_its_foundations_carry_its_weight(blender, tmp_path, name):
     model, results = played(blender.context.scene, scenario_of(BRIDGES[name]), tmp_path)
-    shards = results.of_kind("shard")
-    moved = np.linalg.norm(results.places_m[-1, shards] - results.places_m[0, shards], axis=1)
+    shards = results.inventory.of_kind("shard")
+    moved = np.linalg.norm(results.frames.positions_m[-1, shards] - results.frames.positions_m[0, shards], axis=1)
     assert moved.max() < MOVED_M
-    assert results.intact.all()
+    assert results.frames.intact.all()
     on_ground = model.connections.pairs[:, 1] == GROUND
-    carried = abs(results.connection_forces_n[-1, on_ground, 2].sum())
+    carried = abs(results.frames.loads.connection_forces_n[-1, on_ground, 2].sum())
     # Shards on the ground rest on it with contacts as well only where a foundation gives way, which none does.
     assert carried == pytest.approx(model.masses_kg.sum() * GRAVITY, rel=0.01)
 
@@ -85,9 +85,9 @@ def test_held_abutments_do_not_move_and_carry_the_deck(blender, tmp_path):
     bridge = BRIDGES["skewed box between abutments"]
     scenario = scenario_of(bridge, supports=[Support(member="abutment")])
     model, results = played(blender.context.scene, scenario, tmp_path)
-    shards = results.of_kind("shard")
+    shards = results.inventory.of_kind("shard")
     held = shards[model.held]
-    assert len(held) and (results.places_m[-1, held] == results.places_m[0, held]).all()
-    assert (results.masses_kg[held] == 0.0).all()
-    moved = np.linalg.norm(results.places_m[-1, shards] - results.places_m[0, shards], axis=1)
+    assert len(held) and (results.frames.positions_m[-1, held] == results.frames.positions_m[0, held]).all()
+    assert (results.inventory.masses_kg[held] == 0.0).all()
+    moved = np.linalg.norm(results.frames.positions_m[-1, shards] - results.frames.positions_m[0, shards], axis=1)
     assert moved.max() < MOVED_M

@@ -79,6 +79,9 @@ def test_results_are_kept(tmp_path, drop):
         summary["impact"] = None
     keep_results(tmp_path, results, summary)
     assert json.loads((tmp_path / "summary.json").read_text(encoding="utf-8")) == summary
-    assert load_results(tmp_path / "results.npz").connection_forces_n.tolist() == results.connection_forces_n.tolist()
+    assert (
+        load_results(tmp_path / "results.npz").frames.loads.connection_forces_n.tolist()
+        == results.frames.loads.connection_forces_n.tolist()
+    )
     assert imread(tmp_path / "force_over_time.png").std() > 0.0
     assert set(files_in(tmp_path)) <= set(RESULT_FILES)

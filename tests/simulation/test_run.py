@@ -38,15 +38,17 @@ def test_shards_weigh_what_the_bridge_weighs(span):
     _, summary, results = span
     # Blender keeps each mass in single precision; the errors of 200 roundings mostly cancel.
     assert summary["mass_kg"]["shard"] == pytest.approx(107_000.0, rel=1e-6)
-    assert len(results.of_kind("shard")) == 200
+    assert len(results.inventory.of_kind("shard")) == 200
 
 
 def test_members_shapes_and_scenario_are_kept(span):
     folder, _, results = span
-    shards = results.of_kind("shard")
-    assert set(results.body_member_kinds[shards]) == {"deck", "pier", "pier cap"}
-    deck = shards[results.body_members[shards] == "deck"]
-    corners = np.concatenate([results.vertices_of(body) + results.places_m[0, body] for body in deck])
+    shards = results.inventory.of_kind("shard")
+    assert set(results.inventory.body_member_kinds[shards]) == {"deck", "pier", "pier cap"}
+    deck = shards[results.inventory.body_members[shards] == "deck"]
+    corners = np.concatenate(
+        [results.inventory.vertices_of(body) + results.frames.positions_m[0, body] for body in deck]
+    )
     # The deck is 14 m long with its overhangs, 8.5 m wide and 0.25 m thick.
     np.testing.assert_allclose(np.ptp(corners, axis=0), (14.0, 8.5, 0.25), atol=1e-5)
     assert read_scenario(folder / "scenario_as_run.toml") == I235
@@ -55,23 +57,23 @@ def test_members_shapes_and_scenario_are_kept(span):
 def test_deck_stands_until_the_ball_hits(span):
     """Bullet wakes the bridge when the ball's bounding box meets the deck's, one sub-step or two before they touch."""
     _, summary, results = span
-    hit = int(np.flatnonzero(results.frames == summary["impact"]["frame"])[0])
-    shards = results.of_kind("shard")
-    moved = abs(results.places_m[:hit, shards] - results.places_m[0, shards])
+    hit = int(np.flatnonzero(results.frames.number == summary["impact"]["frame"])[0])
+    shards = results.inventory.of_kind("shard")
+    moved = abs(results.frames.positions_m[:hit, shards] - results.frames.positions_m[0, shards])
     assert (moved[:-1] == 0.0).all()
     assert moved.max() < 1e-3
-    assert results.intact[:hit].all()
-    assert not results.intact[hit].all()
+    assert results.frames.intact[:hit].all()
+    assert not results.frames.intact[hit].all()
 
 
 def test_ball_falls_freely_until_it_hits(span):
     """Bullet adds gravity to the velocity once a sub-step, so velocity is exact and distance a half sub-step ahead."""
     _, summary, results = span
-    ball = results.of_kind("ball")[0]
-    time = results.times_s - I235.ball.release_time_s
-    falling = (time > I235.time.step.substep_s) & (results.times_s < summary["impact"]["time_s"] - 1e-9)
+    ball = results.inventory.of_kind("ball")[0]
+    time = results.frames.time_s - I235.ball.release_time_s
+    falling = (time > I235.time.step.substep_s) & (results.frames.time_s < summary["impact"]["time_s"] - 1e-9)
     np.testing.assert_allclose(
-        results.velocities_m_s[falling, ball, 2], -STANDARD_GRAVITY_M_S2 * time[falling], rtol=1e-5
+        results.frames.velocities_m_s[falling, ball, 2], -STANDARD_GRAVITY_M_S2 * time[falling], rtol=1e-5
     )
     hit = summary["impact"]["time_s"]
     frame = I235.time.step.frame_s
@@ -80,35 +82,36 @@ def test_ball_falls_freely_until_it_hits(span):
 
 def test_deck_falls_and_ball_goes_through(span):
     _, summary, results = span
-    ball = results.of_kind("ball")[0]
-    assert results.places_m[-1, ball, 2] < deck_underside(I235.bridge)
-    on_deck = results.of_kind("shard")[results.places_m[0, results.of_kind("shard"), 2] > deck_underside(I235.bridge)]
+    ball = results.inventory.of_kind("ball")[0]
+    assert results.frames.positions_m[-1, ball, 2] < deck_underside(I235.bridge)
+    shards = results.inventory.of_kind("shard")
+    on_deck = shards[results.frames.positions_m[0, shards, 2] > deck_underside(I235.bridge)]
     assert len(on_deck) > 100
-    assert results.places_m[-1, on_deck, 2].max() < deck_top(I235.bridge) / 2
+    assert results.frames.positions_m[-1, on_deck, 2].max() < deck_top(I235.bridge) / 2
     assert summary["connections"]["broken"] > summary["connections"]["count"] / 2
 
 
 def test_no_shard_falls_through_the_ground(span):
     """Shards lose their foundation and their neighbours, and meet both again."""
     _, _, results = span
-    assert results.places_m[-1, results.of_kind("shard"), 2].min() > 0.0
+    assert results.frames.positions_m[-1, results.inventory.of_kind("shard"), 2].min() > 0.0
 
 
 def test_logs_hold_what_was_recorded(span):
     folder, summary, results = span
     forces = rows(folder / "force_log.csv")
-    assert len(forces) == len(results.frames) * len(results.body_names)
+    assert len(forces) == len(results.frames) * len(results.inventory.body_names)
     logged = np.array([[float(row[f"force_{axis}_N"]) for axis in ("x", "y", "z", "sum")] for row in forces])
-    expected = np.dstack((results.body_forces_n, results.body_sums_n))
+    expected = np.dstack((results.frames.loads.body_forces_n, results.frames.loads.body_sums_n))
     # Nine digits are written.
     np.testing.assert_allclose(logged, expected.reshape(-1, 4), rtol=1e-8, atol=1e-8)
     debris = rows(folder / "debris_log.csv")
-    count = len(results.body_names)
-    assert [row["body"] for row in debris] == 2 * results.body_names.tolist()
-    assert {int(row["frame"]) for row in debris[:count]} == {int(results.frames[0])}
-    assert {int(row["frame"]) for row in debris[count:]} == {int(results.frames[-1])}
+    count = len(results.inventory.body_names)
+    assert [row["body"] for row in debris] == 2 * results.inventory.body_names.tolist()
+    assert {int(row["frame"]) for row in debris[:count]} == {int(results.frames.number[0])}
+    assert {int(row["frame"]) for row in debris[count:]} == {int(results.frames.number[-1])}
     places = np.array([[float(row[f"{axis}_m"]) for axis in "xyz"] for row in debris]).reshape(2, count, 3)
-    np.testing.assert_allclose(places, results.places_m[[0, -1]], rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(places, results.frames.positions_m[[0, -1]], rtol=1e-8, atol=1e-8)
     throws = [float(row["throw_m"]) for row in debris[count:] if row["body"].startswith("Shard")]
     assert max(throws) == pytest.approx(summary["largest_throw"]["throw_m"], rel=1e-8)
 
@@ -117,7 +120,7 @@ def test_summary_is_what_was_returned(span):
     folder, summary, results = span
     assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == summary
     over_time = summary["connections"]["over_time"]
-    assert over_time["time_s"] == results.times_s.tolist()
+    assert over_time["time_s"] == results.frames.time_s.tolist()
     assert all(
         a + b == summary["connections"]["count"] for a, b in zip(over_time["intact"], over_time["broken"], strict=True)
     )
@@ -131,13 +134,13 @@ def test_saved_scene_plays_what_was_recorded(span, blender):
     blender.ops.wm.open_mainfile(filepath=str(folder / "scene.blend"))
     scene = blender.context.scene
     for step in (5, len(results.frames) - 1, 40):
-        scene.frame_set(int(results.frames[step]))
+        scene.frame_set(int(results.frames.number[step]))
         graph = blender.context.evaluated_depsgraph_get()
         for body in (1, 50, 150):
-            name = str(results.body_names[body])
+            name = str(results.inventory.body_names[body])
             place = blender.data.objects[name].evaluated_get(graph).matrix_world.translation
             # The cache keeps single precision.
-            np.testing.assert_allclose(place, results.places_m[step, body], atol=1e-5)
+            np.testing.assert_allclose(place, results.frames.positions_m[step, body], atol=1e-5)
 
 
 def test_same_scenario_gives_the_same_logs(tmp_path):
@@ -162,12 +165,12 @@ def test_awake_bridge_stands_where_its_strength_suffices_and_hands_its_weight_to
     summary, results = run(awake, tmp_path / "run")
     assert summary["connections"]["broken"] == 0
     assert summary["impact"] is None
-    sag = (results.places_m[0] - results.places_m[-1])[:, 2].max()
+    sag = (results.frames.positions_m[0] - results.frames.positions_m[-1])[:, 2].max()
     assert sag < 0.05
-    ground = results.of_kind("ground")[0]
+    ground = results.inventory.of_kind("ground")[0]
     weight = 107_000.0 * STANDARD_GRAVITY_M_S2
     # The last swaying of the deck, damped by 4 % a second, is still in it.
-    assert results.body_forces_n[-1, ground, 2] == pytest.approx(-weight, rel=1e-3)
+    assert results.frames.loads.body_forces_n[-1, ground, 2] == pytest.approx(-weight, rel=1e-3)
 
 
 def test_pictures_show_before_impact_and_after(tmp_path):

@@ -41,8 +41,8 @@ def test_beam_is_at_rest_after_a_damped_warm_up(blender, tmp_path):
     assert settled["time_s"] == pytest.approx(WARM_UP_S, abs=1 / 24)
     assert settled["largest_speed_m_s"] < 0.2 * swaying["largest_speed_m_s"]
     # It has settled where it stays: what follows without damping moves it no further than the trembling of the solver.
-    end = np.flatnonzero(damped.times_s >= settled["time_s"])[0]
-    sag = (damped.places_m[0] - damped.places_m)[:, :, 2].max(axis=1)
+    end = np.flatnonzero(damped.frames.time_s >= settled["time_s"])[0]
+    sag = (damped.frames.positions_m[0] - damped.frames.positions_m)[:, :, 2].max(axis=1)
     assert sag[end] == pytest.approx(sag[-1], rel=0.05)
 
 
@@ -58,12 +58,14 @@ def test_damping_is_a_share_of_the_velocity_in_a_second(blender, tmp_path):
     handlers.stop()
     results = recording.results()
     rate = -np.log(1.0 - damping)
-    end = int(np.flatnonzero(results.times_s >= WARM_UP_S - 1e-6)[0])
+    end = int(np.flatnonzero(results.frames.time_s >= WARM_UP_S - 1e-6)[0])
     expected = STANDARD_GRAVITY_M_S2 / rate * (1.0 - np.exp(-rate * WARM_UP_S))
     # One sub-step of 1/240 s and its gravity are the error of steps.
-    assert -results.velocities_m_s[end, 0, 2] == pytest.approx(expected, rel=0.01)
-    fall = results.velocities_m_s[end, 0, 2] - results.velocities_m_s[-1, 0, 2]
-    assert fall == pytest.approx(STANDARD_GRAVITY_M_S2 * (results.times_s[-1] - results.times_s[end]), rel=0.01)
+    assert -results.frames.velocities_m_s[end, 0, 2] == pytest.approx(expected, rel=0.01)
+    fall = results.frames.velocities_m_s[end, 0, 2] - results.frames.velocities_m_s[-1, 0, 2]
+    assert fall == pytest.approx(
+        STANDARD_GRAVITY_M_S2 * (results.frames.time_s[-1] - results.frames.time_s[end]), rel=0.01
+    )
 
 
 def test_summary_says_how_quiet_the_bridge_is_after_its_warm_up(tmp_path):

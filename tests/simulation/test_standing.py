@@ -120,9 +120,11 @@ def test_an_intact_bridge_stands(blender, tmp_path, kind):
     results = load_results(tmp_path / "run" / "results.npz")
     connections = summary["connections"]
     assert connections["broken"] <= MOST_BROKEN * connections["count"]
-    moved = np.linalg.norm(results.places_m[-1] - results.places_m[0], axis=1)[results.of_kind("shard")]
+    moved = np.linalg.norm(results.frames.positions_m[-1] - results.frames.positions_m[0], axis=1)[
+        results.inventory.of_kind("shard")
+    ]
     assert moved.max() < MOST_SAG_M
     # Nothing goes on breaking or sinking.
-    late = results.times_s > 5.0
-    assert np.ptp(results.intact[late].sum(axis=1)) == 0
-    assert abs(results.velocities_m_s[-1]).max() < 1e-2
+    late = results.frames.time_s > 5.0
+    assert np.ptp(results.frames.intact[late].sum(axis=1)) == 0
+    assert abs(results.frames.velocities_m_s[-1]).max() < 1e-2

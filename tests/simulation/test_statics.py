@@ -31,12 +31,12 @@ def test_chain_carries_the_weight_below_each_connection(blender, tmp_path, kind,
     results = blocks.play(tmp_path, 48)
     weights = np.cumsum(masses[::-1])[::-1] * GRAVITY
     # The first body of each pair hangs on to the one above, so each connection pulls it down.
-    np.testing.assert_allclose(results.connection_forces_n[-1][:, 2], -weights, rtol=STATICS)
-    np.testing.assert_allclose(results.connection_forces_n[-1][:, :2], 0.0, atol=STATICS * weights[0])
-    np.testing.assert_allclose(results.connection_moments_nm[-1], 0.0, atol=STATICS * weights[0])
-    np.testing.assert_allclose(results.body_forces_n[-1][1:, 2], np.array(masses) * GRAVITY, rtol=STATICS)
+    np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1][:, 2], -weights, rtol=STATICS)
+    np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1][:, :2], 0.0, atol=STATICS * weights[0])
+    np.testing.assert_allclose(results.frames.loads.connection_moments_nm[-1], 0.0, atol=STATICS * weights[0])
+    np.testing.assert_allclose(results.frames.loads.body_forces_n[-1][1:, 2], np.array(masses) * GRAVITY, rtol=STATICS)
     expected_sums = weights + np.append(weights[1:], 0.0)
-    np.testing.assert_allclose(results.body_sums_n[-1][1:], expected_sums, rtol=STATICS)
+    np.testing.assert_allclose(results.frames.loads.body_sums_n[-1][1:], expected_sums, rtol=STATICS)
 
 
 @pytest.mark.parametrize("step", STEPS, ids=("24 Hz × 10", "60 Hz × 4"))
@@ -49,9 +49,11 @@ def test_cantilever_carries_shear_and_moment(blender, tmp_path, kind, step):
     blocks.connect(kind, (0.5, 0.0, 5), wall, arm)
     results = blocks.play(tmp_path, 96)
     weight = mass * GRAVITY
-    np.testing.assert_allclose(results.connection_forces_n[-1][0], (0, 0, -weight), atol=STATICS * weight)
+    np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1][0], (0, 0, -weight), atol=STATICS * weight)
     moment = np.cross((*lever, 0.0), (0, 0, -weight))
-    np.testing.assert_allclose(results.connection_moments_nm[-1][0], moment, atol=STATICS * abs(moment).max())
+    np.testing.assert_allclose(
+        results.frames.loads.connection_moments_nm[-1][0], moment, atol=STATICS * abs(moment).max()
+    )
 
 
 def test_beam_fixed_at_both_ends_carries_half_its_weight_and_the_full_moment(blender, tmp_path):
@@ -69,7 +71,7 @@ def test_beam_fixed_at_both_ends_carries_half_its_weight_and_the_full_moment(ble
     for i, pair in enumerate(pairwise(chain)):
         blocks.connect("FIXED", (size * i, 0, 5), *pair)
     results = blocks.play(tmp_path, 72)
-    forces, moments = results.connection_forces_n[-1], results.connection_moments_nm[-1]
+    forces, moments = results.frames.loads.connection_forces_n[-1], results.frames.loads.connection_moments_nm[-1]
     weight = mass * GRAVITY
     assert forces[0, 2] == pytest.approx(-weight / 2, rel=0.01)
     assert forces[-1, 2] == pytest.approx(weight / 2, rel=0.01)
@@ -85,5 +87,5 @@ def test_forces_sum_to_zero_over_all_bodies(blender, tmp_path):
         blocks.connect("POINT", (0, 0, 9.5), *pair)
     results = blocks.play(tmp_path, 10)
     # Each connection enters once with each sign: only the rounding of sums of some hundred N remains.
-    np.testing.assert_allclose(results.body_forces_n.sum(axis=1), 0.0, atol=1e-9)
-    assert abs(results.body_forces_n).max() > 1.0
+    np.testing.assert_allclose(results.frames.loads.body_forces_n.sum(axis=1), 0.0, atol=1e-9)
+    assert abs(results.frames.loads.body_forces_n).max() > 1.0

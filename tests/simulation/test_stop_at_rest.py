@@ -30,14 +30,16 @@ def test_run_stops_at_rest_and_the_scene_with_it(blender, tmp_path):
     assert 1.5 < rest_s < 20.0
     assert summary["completed"]
     assert summary["simulated_s"] == pytest.approx(rest_s + 1.0, abs=time.step.frame_s)
-    rested = results.times_s > rest_s + 1e-6
-    awake = ~results.asleep[rested]
+    rested = results.frames.time_s > rest_s + 1e-6
+    awake = ~results.frames.asleep[rested]
     assert (
-        np.linalg.norm(np.diff(results.places_m[results.times_s > rest_s - 1e-6], axis=0), axis=2)[awake].max()
+        np.linalg.norm(np.diff(results.frames.positions_m[results.frames.time_s > rest_s - 1e-6], axis=0), axis=2)[
+            awake
+        ].max()
         < time.rest_speed_m_s * time.step.frame_s * 1.001
     )
     blender.ops.wm.open_mainfile(filepath=str(tmp_path / "run" / "scene.blend"))
-    assert blender.context.scene.frame_end == results.frames[-1]
+    assert blender.context.scene.frame_end == results.frames.number[-1]
 
 
 def test_run_goes_on_to_its_end_where_it_is_not_asked_to_stop(blender, tmp_path):

@@ -26,7 +26,7 @@ def test_column_carries_all_that_is_above(blender, tmp_path):
         column.scene.frame_set(frame)
     handlers.stop()
     results = recording.results()
-    vertical, heights = results.stresses_pa[-1, :, 2, 2], column.fracture.centres[:, 2]
+    vertical, heights = results.frames.loads.stresses_pa[-1, :, 2, 2], column.fracture.centres[:, 2]
     for level in np.arange(1.5, height, 1.0):
         inside = (abs(heights - level) < 0.5) & (low > 1e-6)
         weights = column.fracture.volumes[inside]
@@ -50,8 +50,8 @@ def test_pulled_bar_has_force_by_area(blender, tmp_path):
     # In the middle of a block hang the pull, the blocks below and half of its own weight.
     below = own * np.arange(4.5, 0.0, -1.0)
     expected = (pull + below) * GRAVITY / side**2
-    np.testing.assert_allclose(results.stresses_pa[-1, 1:6, 2, 2], expected, rtol=0.01)
-    np.testing.assert_allclose(results.von_mises_pa[-1, 1:6], expected, rtol=0.01)
+    np.testing.assert_allclose(results.frames.loads.stresses_pa[-1, 1:6, 2, 2], expected, rtol=0.01)
+    np.testing.assert_allclose(results.frames.loads.von_mises_pa[-1, 1:6], expected, rtol=0.01)
 
 
 @pytest.mark.parametrize(("share", "holds"), ((0.97, False), (1.03, True)))
@@ -64,9 +64,9 @@ def test_hanging_block_breaks_by_the_tension_of_its_section(blender, tmp_path, s
     tension = share * mass * GRAVITY / area
     keep_breaking(blocks.scene, Breaking(Strength(1e9, tension, 1e9, 1e9, 1e9), warm_up_s=0.2))
     results = blocks.play(tmp_path, 24)
-    assert bool(results.intact[-1][0]) is holds
+    assert bool(results.frames.intact[-1][0]) is holds
     # Nothing breaks before the structure has had its time to settle.
-    assert results.intact[results.times_s < 0.2].all()
+    assert results.frames.intact[results.frames.time_s < 0.2].all()
     with (tmp_path / "breaking_log.csv").open(newline="") as file:
         breaks = list(csv.DictReader(file))
     assert len(breaks) == (0 if holds else 1)
@@ -81,8 +81,8 @@ def test_warm_up_holds_off_the_threshold_of_bullet_too(blender, tmp_path):
     blocks.connect("FIXED", (0, 0, 9.5), ceiling, block, 500.0)
     keep_breaking(blocks.scene, Breaking(warm_up_s=0.5))
     results = blocks.play(tmp_path, 24)
-    assert results.intact[results.times_s < 0.5].all()
-    assert not results.intact[-1].any()
+    assert results.frames.intact[results.frames.time_s < 0.5].all()
+    assert not results.frames.intact[-1].any()
 
 
 def collapse_gravity(blender, tmp_path, shard_count, **breaking):
@@ -97,7 +97,7 @@ def collapse_gravity(blender, tmp_path, shard_count, **breaking):
         share = min(1.0, frame / 24) + max(0, frame - 24) / 12
         deck.scene.gravity[2] = -share * GRAVITY
         deck.scene.frame_set(frame)
-        if recording.recorded_frames and recording._frames[-1]["places_m"][middle, 2] < 4.5:
+        if recording.recorded_frames and recording.frames[-1].positions_m[middle, 2] < 4.5:
             break
     handlers.stop()
     if recording.error:
@@ -144,8 +144,8 @@ def test_tie_gives_way_under_its_yield_force_and_lets_go(blender, tmp_path, subs
     """Of the weight, 0.4 is held back over the elongation: a fall at 0.6 g, then free."""
     blocks, elongation = Blocks(substeps_per_frame=substeps), 0.3
     results = torn(blocks, tmp_path, 100.0, 0.4, elongation, 24)
-    fallen = 9.0 - results.places_m[:, 1, 2]
-    speed = -results.velocities_m_s[:, 1, 2]
+    fallen = 9.0 - results.frames.positions_m[:, 1, 2]
+    speed = -results.frames.velocities_m_s[:, 1, 2]
     held = np.flatnonzero((fallen > 0.05) & (fallen < elongation))
     free = np.flatnonzero(fallen > elongation + 0.1)
     assert len(held) and len(free)
@@ -153,7 +153,7 @@ def test_tie_gives_way_under_its_yield_force_and_lets_go(blender, tmp_path, subs
     np.testing.assert_allclose(speed[held] ** 2, 2 * 0.6 * GRAVITY * fallen[held], rtol=0.05)
     energy = 0.6 * GRAVITY * elongation + GRAVITY * (fallen[free] - elongation)
     np.testing.assert_allclose(speed[free] ** 2 / 2, energy, rtol=0.05)
-    assert results.connection_forces_n[held[0], 0, 2] == pytest.approx(-0.4 * 100.0 * GRAVITY, rel=1e-6)
+    assert results.frames.loads.connection_forces_n[held[0], 0, 2] == pytest.approx(-0.4 * 100.0 * GRAVITY, rel=1e-6)
 
 
 def test_tie_that_is_strong_enough_holds_on(blender, tmp_path):
@@ -165,7 +165,7 @@ def test_tie_that_is_strong_enough_holds_on(blender, tmp_path):
     tension = 4.0 * mass * GRAVITY / area
     keep_breaking(blocks.scene, Breaking(Strength(1e12, tension, 1e12, 1e12, 1.0), 0.0, Ductility(1.0, 0.5)))
     results = blocks.play(tmp_path, 24 * 20)
-    assert not results.intact[-1][0]
-    assert results.places_m[-1, 1, 2] > 8.5
+    assert not results.frames.intact[-1][0]
+    assert results.frames.positions_m[-1, 1, 2] > 8.5
     # Over whole seconds of swinging the mean force on the block is its weight.
-    assert results.body_forces_n[-240:, 1, 2].mean() == pytest.approx(mass * GRAVITY, rel=0.02)
+    assert results.frames.loads.body_forces_n[-240:, 1, 2].mean() == pytest.approx(mass * GRAVITY, rel=0.02)

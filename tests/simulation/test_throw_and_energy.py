@@ -44,8 +44,8 @@ def test_throw_is_the_ballistic_range(blender, tmp_path, speed, degrees):
     velocity = (along * math.cos(heading), along * math.sin(heading), up)
     flight_s = 2.0 * up / G
     results = launched(blocks, tmp_path, int(flight_s * 48) + 3, velocity)
-    heights = results.places_m[:, 0, 2] - 30.0
-    throws = throw(results.places_m[:1, 0], results.places_m[:, 0])
+    heights = results.frames.positions_m[:, 0, 2] - 30.0
+    throws = throw(results.frames.positions_m[:1, 0], results.frames.positions_m[:, 0])
     landed = np.flatnonzero((heights[:-1] > 0.0) & (heights[1:] <= 0.0))[-1]
     share = heights[landed] / (heights[landed] - heights[landed + 1])
     reached = throws[landed] + share * (throws[landed + 1] - throws[landed])
@@ -85,7 +85,7 @@ def test_what_a_bounce_in_bullet_gains_or_loses_is_what_the_next_height_says(ble
     for each in (ground, block):
         each.rigid_body.restitution, each.rigid_body.friction = 1.0, 0.0
     results = blocks.play(tmp_path, 110)
-    heights = results.places_m[:, 1, 2]
+    heights = results.frames.positions_m[:, 1, 2]
     bounce = int(heights.argmin())
     apex = bounce + int(heights[bounce:].argmax())
     assert bounce < apex < len(heights) - 1

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import bisect
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
 from ..errors import ContourError
+from ..mechanics.forces import lengths
+from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.stress import principal_stresses
 from ..results.arrays import Results
+from ..results.frames import Frame
+from ..results.inventory import Inventory
 from .colour_scale import ColourMap, colours
 
 
@@ -161,50 +164,19 @@ class ContourFrame:
     screen_colours: np.ndarray
 
 
-FRAME_ARRAYS = (
-    "frames",
-    "times_s",
-    "substep_s",
-    "places_m",
-    "rotations",
-    "body_forces_n",
-    "body_peaks_n",
-    "body_sums_n",
-    "body_peak_sums_n",
-    "body_contact_impulses_ns",
-    "body_signed_2019_n",
-    "stresses_pa",
-    "von_mises_pa",
-    "connection_forces_n",
-    "intact",
-)
-"""What is used of a frame, of a recording's or of its results."""
-
-
 class ContourSeries:
     """The frames of a recording as contours: of one that still grows, or of a finished one.
 
     Parameters
     ----------
-    body_names, moves
-        (n,) names of the bodies, and whether they move; those that do not are not coloured and do not count for
-        ranges.
-    pairs, points_m
-        (m, 2) bodies that connections are between, and (m, 3) where connections are at first.
+    inventory : Inventory
+        Its bodies and connections. Bodies that do not move are not coloured and do not count for ranges.
     """
 
-    def __init__(
-        self,
-        body_names: Sequence[str],
-        moves: np.ndarray,
-        pairs: np.ndarray | None = None,
-        points_m: np.ndarray | None = None,
-    ):
-        self.body_names = [str(name) for name in body_names]
-        self.moves = np.asarray(moves, bool)
-        self.pairs = np.zeros((0, 2), int) if pairs is None else pairs
-        self.points_m = np.zeros((0, 3)) if points_m is None else points_m
-        self._frames: list[Mapping[str, np.ndarray]] = []
+    def __init__(self, inventory: Inventory):
+        self.body_names = inventory.body_names.tolist()
+        self.moves, self.pairs, self.points_m = inventory.moves, inventory.pairs, inventory.points_m
+        self._frames: list[Frame] = []
         self._rows: dict[int, int] = {}
         self._values: dict[tuple[Quantity, bool], list[np.ndarray]] = {}
         self._extents: dict[tuple[Quantity, bool], list[tuple[float, float]]] = {}
@@ -212,10 +184,9 @@ class ContourSeries:
     @classmethod
     def of_results(cls, results: Results) -> ContourSeries:
         """The contours of a finished recording."""
-        series = cls(results.body_names, results.masses_kg > 0.0, results.pairs, results.points_m)
-        names = [field.name for field in fields(results) if field.name in FRAME_ARRAYS]
-        for row in range(len(results.frames)):
-            series.append({name: getattr(results, name)[row] for name in names})
+        series = cls(results.inventory)
+        for frame in results.frames:
+            series.append(frame)
         return series
 
     def __len__(self) -> int:
@@ -229,11 +200,11 @@ class ContourSeries:
     @property
     def times_s(self) -> np.ndarray:
         """(k,) simulated times of the frames."""
-        return np.array([frame["times_s"] for frame in self._frames], float)
+        return np.array([frame.time_s for frame in self._frames], float)
 
-    def append(self, frame: Mapping[str, np.ndarray]) -> None:
-        """Add the next frame, with the arrays of a recording: see `FRAME_ARRAYS`."""
-        self._rows[int(frame["frames"])] = len(self._frames)
+    def append(self, frame: Frame) -> None:
+        """Add the next frame."""
+        self._rows[int(frame.number)] = len(self._frames)
         self._frames.append(frame)
 
     def row_at(self, frame: int) -> int | None:
@@ -242,8 +213,8 @@ class ContourSeries:
             return self._rows[frame]
         return max(bisect.bisect_right(self.frames, frame) - 1, 0) if self._frames else None
 
-    def arrays(self, row: int) -> Mapping[str, np.ndarray]:
-        """Everything that was recorded in a row."""
+    def frame(self, row: int) -> Frame:
+        """The frame of a row as it was recorded."""
         return self._frames[row]
 
     def values(self, row: int, quantity: Quantity, *, peak: bool = False) -> np.ndarray:
@@ -257,7 +228,7 @@ class ContourSeries:
         scale = self._scale(row, settings)
         frame = self._frames[row]
         painted = colours(settings.colour_map, scale.shares(values))
-        return ContourFrame(int(frame["frames"]), float(frame["times_s"]), values, scale, painted)
+        return ContourFrame(int(frame.number), float(frame.time_s), values, scale, painted)
 
     def extent(self, row: int | None, quantity: Quantity, *, peak: bool = False) -> tuple[float, float]:
         """Lowest and highest value, N or Pa, of a row, or of all rows for None; 0 always lies between them.
@@ -280,11 +251,13 @@ class ContourSeries:
         return Scale(largest / 10.0**settings.decades, largest, True) if largest > 0.0 else Scale(0.0, 0.0)
 
     def _fill(self, quantity: Quantity, peak: bool) -> None:
-        """Reckon the rows that were added since."""
+        """Calculate the rows that were added since."""
         values = self._values.setdefault((quantity, peak), [])
         extents = self._extents.setdefault((quantity, peak), [])
         for frame in self._frames[len(values) :]:
-            found = np.where(self.moves, _peaks(quantity, frame) if peak else _means(quantity, frame), np.nan)
+            found = np.where(
+                self.moves, _peaks(quantity, frame.loads) if peak else _means(quantity, frame.loads), np.nan
+            )
             if peak and values:
                 found = np.fmax(values[-1], found)
             known = found[np.isfinite(found)]
@@ -292,32 +265,32 @@ class ContourSeries:
             extents.append((float(known.min(initial=0.0)), float(known.max(initial=0.0))))
 
 
-def _means(quantity: Quantity, frame: Mapping[str, np.ndarray]) -> np.ndarray:
+def _means(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
     """Values (n,) of a frame."""
     match quantity:
         case Quantity.SIGNED_2019:
-            return np.asarray(frame["body_signed_2019_n"], float)
+            return loads.body_signed_2019_n
         case Quantity.RESULTANT:
-            return np.linalg.norm(frame["body_forces_n"], axis=-1)
+            return lengths(loads.body_forces_n)
         case Quantity.SUM:
-            return np.asarray(frame["body_sums_n"], float)
+            return loads.body_sums_n
         case Quantity.VON_MISES:
-            return np.asarray(frame["von_mises_pa"], float)
+            return loads.von_mises_pa
         case Quantity.PRINCIPAL:
-            return principal_stresses(frame["stresses_pa"])[:, 0]
+            return principal_stresses(loads.stresses_pa)[:, 0]
 
 
-def _peaks(quantity: Quantity, frame: Mapping[str, np.ndarray]) -> np.ndarray:
+def _peaks(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
     """Largest values (n,) within a frame, as far as they are recorded."""
     match quantity:
         case Quantity.SIGNED_2019:
-            return abs(_means(quantity, frame))
+            return abs(_means(quantity, loads))
         case Quantity.RESULTANT:
-            return np.asarray(frame["body_peaks_n"], float)
+            return loads.body_peaks_n
         case Quantity.SUM:
-            return np.asarray(frame["body_peak_sums_n"], float)
+            return loads.body_peak_sums_n
         case _:
-            return _means(quantity, frame)
+            return _means(quantity, loads)
 
 
 def _round_step(step: float) -> float:

@@ -2,39 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
+
+from ..results.frames import Frame
 
 _HEAD_SHARE = 0.25
 _HEAD_SLOPE = 0.35
 
 
-def body_forces(frame: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+def body_forces(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 3) in m, and resultants of connections and contacts (n, 3) in N, of all bodies."""
-    return np.asarray(frame["places_m"], float), np.asarray(frame["body_forces_n"], float)
+    return frame.positions_m, frame.loads.body_forces_n
 
 
-def contact_forces(frame: Mapping[str, np.ndarray], frame_s: float) -> tuple[np.ndarray, np.ndarray]:
+def contact_forces(frame: Frame, frame_s: float) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 3) in m, and mean forces of all contacts (n, 3) in N, over a frame of `frame_s`."""
-    impulses = np.asarray(frame["body_contact_impulses_ns"], float)
-    return np.asarray(frame["places_m"], float), impulses / frame_s if frame_s > 0.0 else np.zeros_like(impulses)
+    impulses = frame.loads.body_contact_impulses_ns
+    return frame.positions_m, impulses / frame_s if frame_s > 0.0 else np.zeros_like(impulses)
 
 
 def connection_forces(
-    frame: Mapping[str, np.ndarray], first: Mapping[str, np.ndarray], pairs: np.ndarray, points_m: np.ndarray
+    frame: Frame, first: Frame, pairs: np.ndarray, points_m: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Where connections that hold are, (h, 3) in m, and their forces on their first bodies (h, 3) in N.
 
-    Connections move with their first bodies: `pairs` (m, 2) are the bodies, `points_m` (m, 3) are the places in the
+    Connections move with their first bodies: `pairs` (m, 2) are the bodies, `points_m` (m, 3) their positions in the
     frame `first`.
     """
-    forces = np.asarray(frame["connection_forces_n"], float)
-    holds = np.asarray(frame["intact"], bool)
+    holds = frame.intact
     bodies = pairs[holds, 0]
-    arms = points_m[holds] - first["places_m"][bodies]
-    turns = frame["rotations"][bodies] @ first["rotations"][bodies].transpose(0, 2, 1)
-    return frame["places_m"][bodies] + np.einsum("hij,hj->hi", turns, arms), forces[holds]
+    arms = points_m[holds] - first.positions_m[bodies]
+    turns = frame.rotations[bodies] @ first.rotations[bodies].transpose(0, 2, 1)
+    return frame.positions_m[bodies] + np.einsum("hij,hj->hi", turns, arms), frame.loads.connection_forces_n[holds]
 
 
 def arrows(starts: np.ndarray, forces: np.ndarray, metres_per_newton: float, least_m: float = 0.0) -> np.ndarray:

@@ -3,56 +3,112 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .forces import magnitude_sums, resultants
+from .forces import lengths, magnitude_sums, resultants
 from .stress import average_stress, average_stress_of_moments, von_mises
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class SubstepLoads:
     """Loads of one sub-step on n bodies by m connections and k contact points.
 
+    Contacts come as impulses, as Bullet keeps them. Loads of connections are forces: Bullet has divided them by the
+    sub-step already.
+
     Attributes
     ----------
-    connection_forces_n, connection_moments_nm
-        (m, 3) force on the first body of each connection, and moment about the connection's own point.
-    connection_points_m
-        (m, 3) where the connections are.
-    signed_2019_n
-        (m,) the one number that Bullet keeps of a connection, as a force.
-    contact_pairs, contact_forces_n, contact_points_m
-        (k, 2) bodies, (k, 3) force on the first of them and (k, 3) where it acts.
-    centres_m, rotations
-        (n, 3) centres of mass and (n, 3, 3) of all bodies.
+    substep_s : float
+        How long the sub-step was.
+    connection_forces_n, connection_moments_nm : (m, 3) float
+        Force on the first body of each connection, and moment about the connection's own point.
+    connection_points_m : (m, 3) float
+        Where the connections are.
+    signed_2019_ns : (m,) float
+        The one number that Bullet keeps of a connection, an impulse.
+    contact_pairs : (k, 2) int
+        Bodies in contact.
+    contact_impulses_ns, contact_points_m : (k, 3) float
+        Impulse on the first of them, and where it acts.
+    centres_m, rotations : (n, 3) float, (n, 3, 3) float
+        Centres of mass and rotations of all bodies.
     """
 
+    substep_s: float
     connection_forces_n: np.ndarray
     connection_moments_nm: np.ndarray
     connection_points_m: np.ndarray
-    signed_2019_n: np.ndarray
+    signed_2019_ns: np.ndarray
     contact_pairs: np.ndarray
-    contact_forces_n: np.ndarray
+    contact_impulses_ns: np.ndarray
     contact_points_m: np.ndarray
     centres_m: np.ndarray
     rotations: np.ndarray
 
 
+@dataclass(frozen=True, slots=True, eq=False)
 class FrameLoads:
-    """Gathers the loads of a frame.
+    """Loads of one frame on n bodies and m connections.
 
-    Stress is worked out twice a frame and not for every sub-step, which would cost more than all the rest: from the
+    Forces on a body are those of its connections and contacts together, without gravity.
+
+    Attributes
+    ----------
+    body_forces_n, body_peaks_n : (n, 3) float, (n,) float
+        Mean of the resultant, and its largest magnitude.
+    body_sums_n, body_peak_sums_n : (n,) float
+        Mean and largest of the sum of the magnitudes.
+    body_contact_impulses_ns : (n, 3) float
+        Impulse of the contacts.
+    body_signed_2019_n : (n,) float
+        Mean of what the add-on of 2019 calls the contact force: the numbers that Bullet keeps of its connections, added
+        or taken off with their signs. For comparison only.
+    stresses_pa : (n, 3, 3) float
+        Average stress under the mean loads, tension positive.
+    von_mises_pa : (n,) float
+        Equivalent stress in the sub-step in which all loads together were largest.
+    connection_forces_n, connection_moments_nm : (m, 3) float
+        Mean force on the first body of each pair, and moment about the connection's own point.
+    connection_peaks_n : (m,) float
+        Largest magnitude of the force.
+    connection_peak_forces_n, connection_peak_moments_nm : (m, 3) float
+        Force and moment in the sub-step that had it.
+    """
+
+    body_forces_n: np.ndarray
+    body_peaks_n: np.ndarray
+    body_sums_n: np.ndarray
+    body_peak_sums_n: np.ndarray
+    body_contact_impulses_ns: np.ndarray
+    body_signed_2019_n: np.ndarray
+    stresses_pa: np.ndarray
+    von_mises_pa: np.ndarray
+    connection_forces_n: np.ndarray
+    connection_moments_nm: np.ndarray
+    connection_peaks_n: np.ndarray
+    connection_peak_forces_n: np.ndarray
+    connection_peak_moments_nm: np.ndarray
+
+    def unknown(self) -> FrameLoads:
+        """Return loads of the same shape of which nothing is known: nan throughout."""
+        return FrameLoads(*(np.full_like(getattr(self, each.name), np.nan) for each in fields(self)))
+
+
+class LoadAccumulator:
+    """Adds up the loads of a frame, sub-step by sub-step.
+
+    Stress is calculated twice a frame and not for every sub-step, which would cost more than all the rest: from the
     mean loads, and from those of the sub-step in which all loads together were largest.
 
     Parameters
     ----------
-    pairs
-        (m, 2) bodies of the connections.
-    volumes_m3
-        (n,) volumes of the bodies; 0 for a body without stress.
-    normals_at
+    pairs : (m, 2) int
+        Bodies of the connections.
+    volumes_m3 : (n,) float
+        Volumes of the bodies; 0 for a body without stress.
+    normals_at : function
         Gives the unit normals (m, 3) of the connections under given rotations (n, 3, 3) of the bodies.
     """
 
@@ -61,84 +117,78 @@ class FrameLoads:
         self.begin()
 
     def begin(self) -> None:
-        """Forget everything: a new frame begins."""
+        """Begin a new frame."""
         connections, bodies = len(self._pairs), len(self._volumes)
         self._duration_s = 0.0
         self._last: SubstepLoads | None = None
         self._largest: SubstepLoads | None = None
         self._largest_sum_n = -1.0
-        self._means = {
-            "connection_forces_n": np.zeros((connections, 3)),
-            "connection_moments_nm": np.zeros((connections, 3)),
-            "body_sums_n": np.zeros(bodies),
-            "body_signed_2019_n": np.zeros(bodies),
-        }
-        self._peaks = {
-            "connection_peaks_n": np.zeros(connections),
-            "body_peaks_n": np.zeros(bodies),
-            "body_peak_sums_n": np.zeros(bodies),
-        }
-        self._at_peak = {
-            "connection_peak_forces_n": np.zeros((connections, 3)),
-            "connection_peak_moments_nm": np.zeros((connections, 3)),
-        }
+        # Time integrals: N·s, N·m·s and Pa·s.
+        self._connection_impulses, self._connection_angular_impulses = np.zeros((2, connections, 3))
+        self._sum_impulses, self._signed_impulses = np.zeros((2, bodies))
         self._contact_impulses = np.zeros((bodies, 3))
-        self._contact_stresses = np.zeros((bodies, 3, 3))
+        self._contact_stress_impulses = np.zeros((bodies, 3, 3))
+        self._connection_peaks = np.zeros(connections)
+        self._connection_peak_forces, self._connection_peak_moments = np.zeros((2, connections, 3))
+        self._body_peaks, self._body_peak_sums = np.zeros((2, bodies))
 
-    def add(self, loads: SubstepLoads, substep_s: float) -> None:
-        """Add the loads of one sub-step of a length in s."""
-        count = len(self._volumes)
-        by_contacts = resultants(loads.contact_pairs, loads.contact_forces_n, count)
-        resultant = resultants(self._pairs, loads.connection_forces_n, count) + by_contacts
-        magnitudes = _lengths(loads.connection_forces_n)
-        of_contacts = magnitude_sums(loads.contact_pairs, _lengths(loads.contact_forces_n), count)
+    def add(self, loads: SubstepLoads) -> None:
+        """Add the loads of one sub-step."""
+        count, substep_s = len(self._volumes), loads.substep_s
+        by_contacts = resultants(loads.contact_pairs, loads.contact_impulses_ns, count)
+        resultant = resultants(self._pairs, loads.connection_forces_n, count) + by_contacts / substep_s
+        magnitudes = lengths(loads.connection_forces_n)
+        of_contacts = magnitude_sums(loads.contact_pairs, lengths(loads.contact_impulses_ns), count) / substep_s
         sums = magnitude_sums(self._pairs, magnitudes, count) + of_contacts
         self._note_peaks(loads, magnitudes, resultant, sums)
-        for name, values in (
-            ("connection_forces_n", loads.connection_forces_n),
-            ("connection_moments_nm", loads.connection_moments_nm),
-            ("body_sums_n", sums),
-            ("body_signed_2019_n", self._signed(loads.signed_2019_n)),
-        ):
-            self._means[name] += substep_s * values
-        self._contact_impulses += substep_s * by_contacts
-        self._contact_stresses += substep_s * self._stresses_of_contacts(loads)
+        self._connection_impulses += substep_s * loads.connection_forces_n
+        self._connection_angular_impulses += substep_s * loads.connection_moments_nm
+        self._sum_impulses += substep_s * sums
+        self._signed_impulses += self._signed(loads.signed_2019_ns)
+        self._contact_impulses += by_contacts
+        self._contact_stress_impulses += self._stress_impulses_of_contacts(loads)
         self._duration_s += substep_s
         self._last = loads
 
-    def finish(self) -> dict[str, np.ndarray]:
-        """Means and peaks of the frame so far, and the impulses of contacts; all 0 where no time passed."""
-        share = 1.0 / self._duration_s if self._duration_s else 0.0
-        means = {name: share * values for name, values in self._means.items()}
-        by_connections = resultants(self._pairs, means["connection_forces_n"], len(self._volumes))
-        stresses, peak_stresses = share * self._contact_stresses, np.zeros_like(self._contact_stresses)
+    def finish(self) -> FrameLoads:
+        """Return means and peaks of the frame so far, and the impulses of contacts; all 0 where no time passed."""
+        per_second = 1.0 / self._duration_s if self._duration_s else 0.0
+        forces, moments = per_second * self._connection_impulses, per_second * self._connection_angular_impulses
+        stresses, peak_stresses = per_second * self._contact_stress_impulses, np.zeros((len(self._volumes), 3, 3))
         if self._last:
-            stresses += self._stresses_of_connections(
-                self._last, means["connection_forces_n"], means["connection_moments_nm"]
+            stresses += self._stresses_of_connections(self._last, forces, moments)
+            largest = self._largest
+            peak_stresses = self._stress_impulses_of_contacts(largest) / largest.substep_s
+            peak_stresses += self._stresses_of_connections(
+                largest, largest.connection_forces_n, largest.connection_moments_nm
             )
-            forces, moments = self._largest.connection_forces_n, self._largest.connection_moments_nm
-            peak_stresses = self._stresses_of_contacts(self._largest)
-            peak_stresses += self._stresses_of_connections(self._largest, forces, moments)
-        return {
-            **means,
-            **self._peaks,
-            **self._at_peak,
-            "body_forces_n": by_connections + share * self._contact_impulses,
-            "body_contact_impulses_ns": self._contact_impulses,
-            "stresses_pa": stresses,
-            "von_mises_pa": von_mises(peak_stresses),
-        }
+        by_connections = resultants(self._pairs, forces, len(self._volumes))
+        return FrameLoads(
+            body_forces_n=by_connections + per_second * self._contact_impulses,
+            body_peaks_n=self._body_peaks,
+            body_sums_n=per_second * self._sum_impulses,
+            body_peak_sums_n=self._body_peak_sums,
+            body_contact_impulses_ns=self._contact_impulses,
+            body_signed_2019_n=per_second * self._signed_impulses,
+            stresses_pa=stresses,
+            von_mises_pa=von_mises(peak_stresses),
+            connection_forces_n=forces,
+            connection_moments_nm=moments,
+            connection_peaks_n=self._connection_peaks,
+            connection_peak_forces_n=self._connection_peak_forces,
+            connection_peak_moments_nm=self._connection_peak_moments,
+        )
 
     def _note_peaks(self, loads: SubstepLoads, magnitudes: np.ndarray, resultant: np.ndarray, sums: np.ndarray) -> None:
-        higher = np.flatnonzero(magnitudes > self._peaks["connection_peaks_n"])
-        self._at_peak["connection_peak_forces_n"][higher] = loads.connection_forces_n[higher]
-        self._at_peak["connection_peak_moments_nm"][higher] = loads.connection_moments_nm[higher]
-        for name, values in (
-            ("connection_peaks_n", magnitudes),
-            ("body_peaks_n", _lengths(resultant)),
-            ("body_peak_sums_n", sums),
+        higher = np.flatnonzero(magnitudes > self._connection_peaks)
+        self._connection_peak_forces[higher] = loads.connection_forces_n[higher]
+        self._connection_peak_moments[higher] = loads.connection_moments_nm[higher]
+        for peaks, values in (
+            (self._connection_peaks, magnitudes),
+            (self._body_peaks, lengths(resultant)),
+            (self._body_peak_sums, sums),
         ):
-            np.maximum(self._peaks[name], values, out=self._peaks[name])
+            np.maximum(peaks, values, out=peaks)
         total = np.nan_to_num(sums.sum(), nan=np.inf)  # loads that are not known must not pass for small ones
         if total > self._largest_sum_n:
             self._largest, self._largest_sum_n = loads, total
@@ -149,9 +199,9 @@ class FrameLoads:
         count = len(self._volumes)
         return np.bincount(first, values, count) - np.bincount(second, values, count)
 
-    def _stresses_of_contacts(self, loads: SubstepLoads) -> np.ndarray:
-        forces, points = loads.contact_forces_n, loads.contact_points_m
-        return self._stresses(loads.contact_pairs, forces, points, loads.centres_m)
+    def _stress_impulses_of_contacts(self, loads: SubstepLoads) -> np.ndarray:
+        """Stresses (n, 3, 3) under the contacts of a sub-step times its length, Pa·s."""
+        return self._stresses(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m, loads.centres_m)
 
     def _stresses_of_connections(self, loads: SubstepLoads, forces: np.ndarray, moments: np.ndarray) -> np.ndarray:
         """Stresses (n, 3, 3) under forces and moments (m, 3) of the connections, where they are in a sub-step."""
@@ -173,7 +223,3 @@ class FrameLoads:
     def _of_solids(self, stresses: np.ndarray) -> np.ndarray:
         """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
         return np.where(self._volumes[:, None, None] > 0.0, stresses, 0.0)
-
-
-def _lengths(vectors: np.ndarray) -> np.ndarray:
-    return np.sqrt(np.einsum("ki,ki->k", vectors, vectors))

@@ -52,14 +52,14 @@ def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Sp
         Lengths of the spans from x = 0 on. Shards beyond the first or last axis belong to the nearest span. Without
         them, or where no shard is of the deck, everything is one span.
     """
-    shards = results.of_kind("shard")
-    deck = shards[results.body_member_kinds[shards] == _DECK]
+    shards = results.inventory.of_kind("shard")
+    deck = shards[results.inventory.body_member_kinds[shards] == _DECK]
     if not len(shards):
         return ()
     if not len(deck):
         return (_span(results, _WHOLE, shards),)
     inner_axes = np.cumsum(span_lengths_m)[:-1] if len(span_lengths_m) else np.zeros(0)
-    numbers = np.searchsorted(inner_axes, results.places_m[0, deck, 0], side="right")
+    numbers = np.searchsorted(inner_axes, results.frames.positions_m[0, deck, 0], side="right")
     names = ["deck"] if not len(inner_axes) else [f"span {number + 1}" for number in range(len(inner_axes) + 1)]
     return tuple(_span(results, name, deck[numbers == row]) for row, name in enumerate(names) if (numbers == row).any())
 
@@ -70,11 +70,11 @@ def collapse_progress(results: Results) -> np.ndarray:
     The part of the height of the shards' centre of mass above the ground that is lost: 0 stands as it did, 1 would be
     all of it flat on the ground.
     """
-    shards = results.of_kind("shard")
-    masses = results.masses_kg[shards]
+    shards = results.inventory.of_kind("shard")
+    masses = results.inventory.masses_kg[shards]
     if not masses.sum() > 0.0:
-        return np.zeros(len(results.times_s))
-    heights = results.places_m[:, shards, 2] @ masses / masses.sum()
+        return np.zeros(len(results.frames.time_s))
+    heights = results.frames.positions_m[:, shards, 2] @ masses / masses.sum()
     return 1.0 - heights / heights[0] if heights[0] > 0.0 else np.zeros(len(heights))
 
 
@@ -99,16 +99,16 @@ class ShardRest:
 
 def rest_of(results: Results) -> ShardRest:
     """When the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
-    shards = results.of_kind("shard")
-    moving = np.linalg.norm(results.velocities_m_s[:, shards], axis=2) > REST_SPEED_M_S
+    shards = results.inventory.of_kind("shard")
+    moving = np.linalg.norm(results.frames.velocities_m_s[:, shards], axis=2) > REST_SPEED_M_S
     at_times = np.flatnonzero(moving.any(axis=1))
     if not len(at_times):
         return ShardRest(None, None, 0)
     at_end = int(moving[-1].sum())
-    at_rest = None if at_end else float(results.times_s[at_times[-1] + 1])
-    return ShardRest(float(results.times_s[at_times[0]]), at_rest, at_end)
+    at_rest = None if at_end else float(results.frames.time_s[at_times[-1] + 1])
+    return ShardRest(float(results.frames.time_s[at_times[0]]), at_rest, at_end)
 
 
 def _span(results: Results, name: str, bodies: np.ndarray) -> Span:
-    heights, masses = results.places_m[:, bodies, 2], results.masses_kg[bodies]
+    heights, masses = results.frames.positions_m[:, bodies, 2], results.inventory.masses_kg[bodies]
     return Span(name, bodies, heights @ masses / masses.sum(), heights.min(axis=1))

@@ -52,8 +52,8 @@ class Debris:
 
 def debris_of(results: Results) -> Debris:
     """The debris at the last recorded step."""
-    shards = results.of_kind("shard")
-    first, last = results.places_m[0], results.places_m[-1]
+    shards = results.inventory.of_kind("shard")
+    first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
     bodies = shards[travel(first[shards], last[shards]) > MOVED_M]
     outline = footprint(results, shards, 0)
     corners = [corners_at(results, -1, body) for body in bodies]
@@ -62,7 +62,7 @@ def debris_of(results: Results) -> Debris:
         bodies=bodies,
         throws_m=throw(first[bodies], last[bodies]),
         reaches_m=np.array(reaches, float),
-        masses_kg=results.masses_kg[bodies],
+        masses_kg=results.inventory.masses_kg[bodies],
         area=footprint(results, bodies, -1),
         outline=outline,
         highest_m=max((float(each[:, 2].max()) for each in corners), default=float("nan")),
@@ -110,7 +110,7 @@ def height_map(results: Results, bodies: np.ndarray, step: int = -1, cells: int 
 
     A body whose hull is flat has no upper side, and is left out.
     """
-    solid = [body for body in bodies if results.volumes_m3[body] > 0.0]
+    solid = [body for body in bodies if results.inventory.volumes_m3[body] > 0.0]
     if not solid:
         return HeightMap(np.zeros(0), np.zeros(0), np.zeros((0, 0)))
     all_corners = [corners_at(results, step, body) for body in solid]
@@ -120,11 +120,11 @@ def height_map(results: Results, bodies: np.ndarray, step: int = -1, cells: int 
     counts = np.maximum(np.ceil((high - low) / size).astype(int), 2)
     xs, ys = (low[axis] + size * (np.arange(counts[axis]) + 0.5) for axis in (0, 1))
     heights = np.full((len(ys), len(xs)), np.nan)
-    hulls = convex_hulls([results.vertices_of(body) for body in solid])
+    hulls = convex_hulls([results.inventory.vertices_of(body) for body in solid])
     for number, (body, corners) in enumerate(zip(solid, all_corners, strict=True)):
         faces = slice(hulls.starts[number], hulls.starts[number + 1])
-        normals = hulls.normals[faces] @ results.rotations[step, body].T
-        offsets = hulls.offsets[faces] + normals @ results.places_m[step, body]
+        normals = hulls.normals[faces] @ results.frames.rotations[step, body].T
+        offsets = hulls.offsets[faces] + normals @ results.frames.positions_m[step, body]
         columns = slice(*np.searchsorted(xs, [corners[:, 0].min(), corners[:, 0].max()]))
         rows = slice(*np.searchsorted(ys, [corners[:, 1].min(), corners[:, 1].max()]))
         upper = _upper_side(normals, offsets, xs[columns], ys[rows])

@@ -54,13 +54,13 @@ def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> 
     Those of rotation are reckoned with the moments of inertia that Bullet gives its bodies, so that they are the
     simulation's own; see `moments_of_inertia`.
     """
-    masses = results.masses_kg
-    potentials = gravity_m_s2 * results.places_m[:, :, 2] @ masses
-    spins = np.einsum("knji,knj->kni", results.rotations, results.spins_rad_s)
+    masses = results.inventory.masses_kg
+    potentials = gravity_m_s2 * results.frames.positions_m[:, :, 2] @ masses
+    spins = np.einsum("knji,knj->kni", results.frames.rotations, results.frames.angular_velocities_rad_s)
     return Energy(
-        times_s=results.times_s,
+        times_s=results.frames.time_s,
         potential_j=potentials - potentials.min(),
-        translation_j=0.5 * (results.velocities_m_s**2).sum(axis=2) @ masses,
+        translation_j=0.5 * (results.frames.velocities_m_s**2).sum(axis=2) @ masses,
         rotation_j=0.5 * (spins**2 * moments_of_inertia(results)).sum(axis=(1, 2)),
     )
 
@@ -71,14 +71,14 @@ def moments_of_inertia(results: Results) -> np.ndarray:
     A ball is a sphere. Bullet takes a convex hull for the box around it, in the body's own axes: for a shard up to
     twice what its true shape has.
     """
-    moments = np.zeros((len(results.masses_kg), 3))
-    for body in np.flatnonzero(results.masses_kg > 0.0):
-        corners = results.vertices_of(body)
+    moments = np.zeros((len(results.inventory.masses_kg), 3))
+    for body in np.flatnonzero(results.inventory.masses_kg > 0.0):
+        corners = results.inventory.vertices_of(body)
         if not len(corners):
             continue
         squares = np.ptp(corners, axis=0) ** 2
-        if results.body_kinds[body] == "ball":
-            moments[body] = _SPHERE * results.masses_kg[body] * squares.max() / 4.0
+        if results.inventory.body_kinds[body] == "ball":
+            moments[body] = _SPHERE * results.inventory.masses_kg[body] * squares.max() / 4.0
         else:
-            moments[body] = results.masses_kg[body] * (squares.sum() - squares) / 12.0
+            moments[body] = results.inventory.masses_kg[body] * (squares.sum() - squares) / 12.0
     return moments

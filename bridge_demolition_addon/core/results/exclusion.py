@@ -55,10 +55,10 @@ class ExclusionZone:
 
 def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
     """The exclusion zone of a run."""
-    shards = results.of_kind("shard")
+    shards = results.inventory.of_kind("shard")
     plan = footprint(results, shards, 0)
     drop = widened(plan, settings.designed_drop_m)
-    debris = swept_footprint(results, np.concatenate([shards, results.of_kind("ball")]))
+    debris = swept_footprint(results, np.concatenate([shards, results.inventory.of_kind("ball")]))
     return ExclusionZone(plan, drop, debris, widened(united([plan, drop, debris]), settings.buffer_m))
 
 

@@ -12,7 +12,10 @@ from .arrays import Results
 
 def corners_at(results: Results, step: int, body: int) -> np.ndarray:
     """Vertices (v, 3) of a body in the world at a recorded step, m."""
-    return results.vertices_of(body) @ results.rotations[step, body].T + results.places_m[step, body]
+    return (
+        results.inventory.vertices_of(body) @ results.frames.rotations[step, body].T
+        + results.frames.positions_m[step, body]
+    )
 
 
 def footprint(results: Results, bodies: Iterable[int], step: int) -> CrossSection:
@@ -61,8 +64,8 @@ def distances_outside(area: CrossSection, points: np.ndarray) -> np.ndarray:
 
 
 def _sweeps(results: Results, body: int) -> list[CrossSection]:
-    corners = results.vertices_of(body)
-    places, rotations = results.places_m[:, body], results.rotations[:, body]
+    corners = results.inventory.vertices_of(body)
+    places, rotations = results.frames.positions_m[:, body], results.frames.rotations[:, body]
     moved = (np.diff(places, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))
     steps = np.flatnonzero(moved)
     if not len(steps):

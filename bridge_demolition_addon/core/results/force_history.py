@@ -34,22 +34,22 @@ class ContactForces:
 
 def contact_forces(results: Results) -> ContactForces:
     """Contact forces from the impulses of contacts in each frame; nan where nothing is known of them."""
-    durations = np.diff(results.times_s, prepend=results.times_s[0])
-    impulses = results.body_contact_impulses_ns
+    durations = np.diff(results.frames.time_s, prepend=results.frames.time_s[0])
+    impulses = results.frames.loads.body_contact_impulses_ns
     known = durations > 0.0
     forces = np.divide(impulses, durations[:, None, None], out=np.zeros_like(impulses), where=known[:, None, None])
     magnitudes = np.linalg.norm(forces, axis=2)
     return ContactForces(
-        times_s=results.times_s,
+        times_s=results.frames.time_s,
         total_n=magnitudes.sum(axis=1) / 2.0,
         largest_n=largest_on_a_shard(results, magnitudes),
-        ground_n=-forces[:, results.of_kind("ground"), 2].sum(axis=1),
+        ground_n=-forces[:, results.inventory.of_kind("ground"), 2].sum(axis=1),
     )
 
 
 def largest_on_a_shard(results: Results, magnitudes: np.ndarray) -> np.ndarray:
     """Largest of the magnitudes (k, n) of all bodies on any shard, (k,); 0 where there are none."""
-    return magnitudes[:, results.of_kind("shard")].max(axis=1, initial=0.0)
+    return magnitudes[:, results.inventory.of_kind("shard")].max(axis=1, initial=0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,19 +114,22 @@ class BreakingByKind:
 
 def breaking_by_kind(results: Results) -> list[BreakingByKind]:
     """Connections by what they join, the most numerous kind first."""
-    kinds = np.array([_kind(results, *pair) for pair in results.pairs], str)
+    kinds = np.array([_kind(results, *pair) for pair in results.inventory.pairs], str)
     found = []
     for kind in np.unique(kinds):
         of_kind = kinds == kind
-        found.append(BreakingByKind(str(kind), int(of_kind.sum()), (~results.intact[:, of_kind]).sum(axis=1)))
+        found.append(BreakingByKind(str(kind), int(of_kind.sum()), (~results.frames.intact[:, of_kind]).sum(axis=1)))
     return sorted(found, key=lambda each: -each.count)
 
 
 def _kind(results: Results, first: int, second: int) -> str:
-    if "ground" in (results.body_kinds[first], results.body_kinds[second]):
+    if "ground" in (results.inventory.body_kinds[first], results.inventory.body_kinds[second]):
         return "foundation"
-    members = {str(results.body_members[body]) for body in (first, second)}
-    names = [str(results.body_member_kinds[body]) or str(results.body_kinds[body]) for body in (first, second)]
+    members = {str(results.inventory.body_members[body]) for body in (first, second)}
+    names = [
+        str(results.inventory.body_member_kinds[body]) or str(results.inventory.body_kinds[body])
+        for body in (first, second)
+    ]
     if len(members) == 1 and "" not in members:
         return f"within {names[0]}"
     return " - ".join(sorted(names))

@@ -27,13 +27,13 @@ def telling_step(results: Results, gravity_m_s2: np.ndarray) -> int:
     impact = impact_step(results, gravity_m_s2)
     if impact is not None:
         return impact
-    loaded = np.flatnonzero(results.blast_impulses_ns.any(axis=(1, 2)))
+    loaded = np.flatnonzero(results.frames.blast_impulses_ns.any(axis=(1, 2)))
     if len(loaded):
-        after = np.searchsorted(results.times_s, results.times_s[loaded[-1]] + _FLYING_S)
-        return min(int(after), len(results.times_s) - 1)
-    broken = (~results.intact).sum(axis=1)
+        after = np.searchsorted(results.frames.time_s, results.frames.time_s[loaded[-1]] + _FLYING_S)
+        return min(int(after), len(results.frames.time_s) - 1)
+    broken = (~results.frames.intact).sum(axis=1)
     if len(broken) and broken[-1]:
         return int(np.argmax(broken >= broken[-1] / 2.0))
-    forces = results.body_peak_sums_n[:, results.of_kind("shard")]
+    forces = results.frames.loads.body_peak_sums_n[:, results.inventory.of_kind("shard")]
     largest = np.where(np.isfinite(forces), forces, 0.0).max(axis=1, initial=0.0)
     return int(largest.argmax())

@@ -22,10 +22,12 @@ def without_taken_away(results: Results) -> tuple[Results, int]:
     They are no shards any more, and have no mass, so that nothing that is told of shards or energies counts them, also
     not for the time before.
     """
-    shards = results.of_kind("shard")
-    gone = shards[results.places_m[0, shards, 2] - results.places_m[-1, shards, 2] > OUT_OF_REACH_M / 2.0]
+    shards = results.inventory.of_kind("shard")
+    heights = results.frames.positions_m[:, shards, 2]
+    gone = shards[heights[0] - heights[-1] > OUT_OF_REACH_M / 2.0]
     if not len(gone):
         return results, 0
-    kinds, masses = results.body_kinds.astype(object), results.masses_kg.copy()
+    kinds, masses = results.inventory.body_kinds.astype(object), results.inventory.masses_kg.copy()
     kinds[gone], masses[gone] = TAKEN_AWAY, 0.0
-    return replace(results, body_kinds=np.array(kinds, str), masses_kg=masses), len(gone)
+    inventory = replace(results.inventory, body_kinds=np.array(kinds, str), masses_kg=masses)
+    return replace(results, inventory=inventory), len(gone)

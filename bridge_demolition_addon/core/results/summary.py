@@ -31,15 +31,18 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
     left, _ = without_taken_away(results)
     return {
         "frames": len(results.frames),
-        "simulated_s": float(results.times_s[-1]),
-        "mass_kg": {kind: float(results.masses_kg[results.of_kind(kind)].sum()) for kind in ("shard", "ball")},
-        "bodies": {kind: len(results.of_kind(kind)) for kind in ("shard", "ball", "ground")},
+        "simulated_s": float(results.frames.time_s[-1]),
+        "mass_kg": {
+            kind: float(results.inventory.masses_kg[results.inventory.of_kind(kind)].sum())
+            for kind in ("shard", "ball")
+        },
+        "bodies": {kind: len(results.inventory.of_kind(kind)) for kind in ("shard", "ball", "ground")},
         "connections": _connections(results),
         "impact": _moment(results, impact_step(results, gravity_m_s2)),
-        "reading": str(results.reading),
+        "reading": results.reading,
         "hits_of_the_ball": _hits(results, gravity_m_s2, contact_time_s),
-        "largest_resultant": _largest_force(left, left.body_peaks_n),
-        "largest_force_sum": _largest_force(left, left.body_peak_sums_n),
+        "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
+        "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
         "largest_throw": _largest_throw(left),
         "blast": _blast(results),
     }
@@ -47,13 +50,15 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
 
 def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
     """Recorded step in which the ball, once it falls, is first stopped by anything; None where it never is."""
-    for ball in results.of_kind("ball"):
-        moving = np.flatnonzero(results.velocities_m_s[:, ball].any(axis=1))
+    for ball in results.inventory.of_kind("ball"):
+        moving = np.flatnonzero(results.frames.velocities_m_s[:, ball].any(axis=1))
         if len(moving):
-            if len(results.of_kind("crane")):
+            if len(results.inventory.of_kind("crane")):
                 return _first_push(results, ball, gravity_m_s2)
             released = max(0, moving[0] - 1)  # a ball that falls a few centimetres is hit in its very first step
-            hit = first_hit(results.velocities_m_s[released:, ball], results.times_s[released:], gravity_m_s2)
+            hit = first_hit(
+                results.frames.velocities_m_s[released:, ball], results.frames.time_s[released:], gravity_m_s2
+            )
             return None if hit is None else int(released) + hit
     return None
 
@@ -72,37 +77,37 @@ def first_hit_s(summary: Mapping[str, Any]) -> float | None:
 
 def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
     """When the warm-up had ended, and the largest speed of any shard then; None without one, or before its end."""
-    after = np.flatnonzero(results.times_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
+    after = np.flatnonzero(results.frames.time_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
     if not warm_up_s or not len(after):
         return None
-    speeds = np.linalg.norm(results.velocities_m_s[after[0], results.of_kind("shard")], axis=1)
-    return {"time_s": float(results.times_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
+    speeds = np.linalg.norm(results.frames.velocities_m_s[after[0], results.inventory.of_kind("shard")], axis=1)
+    return {"time_s": float(results.frames.time_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
 
 
 def _first_push(results: Results, ball: int, gravity_m_s2: np.ndarray) -> int | None:
     """First recorded step in which contacts push a ball, which swings on a cable, more than its rest would."""
-    resting_force = _RESTING_WEIGHTS * results.masses_kg[ball] * np.linalg.norm(gravity_m_s2)
-    pushes = np.linalg.norm(results.body_contact_impulses_ns[:, ball], axis=1)
-    steps = np.flatnonzero(pushes > resting_force * np.diff(results.times_s, prepend=results.times_s[0]))
+    resting_force = _RESTING_WEIGHTS * results.inventory.masses_kg[ball] * np.linalg.norm(gravity_m_s2)
+    pushes = np.linalg.norm(results.frames.loads.body_contact_impulses_ns[:, ball], axis=1)
+    steps = np.flatnonzero(pushes > resting_force * np.diff(results.frames.time_s, prepend=results.frames.time_s[0]))
     return int(steps[0]) if len(steps) else None
 
 
 def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None) -> list[dict[str, Any]]:
     """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not."""
-    steps = np.diff(results.ball_times_s, prepend=results.times_s[0])
+    steps = np.diff(results.balls.times_s, prepend=results.frames.time_s[0])
     found = []
-    for column, ball in enumerate(results.balls):
-        mass = results.masses_kg[ball]
-        radius = np.cbrt(0.75 / np.pi * results.volumes_m3[ball])
+    for column, ball in enumerate(results.balls.bodies):
+        mass = results.inventory.masses_kg[ball]
+        radius = np.cbrt(0.75 / np.pi * results.inventory.volumes_m3[ball])
         contact = Contact.between(STEEL, CONCRETE, mass, radius)
         resting_force = _RESTING_WEIGHTS * mass * np.linalg.norm(gravity_m_s2)
-        velocities = results.ball_velocities_m_s[:, column]
-        for hit in hits(results.ball_impulses_ns[:, column], steps, results.times_s[0], resting_force):
+        velocities = results.balls.velocities_m_s[:, column]
+        for hit in hits(results.balls.impulses_ns[:, column], steps, results.frames.time_s[0], resting_force):
             before = velocities[hit.first_step - 1] if hit.first_step else np.zeros(3)
             speed = -float(before @ hit.impulse_ns) / hit.impulse_magnitude_ns
             found.append(
                 {
-                    "ball": str(results.body_names[ball]),
+                    "ball": str(results.inventory.body_names[ball]),
                     "time_s": hit.start_s,
                     "lasted_s": hit.end_s - hit.start_s,
                     "impulse_Ns": hit.impulse_magnitude_ns,
@@ -128,59 +133,59 @@ def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: 
 
 
 def _connections(results: Results) -> dict[str, Any]:
-    intact = results.intact.sum(axis=1)
+    intact = results.frames.intact.sum(axis=1)
     return {
-        "count": len(results.connection_names),
+        "count": len(results.inventory.connection_names),
         "intact": int(intact[-1]),
-        "broken": int(len(results.connection_names) - intact[-1]),
+        "broken": int(len(results.inventory.connection_names) - intact[-1]),
         "over_time": {
-            "time_s": results.times_s.tolist(),
+            "time_s": results.frames.time_s.tolist(),
             "intact": intact.tolist(),
-            "broken": (len(results.connection_names) - intact).tolist(),
+            "broken": (len(results.inventory.connection_names) - intact).tolist(),
         },
     }
 
 
 def _blast(results: Results) -> dict[str, Any] | None:
     """Impulse of the blast on all bodies together and on the one that got most; None where there was none."""
-    impulses = results.blast_impulses_ns.sum(axis=0)
+    impulses = results.frames.blast_impulses_ns.sum(axis=0)
     sizes = np.linalg.norm(impulses, axis=1)
     if not sizes.any():
         return None
-    loaded = np.flatnonzero(results.blast_impulses_ns.any(axis=(1, 2)))
+    loaded = np.flatnonzero(results.frames.blast_impulses_ns.any(axis=(1, 2)))
     return {
         "first_load": _moment(results, int(loaded[0])),
         "last_load": _moment(results, int(loaded[-1])),
         "bodies": int((sizes > 0.0).sum()),
         "impulse_Ns": impulses.sum(axis=0).tolist(),
-        "largest": {"impulse_Ns": float(sizes.max()), "body": str(results.body_names[sizes.argmax()])},
+        "largest": {"impulse_Ns": float(sizes.max()), "body": str(results.inventory.body_names[sizes.argmax()])},
     }
 
 
 def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
     if step is None:
         return None
-    return {"frame": int(results.frames[step]), "time_s": float(results.times_s[step])}
+    return {"frame": int(results.frames.number[step]), "time_s": float(results.frames.time_s[step])}
 
 
 def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] | None:
     """Largest of the magnitudes (k, n) on any shard, in any frame whose forces are known."""
     known = np.flatnonzero(np.isfinite(magnitudes).all(axis=1))
-    shards = results.of_kind("shard")
+    shards = results.inventory.of_kind("shard")
     candidates = magnitudes[np.ix_(known, shards)]
     if not candidates.size:
         return None
     step, body = np.unravel_index(candidates.argmax(), candidates.shape)
     return {
         "force_N": float(candidates[step, body]),
-        "body": str(results.body_names[shards[body]]),
+        "body": str(results.inventory.body_names[shards[body]]),
         **_moment(results, int(known[step])),
     }
 
 
 def _largest_throw(results: Results) -> dict[str, Any] | None:
-    shards = results.of_kind("shard")
+    shards = results.inventory.of_kind("shard")
     if not len(shards):
         return None
-    throws = throw(results.places_m[0, shards], results.places_m[-1, shards])
-    return {"throw_m": float(throws.max()), "body": str(results.body_names[shards[throws.argmax()]])}
+    throws = throw(results.frames.positions_m[0, shards], results.frames.positions_m[-1, shards])
+    return {"throw_m": float(throws.max()), "body": str(results.inventory.body_names[shards[throws.argmax()]])}

@@ -76,7 +76,7 @@ def watch_zone(results: Results, zone: Zone, bodies: Sequence[int]) -> ZoneWatch
         elif (time_s := _first_entry(results, prism, body)) is not None:
             entries.append(Entry(int(body), time_s, prism.meets(corners_at(results, -1, body))))
     entries.sort(key=lambda entry: entry.time_s)
-    mass = sum(float(results.masses_kg[entry.body]) for entry in entries if entry.stays)
+    mass = sum(float(results.inventory.masses_kg[entry.body]) for entry in entries if entry.stays)
     return ZoneWatch(zone, tuple(entries), tuple(there_before), mass)
 
 
@@ -110,9 +110,9 @@ class _Prism:
 
 def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:
     """When a body that is outside at first reaches into a zone, s."""
-    corners = results.vertices_of(body)
+    corners = results.inventory.vertices_of(body)
     radius = float(np.linalg.norm(corners, axis=1).max(initial=0.0))
-    places = results.places_m[:, body]
+    places = results.frames.positions_m[:, body]
     low = np.minimum(places[:-1], places[1:]) - radius
     high = np.maximum(places[:-1], places[1:]) + radius
     for step in np.flatnonzero(prism.may_meet(low, high)):
@@ -136,8 +136,11 @@ class _Motion:
 
     @classmethod
     def of(cls, results: Results, step: int, body: int, corners: np.ndarray) -> _Motion:
-        places, rotations = results.places_m[step : step + 2, body], results.rotations[step : step + 2, body]
-        times = results.times_s[step : step + 2]
+        places, rotations = (
+            results.frames.positions_m[step : step + 2, body],
+            results.frames.rotations[step : step + 2, body],
+        )
+        times = results.frames.time_s[step : step + 2]
         rotating = turn(rotations[0], rotations[1])
         return cls(corners, places[0], places[1] - places[0], rotations[0], rotating, times[0], times[1] - times[0])
 

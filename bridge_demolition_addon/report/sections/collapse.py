@@ -30,14 +30,14 @@ def collapse_section(run: Run) -> Section:
     if spans:
         blocks += [
             Picture(
-                partial(span_heights, times_s=results.times_s, spans=spans, impact_s=run.hit_s),
+                partial(span_heights, times_s=results.frames.time_s, spans=spans, impact_s=run.hit_s),
                 "Height of every span over time.",
             ),
             _span_table(spans),
         ]
     blocks += [
         Picture(
-            partial(progress_history, times_s=results.times_s, progress=progress, impact_s=run.hit_s),
+            partial(progress_history, times_s=results.frames.time_s, progress=progress, impact_s=run.hit_s),
             "Progress of the collapse.",
             75.0,
         ),

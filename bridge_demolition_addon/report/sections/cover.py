@@ -87,11 +87,11 @@ def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
     yield "Folder", run.name
     summary, results = run.summary or {}, run.results
     if results is not None:
-        yield "Simulated", f"{results.times_s[-1]:.3f} s in {len(results.frames)} frames"
-        steps = results.substep_s[results.substep_s > 0.0]
+        yield "Simulated", f"{results.frames.time_s[-1]:.3f} s in {len(results.frames)} frames"
+        steps = results.frames.substep_s[results.frames.substep_s > 0.0]
         if len(steps):
             yield "Physics step", _range_text(1e3 * steps.min(), 1e3 * steps.max(), "ms")
-        yield "Loads read", str(results.reading)
+        yield "Loads read", results.reading
     elif run.logged_forces is not None:
         yield "Simulated", f"{run.logged_forces.times_s[-1]:.3f} s as far as logged"
     if run.scenario:
@@ -116,11 +116,11 @@ def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
 
 
 def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
-    shards, balls = results.of_kind("shard"), results.of_kind("ball")
-    yield "Shards", f"{len(shards)}, together {results.masses_kg[shards].sum() / 1e3:.1f} t"
+    shards, balls = results.inventory.of_kind("shard"), results.inventory.of_kind("ball")
+    yield "Shards", f"{len(shards)}, together {results.inventory.masses_kg[shards].sum() / 1e3:.1f} t"
     for ball in balls:
-        yield str(results.body_names[ball]), f"{results.masses_kg[ball] / 1e3:.1f} t"
-    yield "Connections", str(len(results.connection_names))
+        yield str(results.inventory.body_names[ball]), f"{results.inventory.masses_kg[ball] / 1e3:.1f} t"
+    yield "Connections", str(len(results.inventory.connection_names))
 
 
 def _breaking_text(run: Run) -> str:
@@ -142,20 +142,20 @@ def _doubts(run: Run) -> Iterator[str]:
     rest = rest_of(results)
     if rest.moving_at_end:
         yield (
-            f"{rest.moving_at_end} of {len(results.of_kind('shard'))} shards still move at the end of the run: throws, "
-            "footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
+            f"{rest.moving_at_end} of {len(results.inventory.of_kind('shard'))} shards still move at the end of the "
+            "run: throws, footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
         )
-    if np.isnan(results.body_sums_n[1:]).any():
+    if np.isnan(results.frames.loads.body_sums_n[1:]).any():
         yield (
             "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
             "what needs them is empty."
         )
-    if str(results.reading).startswith("last sub-step"):
+    if results.reading.startswith("last sub-step"):
         yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."
 
 
 def _findings(run: Run) -> Iterator[tuple[str, str]]:
-    has_ball = len(run.results.of_kind("ball")) > 0
+    has_ball = len(run.results.inventory.of_kind("ball")) > 0
     yield from ((each.label, each.text) for each in findings(run) if has_ball or each.label != IMPACT)
 
 

@@ -88,7 +88,7 @@ def zone_of(run: Run) -> ExclusionZone | None:
     """The exclusion zone where the scenario asks for one."""
     if run.results is None or run.scenario is None or run.scenario.exclusion is None:
         return None
-    if not len(run.results.of_kind("shard")):
+    if not len(run.results.inventory.of_kind("shard")):
         return None
     return exclusion_zone(run.results, run.scenario.exclusion)
 
@@ -108,12 +108,17 @@ def _debris_blocks(
     results: Results, debris: Debris, heights: HeightMap, zones: Sequence[Zone], trajectories: bool
 ) -> list[Block]:
     low, high = np.array(debris.area.bounds()).reshape(2, 2)
-    middle = results.masses_kg[debris.bodies] @ results.places_m[-1, debris.bodies] / debris.masses_kg.sum()
-    solid = float(results.volumes_m3[debris.bodies].sum())
+    middle = (
+        results.inventory.masses_kg[debris.bodies]
+        @ results.frames.positions_m[-1, debris.bodies]
+        / debris.masses_kg.sum()
+    )
+    solid = float(results.inventory.volumes_m3[debris.bodies].sum())
     rows = [
         (
             "Debris",
-            f"{len(debris.bodies)} of {len(results.of_kind('shard'))} shards, {debris.masses_kg.sum() / 1e3:.2f} t",
+            f"{len(debris.bodies)} of {len(results.inventory.of_kind('shard'))} shards, "
+            f"{debris.masses_kg.sum() / 1e3:.2f} t",
         ),
         (
             "Footprint",
@@ -179,8 +184,13 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
     rows = []
     for number, row in enumerate(np.argsort(-debris.throws_m, kind="stable")[:NAMED], start=1):
         body = debris.bodies[row]
-        names = (str(results.body_names[body]), str(results.body_members[body]))
-        numbers = (debris.masses_kg[row], debris.throws_m[row], debris.reaches_m[row], *results.places_m[-1, body])
+        names = (str(results.inventory.body_names[body]), str(results.inventory.body_members[body]))
+        numbers = (
+            debris.masses_kg[row],
+            debris.throws_m[row],
+            debris.reaches_m[row],
+            *results.frames.positions_m[-1, body],
+        )
         rows.append((number, *names, *map(float, numbers)))
     return DataTable("largest_throws", "Largest throws", columns, rows)
 
@@ -189,7 +199,7 @@ def _zone_blocks(run: Run, zones: Sequence[Zone]) -> list[Block]:
     if not zones:
         return [Paragraph("The scenario names no zones, such as a road or a power line, to be watched.")]
     results = run.results
-    bodies = np.concatenate([results.of_kind("shard"), results.of_kind("ball")])
+    bodies = np.concatenate([results.inventory.of_kind("shard"), results.inventory.of_kind("ball")])
     watches = [watch_zone(results, zone, bodies) for zone in zones]
     columns = (
         Column("zone", "zone"),
@@ -214,7 +224,7 @@ def _zone_row(results: Results, watch: ZoneWatch) -> tuple:
         watch.zone.name,
         watch.zone.kind,
         first and float(first.time_s),
-        str(results.body_names[first.body]) if first else "nobody",
+        str(results.inventory.body_names[first.body]) if first else "nobody",
         len(watch.entries),
         watch.mass_within_kg / 1e3,
         len(watch.there_before),

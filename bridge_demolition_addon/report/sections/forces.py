@@ -23,7 +23,7 @@ _BEYOND_THE_FORCE = (
 def force_section(run: Run) -> Section:
     """Loads, hits and breaking of a run that has results."""
     results = run.results
-    known = np.isfinite(results.body_sums_n).any()
+    known = np.isfinite(results.frames.loads.body_sums_n).any()
     blocks: list[Block] = []
     if known:
         forces = contact_forces(results)
@@ -76,10 +76,14 @@ def _loaded_bodies(results: Results) -> DataTable:
         Column("time (s)", "time_s", ".3f"),
     )
     rows = []
-    for peak in most_loaded(results.body_peak_sums_n, results.of_kind("shard")):
-        numbers = (peak.force_n / 1e3, results.body_peaks_n[peak.step, peak.row] / 1e3, results.times_s[peak.step])
-        names = (str(results.body_names[peak.row]), str(results.body_members[peak.row]))
-        rows.append((*names, float(results.masses_kg[peak.row]), *map(float, numbers)))
+    for peak in most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard")):
+        numbers = (
+            peak.force_n / 1e3,
+            results.frames.loads.body_peaks_n[peak.step, peak.row] / 1e3,
+            results.frames.time_s[peak.step],
+        )
+        names = (str(results.inventory.body_names[peak.row]), str(results.inventory.body_members[peak.row]))
+        rows.append((*names, float(results.inventory.masses_kg[peak.row]), *map(float, numbers)))
     return DataTable("most_loaded_shards", "The ten most loaded shards", columns, rows)
 
 
@@ -93,29 +97,29 @@ def _loaded_connections(results: Results) -> DataTable:
         Column("time (s)", "time_s", ".3f"),
         Column("broken at (s)", "broken_s", ".3f"),
     )
-    peaks = most_loaded(results.connection_peaks_n, np.arange(len(results.pairs)))
+    peaks = most_loaded(results.frames.loads.connection_peaks_n, np.arange(len(results.inventory.pairs)))
     rows = [_connection_row(results, peak) for peak in peaks]
     return DataTable("most_loaded_connections", "The ten most loaded connections", columns, rows)
 
 
 def _connection_row(results: Results, peak: Peak) -> tuple:
-    first, second = results.body_names[results.pairs[peak.row]]
-    broken = np.flatnonzero(~results.intact[:, peak.row])
-    area = float(results.areas_m2[peak.row])
+    first, second = results.inventory.body_names[results.inventory.pairs[peak.row]]
+    broken = np.flatnonzero(~results.frames.intact[:, peak.row])
+    area = float(results.inventory.areas_m2[peak.row])
     return (
-        str(results.connection_names[peak.row]),
+        str(results.inventory.connection_names[peak.row]),
         str(first),
         str(second),
         area if area > 0.0 else None,
         peak.force_n / 1e3,
-        float(results.times_s[peak.step]),
-        float(results.times_s[broken[0]]) if len(broken) else None,
+        float(results.frames.time_s[peak.step]),
+        float(results.frames.time_s[broken[0]]) if len(broken) else None,
     )
 
 
 def _hit_blocks(run: Run) -> list[Block]:
     hits = (run.summary or {}).get("hits_of_the_ball", [])
-    if not len(run.results.of_kind("ball")):
+    if not len(run.results.inventory.of_kind("ball")):
         return [Paragraph("There is no ball in this run.")]
     if not hits:
         return [Paragraph("The ball hit nothing, or its hits were not recorded.")]
@@ -151,8 +155,10 @@ def _hit_blocks(run: Run) -> list[Block]:
 def _contour_blocks(run: Run) -> list[Block]:
     results, moments = run.results, []
     if run.impact_s is not None:
-        moments.append((int(np.abs(results.times_s - run.impact_s).argmin()), "in the frame of the ball's impact"))
-    peaks = most_loaded(results.body_peak_sums_n, results.of_kind("shard"), 1)
+        moments.append(
+            (int(np.abs(results.frames.time_s - run.impact_s).argmin()), "in the frame of the ball's impact")
+        )
+    peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if peaks:
         moments.append((peaks[0].step, "in the frame of the largest load"))
     told = (
@@ -162,11 +168,11 @@ def _contour_blocks(run: Run) -> list[Block]:
     return [
         Picture(
             partial(stress_elevation, results=results, step=step),
-            told.format(words, results.times_s[step]),
+            told.format(words, results.frames.time_s[step]),
             85.0,
         )
         for step, words in moments
-        if np.nanmax(results.von_mises_pa[step], initial=0.0) > 0.0
+        if np.nanmax(results.frames.loads.von_mises_pa[step], initial=0.0) > 0.0
     ]
 
 
@@ -188,13 +194,13 @@ def _breaking_blocks(run: Run) -> list[Block]:
             kind.count,
             int(kind.broken[-1]),
             100.0 * float(kind.broken[-1]) / kind.count,
-            float(results.times_s[(kind.broken > 0).argmax()]) if kind.broken.any() else None,
+            float(results.frames.time_s[(kind.broken > 0).argmax()]) if kind.broken.any() else None,
         )
         for kind in kinds
     ]
     return [
         Picture(
-            partial(breaking_history, times_s=results.times_s, kinds=kinds, impact_s=run.hit_s),
+            partial(breaking_history, times_s=results.frames.time_s, kinds=kinds, impact_s=run.hit_s),
             "Connections broken, by the members that they joined.",
             100.0,
         ),

@@ -93,12 +93,12 @@ def use_results(scene: bpy.types.Scene, results: Results) -> None:
     ContourError
         None of the bodies is in the scene.
     """
-    there = (
-        {body.name for body in bodies_of(scene)} if scene.rigidbody_world and scene.rigidbody_world.collection else ()
-    )
-    if not any(str(name) in there for name in results.body_names):
+    world = scene.rigidbody_world
+    there = {body.name for body in bodies_of(scene)} if world and world.collection else set()
+    names = results.inventory.body_names.tolist()
+    if there.isdisjoint(names):
         raise ContourError(
-            f"results: none of their {len(results.body_names)} bodies is in scene {scene.name!r}; open the scene "
+            f"results: none of their {len(names)} bodies is in scene {scene.name!r}; open the scene "
             "that they were recorded in, or build it from the same scenario"
         )
     _loaded[scene.session_uid] = (ContourSeries.of_results(results), handlers.latest())
@@ -152,10 +152,9 @@ def _followed(uid: int, recording: Recording) -> ContourSeries | None:
     if not frames:
         return None
     count = len(series) if series else 0
-    goes_on = 0 < count <= len(frames) and series.arrays(count - 1) is frames[count - 1]
+    goes_on = 0 < count <= len(frames) and series.frame(count - 1) is frames[count - 1]
     if not goes_on:
-        inventory = recording.inventory
-        series = ContourSeries(inventory.body_names, inventory.masses_kg > 0.0, inventory.pairs, inventory.points_m)
+        series = ContourSeries(recording.inventory)
         _recorded[uid] = series
     for frame in frames[len(series) :]:
         series.append(frame)
@@ -171,8 +170,8 @@ def _paint(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     rows = {name: row for row, name in enumerate(series.body_names)}
     if is_placed(scene):
         moving = {name: body for name, body in rows.items() if series.moves[body]}
-        arrays = series.arrays(row)
-        place(scene, depsgraph, moving, arrays["places_m"], arrays["rotations"])
+        recorded = series.frame(row)
+        place(scene, depsgraph, moving, recorded.positions_m, recorded.rotations)
     paint(scene, depsgraph, rows, np.where(series.moves[:, None], frame.screen_colours, np.nan))
 
 

@@ -15,12 +15,12 @@ from ...core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ...core.blast.settings import Apply
 from ...core.errors import LayoutError, SimulationError
 from ...core.geometry.hulls import convex_hulls
+from ...core.results.inventory import Inventory
 from ...scene.blast.charges import charges_of
 from ...scene.blast.field_reach import Reaches, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
 from ...scene.blast.settings import blast_of
 from ...scene.bodies import hull_points
-from ...scene.inventory import Inventory
 
 
 class FieldBlast:

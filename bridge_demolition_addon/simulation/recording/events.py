@@ -15,8 +15,8 @@ _ROUNDING = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Happening:
-    """An event that has happened: when, and which bodies (b,) and connections (c,) it found still there."""
+class AppliedEvent:
+    """An event that was applied: when, and which bodies (b,) and connections (c,) were still there then."""
 
     time_s: float
     kind: str
@@ -40,19 +40,19 @@ class Events:
     ----------
     remaining_strength
         (m,) part of its strength that each connection has left.
-    happened
-        What has happened so far.
+    applied
+        What was applied so far.
     """
 
     def __init__(self, world: BulletWorld, pairs: np.ndarray, events: Sequence[Event]):
         self.remaining_strength = np.ones(len(world.connections))
-        self.happened: list[Happening] = []
+        self.applied: list[AppliedEvent] = []
         self._world, self._pairs = world, pairs
         self._coming = list(events)
         self._begins_s = 0.0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Let happen what is due before a sub-step of a length in s; simulated time is known once a frame at least."""
+        """Apply what is due before a sub-step of a length in s; simulated time is known once a frame at least."""
         self._begins_s = max(self._begins_s, elapsed_s)
         while self._coming and self._coming[0].time_s <= self._begins_s + _ROUNDING * substep_s:
             self._apply(self._coming.pop(0))
@@ -69,10 +69,10 @@ class Events:
         bodies = event.bodies[~self._world.removed[event.bodies]]
         self._world.wake(self._concerned(bodies, connections))
         self._world.remove_bodies(bodies)
-        self.happened.append(Happening(self._begins_s, event.kind, bodies, connections))
+        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections))
 
     def _concerned(self, bodies: np.ndarray, connections: np.ndarray) -> np.ndarray:
-        """Bodies whose support may be gone: all, where some are taken away on which others may lie unconnected."""
+        """Bodies whose support may be gone: all, where some are removed on which others may lie unconnected."""
         if len(bodies):
             return np.arange(len(self._world.bodies))
         return np.unique(self._pairs[connections])

@@ -56,12 +56,13 @@ class LoadReader:
         moment = forces.moments_at(points, force, torque, centres[self._bodies])
         contacts = self._world.contacts()
         return SubstepLoads(
+            substep_s=substep_s,
             connection_forces_n=self._sign * force,
             connection_moments_nm=self._sign * moment,
             connection_points_m=points,
-            signed_2019_n=self._world.applied_impulses() / substep_s,
+            signed_2019_ns=self._world.applied_impulses(),
             contact_pairs=contacts.pairs,
-            contact_forces_n=contacts.impulses_ns / substep_s,
+            contact_impulses_ns=contacts.impulses_ns,
             contact_points_m=contacts.places_m,
             centres_m=centres,
             rotations=rotations,

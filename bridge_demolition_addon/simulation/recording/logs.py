@@ -15,8 +15,9 @@ import numpy as np
 from ...core.blast.explosion import StepLoads
 from ...core.mechanics.stress import principal_stresses
 from ...core.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
+from ...core.results.frames import Frame
+from ...core.results.inventory import Inventory
 from ...core.results.motion import throw, travel
-from ...scene.inventory import Inventory
 from .substeps import Breaks
 
 FORCE_COLUMNS = (
@@ -117,25 +118,26 @@ class Logs:
         self._breaking.write(_csv_text(*BREAKING_COLUMNS) + "\n")
         self._breaking.flush()
         self._explosion = ExplosionLog(folder / EXPLOSION_LOG, names, charges) if charges else None
-        self._first_places: np.ndarray | None = None
+        self._first_positions: np.ndarray | None = None
 
-    def write_frame(self, frame: dict) -> None:
+    def write_frame(self, frame: Frame) -> None:
         """Log the loads of a frame; of the first frame, also where everything is."""
+        loads = frame.loads
         columns = (
-            frame["body_forces_n"],
-            frame["body_sums_n"],
-            frame["body_peaks_n"],
-            frame["body_peak_sums_n"],
-            frame["body_contact_impulses_ns"],
-            frame["body_signed_2019_n"],
-            principal_stresses(frame["stresses_pa"]),
-            frame["von_mises_pa"],
-            frame["asleep"],
+            loads.body_forces_n,
+            loads.body_sums_n,
+            loads.body_peaks_n,
+            loads.body_peak_sums_n,
+            loads.body_contact_impulses_ns,
+            loads.body_signed_2019_n,
+            principal_stresses(loads.stresses_pa),
+            loads.von_mises_pa,
+            frame.asleep,
         )
-        self._forces.write(frame["frames"], frame["times_s"], np.column_stack(columns))
-        if self._first_places is None:
-            self._first_places = frame["places_m"]
-            self._write_places(frame)
+        self._forces.write(frame.number, frame.time_s, np.column_stack(columns))
+        if self._first_positions is None:
+            self._first_positions = frame.positions_m
+            self._write_positions(frame)
 
     def write_breaks(self, frame: int, breaks: Sequence[Breaks]) -> None:
         """Log the connections that broke in a frame, each with the loads that it broke under."""
@@ -148,22 +150,22 @@ class Logs:
                 self._breaking.write(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
         self._breaking.flush()
 
-    def write_blast(self, frame: dict, loads: StepLoads, frame_s: float) -> None:
+    def write_blast(self, frame: Frame, loads: StepLoads, frame_s: float) -> None:
         """Log the blast loads of a frame that is that long."""
-        self._explosion.write(frame["frames"], frame["times_s"], frame_s, loads)
+        self._explosion.write(frame.number, frame.time_s, frame_s, loads)
 
-    def close(self, last_frame: dict | None) -> None:
+    def close(self, last_frame: Frame | None) -> None:
         """Log where everything is at last, if there was a frame, and close the files."""
         if last_frame:
-            self._write_places(last_frame)
+            self._write_positions(last_frame)
         for each in (self._forces, self._debris, self._breaking, self._explosion):
             if each:
                 each.close()
 
-    def _write_places(self, frame: dict) -> None:
-        first, last = self._first_places, frame["places_m"]
+    def _write_positions(self, frame: Frame) -> None:
+        first, last = self._first_positions, frame.positions_m
         values = np.column_stack((last, travel(first, last), throw(first, last)))
-        self._debris.write(frame["frames"], frame["times_s"], values)
+        self._debris.write(frame.number, frame.time_s, values)
 
 
 class ExplosionLog:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,22 +15,22 @@ from ...bullet.time_control import release_time, set_time_scale, time_is_held
 from ...bullet.world import BulletWorld, WorldState
 from ...core.errors import LayoutError, SimulationError
 from ...core.results.arrays import Results
+from ...core.results.frames import BallHistory, Frame, FrameSeries
+from ...core.results.inventory import Inventory
 from ...scene.bodies import bodies_of
-from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
 from ...scene.connections.constraints import connections_of, loose_connections
-from ...scene.inventory import Inventory, take_inventory
-from ...scene.structural_changes import changes_of, events_of
+from ...scene.inventory import take_inventory
+from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
 from ..crash_guards.standstill import stand_still
 from ..crash_guards.world_objects import WorldObjects
 from .blast import Blast, check_blast, goes_off
-from .events import Events
+from .bullet_reader import BulletReader
 from .logs import LogFiles, Logs
 from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader
-from .substeps import SubstepRecorder, no_ball_history
 
 
 def check_recordable(scene: bpy.types.Scene) -> None:
@@ -111,12 +112,11 @@ class Recording:
         self._objects = WorldObjects(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
-        self._substeps: SubstepRecorder | None = None
-        self._events: Events | None = None
+        self._reader: BulletReader | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
-        self._frames: list[dict[str, np.ndarray | float]] = []
+        self._frames: list[Frame] = []
 
     def before_frame(self) -> None:
         """Set how much time passes in the coming frame, and what explodes in it.
@@ -180,8 +180,8 @@ class Recording:
             self._logs = None
 
     @property
-    def frames(self) -> Sequence[Mapping[str, np.ndarray | float]]:
-        """What was recorded of each frame so far; begun anew with every simulation."""
+    def frames(self) -> Sequence[Frame]:
+        """Frames recorded so far; another list with every simulation."""
         return self._frames
 
     @property
@@ -196,16 +196,17 @@ class Recording:
 
     def has_frame(self, frame: int) -> bool:
         """Whether a frame was recorded, or lies before those that are."""
-        return frame <= (self._frames[-1]["frames"] if self._frames else self._start_frame)
+        return frame <= (self._frames[-1].number if self._frames else self._start_frame)
 
     def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-        """Time in s of the last frame, and places (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""
-        return tuple(self._frames[-1][name] for name in ("times_s", "places_m", "rotations", "asleep"))
+        """Time in s of the last frame, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""
+        last = self._frames[-1]
+        return last.time_s, last.positions_m, last.rotations, last.asleep
 
     @property
     def broken(self) -> int:
         """Connections broken by now."""
-        return int((~self._frames[-1]["intact"]).sum()) if self._frames else 0
+        return int((~self._frames[-1].intact).sum()) if self._frames else 0
 
     @property
     def lost_blast_loads(self) -> int:
@@ -213,8 +214,8 @@ class Recording:
         return self._blast.left if self._blast else 0
 
     @property
-    def happenings(self) -> list[dict[str, Any]]:
-        """Removals, saw cuts and weakenings so far, ready for JSON: shards taken away, connections concerned."""
+    def applied_events(self) -> list[dict[str, Any]]:
+        """Removals, saw cuts and weakenings so far, ready for JSON: shards removed, connections concerned."""
         names = self._inventory.body_names if self._inventory else ()
         return [
             {
@@ -223,7 +224,7 @@ class Recording:
                 "shards": [str(names[body]) for body in each.bodies],
                 "connections": len(each.connections),
             }
-            for each in (self._events.happened if self._events else ())
+            for each in (self._reader.applied_events if self._reader else ())
         ]
 
     @property
@@ -235,7 +236,7 @@ class Recording:
     @property
     def reading_seconds(self) -> float:
         """The part of it that went into reading loads from Bullet and gathering them."""
-        return self._substeps.seconds if self._substeps else 0.0
+        return self._reader.seconds if self._reader else 0.0
 
     def results(self) -> Results:
         """Everything recorded.
@@ -247,10 +248,8 @@ class Recording:
         """
         if not self._frames:
             raise SimulationError("nothing was recorded: play the timeline from its start frame")
-        series = {name: np.array([frame[name] for frame in self._frames]) for name in self._frames[0]}
-        inventory = {name: getattr(self._inventory, name) for name in Inventory.__dataclass_fields__}
-        balls = self._substeps.ball_history() if self._substeps else no_ball_history()
-        return Results(reading=np.array(self._reading), **inventory, **series, **balls)
+        balls = self._reader.ball_history if self._reader else BallHistory.unknown()
+        return Results(self._reading, self._inventory, FrameSeries.of(self._frames), balls)
 
     @property
     def _start_frame(self) -> int:
@@ -279,7 +278,7 @@ class Recording:
         frame = self.scene.frame_current
         if frame == self._start_frame or not self._momentum:
             self._begin_with_motion()
-        elif frame != self._frames[-1]["frames"] + 1:
+        elif frame != self._frames[-1].number + 1:
             return  # not a step forward in time, but a frame that was recorded already or will be
         self._keep(self._momentum.read_frame(depsgraph))
 
@@ -320,11 +319,11 @@ class Recording:
         if not self._blast:
             return
         last, coming = self._frames[-1] if self._frames else None, self.scene.frame_current
-        if last is None or coming != last["frames"] + 1:
+        if last is None or coming != last.number + 1:
             self._blast.rest()
             return
         frame_s = time_step_at(self.scene, coming).frame_s
-        self._blast.before_frame(last["times_s"], frame_s, last["places_m"], last["rotations"])
+        self._blast.before_frame(last.time_s, frame_s, last.positions_m, last.rotations)
 
     def _lift_balls(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Have a ball that is lifted from the next frame on go up from where it is."""
@@ -340,65 +339,36 @@ class Recording:
         if state is WorldState.NEW:
             self._begin()
             # The solver of a new world names a default step before it has taken any.
-            self._record_first_frame(0.0 if held else substep)
+            self._keep(self._reader.read_first_frame(0.0 if held else substep))
         elif substep > 0.0:
-            self._record_frame(substep)
+            frame, breaks = self._reader.read_frame(substep)
+            self._keep(frame)
+            self._logs.write_breaks(frame.number, breaks)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin(self) -> None:
-        """Note what stays the same throughout, and start anew."""
+        """Begin with the first frame of a new world."""
         self._frames.clear()
         self._inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self._world)
-        coming = events_of(self.scene, self._bodies, self._inventory)
-        self._events = Events(self._world, self._inventory.pairs, coming)
-        normal_substep_s = time_step_at(self.scene, self._start_frame).substep_s
-        breaking = breaking_of(self.scene, self._connections)
-        self._substeps = SubstepRecorder(
-            self._world, self._inventory, breaking, self._events, self._blast, normal_substep_s
+        self._reader = BulletReader(
+            self.scene,
+            self._bodies,
+            self._connections,
+            self._world,
+            self._inventory,
+            self._blast,
+            every_substep=self._every_substep,
         )
-        after = self._substeps.after_substep if self._every_substep else None
-        self._world.call_around_substeps(self._substeps.before_substep, after)
 
-    def _record_first_frame(self, substep_s: float) -> None:
-        """A frame in which no time passed, or else one whose loads were not asked for in time."""
-        self._substeps.skip(substep_s * self.scene.rigidbody_world.substeps_per_frame)
-        loads, _ = self._substeps.finish_frame()
-        if substep_s > 0.0:
-            loads = {name: np.full_like(values, np.nan) for name, values in loads.items()}
-        self._keep_frame(substep_s, loads)
-
-    def _record_frame(self, substep_s: float) -> None:
-        if not self._every_substep:
-            self._substeps.after_substep(substep_s)
-            self._substeps.skip(substep_s * (self.scene.rigidbody_world.substeps_per_frame - 1))
-        if self._substeps.error:
-            raise self._substeps.error
-        loads, breaks = self._substeps.finish_frame()
-        self._keep_frame(substep_s, loads)
-        self._logs.write_breaks(self.scene.frame_current, breaks)
-
-    def _keep_frame(self, substep_s: float, loads: dict[str, np.ndarray]) -> None:
-        places, rotations = self._world.places()
-        frame = {
-            "frames": self.scene.frame_current,
-            "times_s": self._substeps.elapsed_s,
-            "substep_s": substep_s,
-            "places_m": places,
-            "rotations": rotations,
-            "velocities_m_s": self._world.velocities(),
-            "spins_rad_s": self._world.spins(),
-            "asleep": self._world.asleep(),
-            "intact": self._world.intact(),
-            **loads,
-        }
-        self._keep(frame)
-
-    def _keep(self, frame: dict[str, np.ndarray | float]) -> None:
-        frame["blast_impulses_ns"] = np.zeros_like(frame["places_m"])
-        frame_s = frame["times_s"] - (self._frames[-1]["times_s"] if self._frames else 0.0)
+    def _keep(self, frame: Frame) -> None:
+        """Keep and log a frame, with what exploded in it."""
+        frame_s = frame.time_s - (self._frames[-1].time_s if self._frames else 0.0)
+        exploded = self._blast is not None and frame_s > 0.0
+        if exploded:
+            blast_loads, impulses = self._blast.after_frame(frame.positions_m)
+            frame = replace(frame, blast_impulses_ns=impulses)
         self._frames.append(frame)
         self._logs.write_frame(frame)
-        if self._blast and frame_s > 0.0:
-            loads, frame["blast_impulses_ns"] = self._blast.after_frame(frame["places_m"])
-            self._logs.write_blast(frame, loads, frame_s)
+        if exploded:
+            self._logs.write_blast(frame, blast_loads, frame_s)

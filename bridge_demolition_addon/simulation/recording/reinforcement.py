@@ -7,7 +7,7 @@ import numpy as np
 from ...bullet.world import BulletWorld
 from ...core.mechanics.reinforcement import effective_masses, parting, tie_forces
 from ...core.mechanics.strength import Ductility
-from ...scene.inventory import Inventory
+from ...core.results.inventory import Inventory
 
 
 class Ties:

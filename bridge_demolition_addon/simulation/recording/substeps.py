@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...bullet.world import BulletWorld
-from ...core.mechanics.frame_loads import FrameLoads, SubstepLoads
+from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from ...core.mechanics.section_cuts import Cuts, worst_around
 from ...core.mechanics.section_forces import SectionForces, section_forces
 from ...core.mechanics.strength import rectangular_sections, strength_at, utilisation
+from ...core.results.frames import BallHistory
+from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
-from ...scene.inventory import Inventory
 from .blast import Blast
 from .events import Events
 from .load_reader import LoadReader
@@ -86,7 +86,7 @@ class SubstepRecorder:
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
         self._cuts = Cuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
-        self._frame = FrameLoads(inventory.pairs, inventory.volumes_m3, self._reader.normals)
+        self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._breaks: list[Breaks] = []
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
@@ -130,31 +130,31 @@ class SubstepRecorder:
         """Let time pass of which nothing is known."""
         self.elapsed_s += duration_s
 
-    def finish_frame(self) -> tuple[dict[str, np.ndarray], list[Breaks]]:
+    def finish_frame(self) -> tuple[FrameLoads, list[Breaks]]:
         """Loads of the frame and the connections that broke in it; the next frame begins."""
         loads, breaks = self._frame.finish(), self._breaks
         self._frame.begin()
         self._breaks = []
         return loads, breaks
 
-    def ball_history(self) -> dict[str, np.ndarray]:
-        """Times (s,), contact impulses (s, b, 3) and velocities (s, b, 3) of the b balls after every sub-step."""
+    def ball_history(self) -> BallHistory:
+        """Hits of the balls in every sub-step so far."""
         if not self._hits:
-            return no_ball_history()
-        times, impulses, velocities = zip(*self._hits, strict=True)
-        return _ball_history(self._balls, times, impulses, velocities)
+            return BallHistory.unknown()
+        times, impulses, velocities = map(np.array, zip(*self._hits, strict=True))
+        return BallHistory(self._balls, times, impulses, velocities)
 
     def _take_down(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
         loads = self._reader.read(substep_s)
         if self._ties:
             loads.connection_forces_n[:] += self._ties.forces_n
-        self._frame.add(loads, substep_s)
+        self._frame.add(loads)
         self._break_overloaded(loads)
         self._note_breaks(loads)
         self._world.let_broken_collide()
         if len(self._balls):
-            self._note_balls(loads, substep_s)
+            self._note_balls(loads)
 
     def _break_overloaded(self, loads: SubstepLoads) -> None:
         """Break what its strength does not bear; Bullet's own threshold has been at work within the sub-step."""
@@ -206,29 +206,9 @@ class SubstepRecorder:
         if len(rows):
             self._breaks.append(Breaks(self.elapsed_s, rows, self._section_forces(loads, rows)))
 
-    def _note_balls(self, loads: SubstepLoads, substep_s: float) -> None:
-        pairs, forces = loads.contact_pairs, loads.contact_forces_n
-        impulses = [
-            substep_s * (forces[pairs[:, 0] == ball].sum(axis=0) - forces[pairs[:, 1] == ball].sum(axis=0))
-            for ball in self._balls
-        ]
+    def _note_balls(self, loads: SubstepLoads) -> None:
+        (first, second), each = loads.contact_pairs.T, loads.contact_impulses_ns
+        impulses = [each[first == ball].sum(axis=0) - each[second == ball].sum(axis=0) for ball in self._balls]
         # A ball that is lifted moves as animation says: what it pushes off does not hit it.
         free = self._world.can_move()[self._balls, None]
         self._hits.append((self.elapsed_s, np.where(free, impulses, 0.0), self._world.velocities()[self._balls]))
-
-
-def no_ball_history() -> dict[str, np.ndarray]:
-    """What `SubstepRecorder.ball_history` gives where nothing is known of any ball."""
-    return _ball_history(np.zeros(0, int), (), (), ())
-
-
-def _ball_history(
-    balls: np.ndarray, times: Sequence, impulses: Sequence, velocities: Sequence
-) -> dict[str, np.ndarray]:
-    shape = (len(times), len(balls), 3)
-    return {
-        "balls": balls,
-        "ball_times_s": np.array(times, float),
-        "ball_impulses_ns": np.array(impulses, float).reshape(shape),
-        "ball_velocities_m_s": np.array(velocities, float).reshape(shape),
-    }

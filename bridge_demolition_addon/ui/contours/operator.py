@@ -34,7 +34,7 @@ class BDA_OT_load_results(Refusing, bpy.types.Operator):
         except DemolitionError as error:
             return refused(self, error)
         contour_view.follow(scene)
-        self.report({"INFO"}, f"{len(results.frames)} frames of {len(results.body_names)} bodies")
+        self.report({"INFO"}, f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies")
         return {"FINISHED"}
 
 

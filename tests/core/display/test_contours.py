@@ -1,8 +1,10 @@
 """Values and ranges of contours, on the chain whose forces are known by hand; arrows and films."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from sample_results import FRAME_S, FRAME_SERIES, POINTS, G, frame_of, hanging_chain
+from sample_results import FRAME_S, POINTS, G, hanging_chain
 
 from bridge_demolition_addon.core.display.contours import (
     ContourSeries,
@@ -52,14 +54,13 @@ def test_peak_so_far_never_falls_and_is_reached(series):
 
 def test_a_growing_series_is_the_finished_one(series):
     results = hanging_chain()
-    growing = ContourSeries(results.body_names, results.masses_kg > 0.0)
+    growing = ContourSeries(results.inventory)
     settings = ContourSettings(peak=True)
     for row in range(5):
-        growing.append(frame_of(results, row))
+        growing.append(results.frames[row])
         growing.show(row, settings)
     for row in range(5):
         assert np.array_equal(growing.show(row, settings).screen_colours, series.show(row, settings).screen_colours)
-    assert "body_sums_n" in FRAME_SERIES
 
 
 def test_range_over_the_run_and_of_each_frame(series):
@@ -100,22 +101,22 @@ def test_units_keep_numbers_short():
 
 def test_rows_by_frames(series):
     assert [series.row_at(frame) for frame in (1, 2, 4, 6, 99)] == [0, 0, 2, 4, 4]
-    assert ContourSeries([], np.zeros(0)).row_at(1) is None
+    assert ContourSeries(hanging_chain().inventory).row_at(1) is None
 
 
 def test_connections_move_with_their_first_bodies(series):
-    first, last = series.arrays(0), series.arrays(4)
+    first, last = series.frame(0), series.frame(4)
     places, forces = connection_forces(last, first, series.pairs, series.points_m)
     assert len(places) == len(forces) == 1  # the other is broken
-    turned = {**last, "rotations": np.array(last["rotations"])}
-    turned["rotations"][UPPER] = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+    turned = replace(last, rotations=last.rotations.copy())
+    turned.rotations[UPPER] = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
     places, _ = connection_forces(turned, first, series.pairs, series.points_m)
-    arm = POINTS[0] - first["places_m"][UPPER]  # 2 m above: a quarter turn about x takes it to -y
-    assert places[0] == pytest.approx(first["places_m"][UPPER] + [0.0, -arm[2], 0.0])
+    arm = POINTS[0] - first.positions_m[UPPER]  # 2 m above: a quarter turn about x takes it to -y
+    assert places[0] == pytest.approx(first.positions_m[UPPER] + [0.0, -arm[2], 0.0])
 
 
 def test_contact_forces_are_impulses_over_the_frame(series):
-    _, forces = contact_forces(series.arrays(4), FRAME_S)
+    _, forces = contact_forces(series.frame(4), FRAME_S)
     assert forces[BALL] == pytest.approx([0.0, 0.0, 3000 * G])
 
 

@@ -1,10 +1,8 @@
 """Loads of the hanging chain, whose forces statics gives by hand."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from sample_results import FRAME_S, G, hanging_chain, without_connections
+from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.core.results.force_history import breaking_by_kind, contact_forces, most_loaded
 
@@ -19,20 +17,20 @@ def test_the_ledge_carries_the_ball():
 
 def test_contacts_of_shards_are_told():
     results = hanging_chain()
-    impulses = results.body_contact_impulses_ns.copy()
+    impulses = results.frames.loads.body_contact_impulses_ns.copy()
     impulses[2, 2] = FRAME_S * np.array([30.0, 0.0, 40.0])
-    forces = contact_forces(replace(results, body_contact_impulses_ns=impulses))
+    forces = contact_forces(changed(results, body_contact_impulses_ns=impulses))
     assert forces.largest_n[2] == pytest.approx(50.0)
 
 
 def test_the_most_loaded_come_first():
     results = hanging_chain()
-    bodies = most_loaded(results.body_peak_sums_n, results.of_kind("shard"))
+    bodies = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"))
     assert [peak.row for peak in bodies] == [1, 2]
     # 500 g from above, and 200 g with 1 kN across from below, in the fourth frame.
     assert bodies[0].force_n == pytest.approx(500 * G + np.hypot(200 * G, 1000))
     assert bodies[0].step == 3
-    (one,) = most_loaded(results.connection_peaks_n, np.arange(2), 1)
+    (one,) = most_loaded(results.frames.loads.connection_peaks_n, np.arange(2), 1)
     assert (one.row, one.force_n) == (0, pytest.approx(500 * G))
 
 
@@ -50,7 +48,7 @@ def test_kinds_of_connections_and_when_they_broke():
     assert (pier.kind, pier.count, pier.broken.tolist()) == ("pier - pier", 1, [0, 0, 0, 0, 1])
     results = hanging_chain()
     members = np.array(["", "column", "column", ""])
-    assert "within pier" in {kind.kind for kind in breaking_by_kind(replace(results, body_members=members))}
+    assert "within pier" in {kind.kind for kind in breaking_by_kind(changed(results, body_members=members))}
 
 
 def test_without_connections_nothing_breaks():

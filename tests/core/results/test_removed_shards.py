@@ -15,7 +15,7 @@ PLACES = np.array([[(0, 0, 5), (3, 0, 5), (6, 0, 5)], [(0, 0, 5), (3, 0, -995), 
 def test_they_are_no_debris_and_lose_no_energy():
     results, count = without_taken_away(moving_boxes([0, 1], [(1, 1, 1)] * 3, PLACES))
     assert count == 1
-    assert results.of_kind("shard").tolist() == [0, 2]
+    assert results.inventory.of_kind("shard").tolist() == [0, 2]
     assert debris_of(results).bodies.tolist() == [2]
     # A cube of 1 t comes down by 3 m of the 5 m that both stand at.
     assert energy_of(results).potential_j == pytest.approx([3000 * 9.80665, 0.0])

@@ -1,11 +1,10 @@
 """The summary of a recording against what happened in it."""
 
 import json
-from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from sample_results import GRAVITY, G, hanging_chain, without_connections
+from sample_results import GRAVITY, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.core.results.summary import first_hit_s, impact_step, summarise
 
@@ -37,9 +36,9 @@ def test_summary_of_the_chain():
 
 def test_a_shard_that_was_taken_away_is_not_thrown():
     chain = hanging_chain()
-    places = chain.places_m.copy()
-    places[-1, chain.body_names.tolist().index("lower"), 2] -= 1000.0
-    assert summarise(replace(chain, places_m=places), GRAVITY)["largest_throw"]["body"] == "upper"
+    places = chain.frames.positions_m.copy()
+    places[-1, chain.inventory.body_names.tolist().index("lower"), 2] -= 1000.0
+    assert summarise(changed(chain, places_m=places), GRAVITY)["largest_throw"]["body"] == "upper"
 
 
 @pytest.mark.parametrize(
@@ -72,7 +71,7 @@ def test_largest_forces_with_their_body_and_moment():
     assert (resultant["body"], resultant["frame"]) == ("upper", 5)
     assert resultant["force_N"] == pytest.approx(np.hypot(300 * G, 1000))
     others = hanging_chain()
-    assert others.body_peaks_n[4, [0, 3]].min() > force_sum["force_N"] > resultant["force_N"]
+    assert others.frames.loads.body_peaks_n[4, [0, 3]].min() > force_sum["force_N"] > resultant["force_N"]
 
 
 def test_the_ball_hits_in_the_frame_that_stops_it():
@@ -102,22 +101,22 @@ def test_the_hit_of_the_ball_by_hand():
 
 def test_a_ball_that_rests_hits_nothing():
     results = hanging_chain()
-    resting = replace(results, ball_impulses_ns=results.ball_impulses_ns / 6.0)  # its weight
+    resting = changed(results, ball_impulses_ns=results.balls.impulses_ns / 6.0)  # its weight
     assert summarise(resting, GRAVITY)["hits_of_the_ball"] == []
 
 
 def test_a_ball_that_is_hit_from_behind_has_no_estimates():
     results = hanging_chain()
-    (hit,) = summarise(replace(results, ball_impulses_ns=-results.ball_impulses_ns), GRAVITY)["hits_of_the_ball"]
+    (hit,) = summarise(changed(results, ball_impulses_ns=-results.balls.impulses_ns), GRAVITY)["hits_of_the_ball"]
     assert hit["approach_m_s"] == pytest.approx(-0.1 * G)
     assert not {"contact_time_s", "half_sine_peak_force_N", "hertz_peak_force_N"} & set(hit)
 
 
 def with_ball(velocities):
     results = hanging_chain()
-    all_velocities = results.velocities_m_s.copy()
+    all_velocities = results.frames.velocities_m_s.copy()
     all_velocities[:, 3] = np.asarray(velocities)[:, None] * 0.04 * GRAVITY
-    return replace(results, velocities_m_s=all_velocities)
+    return changed(results, velocities_m_s=all_velocities)
 
 
 @pytest.mark.parametrize(
@@ -136,17 +135,19 @@ def test_step_of_the_impact(velocities, step):
 
 def test_no_ball_no_impact():
     results = hanging_chain()
-    results = replace(results, body_kinds=np.where(results.body_kinds == "ball", "shard", results.body_kinds))
+    results = changed(
+        results, body_kinds=np.where(results.inventory.body_kinds == "ball", "shard", results.inventory.body_kinds)
+    )
     assert summarise(results, GRAVITY)["impact"] is None
 
 
 def with_unknown(results, frames):
     """The recording, had the loads of some frames not been known."""
-    changed = {}
+    unknown = {}
     for name in ("body_peaks_n", "body_peak_sums_n"):
-        changed[name] = getattr(results, name).copy()
-        changed[name][frames] = np.nan
-    return replace(results, **changed)
+        unknown[name] = results.arrays()[name].copy()
+        unknown[name][frames] = np.nan
+    return changed(results, **unknown)
 
 
 def test_frames_of_unknown_forces_are_passed_over():
@@ -161,29 +162,29 @@ def test_frames_of_unknown_forces_are_passed_over():
 
 def test_frames_in_which_only_some_forces_are_known_are_passed_over():
     results = hanging_chain()
-    peaks = results.body_peak_sums_n.copy()
+    peaks = results.frames.loads.body_peak_sums_n.copy()
     peaks[3, 0] = np.nan
-    summary = summarise(replace(results, body_peak_sums_n=peaks), GRAVITY)
+    summary = summarise(changed(results, body_peak_sums_n=peaks), GRAVITY)
     assert summary["largest_force_sum"]["force_N"] == pytest.approx(700 * G)
 
 
 def test_a_reading_of_last_sub_steps_says_so():
-    results = replace(hanging_chain(), reading=np.array("last sub-step of each frame"))
+    results = changed(hanging_chain(), reading=np.array("last sub-step of each frame"))
     assert summarise(results, GRAVITY)["reading"] == "last sub-step of each frame"
 
 
 def only(results, body):
     """The recording of a single body."""
     kept = without_connections(results)
-    assert set(BODY_SERIES) < {item.name for item in fields(kept)}
-    balls = slice(None) if body in kept.balls else slice(0)
-    return replace(
+    assert set(BODY_SERIES) < set(kept.arrays())
+    balls = slice(None) if body in kept.balls.bodies else slice(0)
+    return changed(
         kept,
-        balls=np.zeros_like(kept.balls[balls]),
-        ball_impulses_ns=kept.ball_impulses_ns[:, balls],
-        ball_velocities_m_s=kept.ball_velocities_m_s[:, balls],
-        **{name: getattr(kept, name)[[body]] for name in ("body_names", "body_kinds", "masses_kg", "volumes_m3")},
-        **{name: getattr(kept, name)[:, [body]] for name in BODY_SERIES},
+        balls=np.zeros_like(kept.balls.bodies[balls]),
+        ball_impulses_ns=kept.balls.impulses_ns[:, balls],
+        ball_velocities_m_s=kept.balls.velocities_m_s[:, balls],
+        **{name: kept.arrays()[name][[body]] for name in ("body_names", "body_kinds", "masses_kg", "volumes_m3")},
+        **{name: kept.arrays()[name][:, [body]] for name in BODY_SERIES},
     )
 
 

@@ -27,16 +27,16 @@ def test_hanging_block(blender, tmp_path, kind, step, share, holds):
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG)
     blocks.connect(kind, (0, 0, 9.5), ceiling, block, share * WEIGHT_N)
     results = blocks.play(tmp_path, 24)
-    assert bool(results.intact[-1][0]) is holds
-    sunk = 9.0 - results.places_m[-1, 1, 2]
+    assert bool(results.frames.intact[-1][0]) is holds
+    sunk = 9.0 - results.frames.positions_m[-1, 1, 2]
     if holds:
         assert sunk < 1e-3
-        assert results.connection_forces_n[-1][0, 2] == pytest.approx(-WEIGHT_N, rel=1e-4)
+        assert results.frames.loads.connection_forces_n[-1][0, 2] == pytest.approx(-WEIGHT_N, rel=1e-4)
     else:
-        elapsed = results.times_s[-1]
+        elapsed = results.frames.time_s[-1]
         # It falls freely from the second sub-step on at the latest; half g·t² is what an ideal fall would give.
         assert sunk == pytest.approx(STANDARD_GRAVITY_M_S2 * elapsed**2 / 2, rel=0.1)
-        np.testing.assert_array_equal(results.connection_forces_n[-1], 0.0)
+        np.testing.assert_array_equal(results.frames.loads.connection_forces_n[-1], 0.0)
 
 
 CHANGES = (
@@ -67,7 +67,7 @@ def hanging(share):
 def test_a_force_stays_what_it_is_when_the_step_changes(blender, tmp_path, share, holds, change):
     blocks = hanging(share)
     change_step(blocks.scene, change)
-    assert bool(blocks.play(tmp_path, 24).intact[-1][0]) is holds
+    assert bool(blocks.play(tmp_path, 24).frames.intact[-1][0]) is holds
 
 
 def test_nothing_is_written_where_the_step_is_the_same(blender):

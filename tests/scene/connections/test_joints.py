@@ -33,8 +33,8 @@ def test_generic_chain_carries_the_weight_below_each_connection(blender, tmp_pat
     join(blocks, made, *[Joint("GENERIC")] * 3)
     results = blocks.play(tmp_path, 48)
     weights = np.cumsum(masses[::-1])[::-1] * GRAVITY
-    np.testing.assert_allclose(results.connection_forces_n[-1][:, 2], -weights, rtol=STATICS)
-    np.testing.assert_allclose(results.connection_moments_nm[-1], 0.0, atol=STATICS * weights[0])
+    np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1][:, 2], -weights, rtol=STATICS)
+    np.testing.assert_allclose(results.frames.loads.connection_moments_nm[-1], 0.0, atol=STATICS * weights[0])
 
 
 def test_generic_cantilever_carries_shear_and_moment(blender, tmp_path):
@@ -42,9 +42,13 @@ def test_generic_cantilever_carries_shear_and_moment(blender, tmp_path):
     wall, arm = blocks.block((0, 0, 5)), blocks.block((0.5 + lever[0], lever[1], 5), MASS_KG)
     join(blocks, [blocks.connect("FIXED", (0.5, 0.0, 5), wall, arm)], Joint("GENERIC"))
     results = blocks.play(tmp_path, 96)
-    np.testing.assert_allclose(results.connection_forces_n[-1][0], (0, 0, -WEIGHT_N), atol=STATICS * WEIGHT_N)
+    np.testing.assert_allclose(
+        results.frames.loads.connection_forces_n[-1][0], (0, 0, -WEIGHT_N), atol=STATICS * WEIGHT_N
+    )
     moment = np.cross(lever, (0, 0, -WEIGHT_N))
-    np.testing.assert_allclose(results.connection_moments_nm[-1][0], moment, atol=STATICS * abs(moment).max())
+    np.testing.assert_allclose(
+        results.frames.loads.connection_moments_nm[-1][0], moment, atol=STATICS * abs(moment).max()
+    )
 
 
 @pytest.mark.parametrize("step", ({}, {"frames_per_second": 60, "substeps_per_frame": 1}), ids=("24 × 10", "60 × 1"))
@@ -53,7 +57,7 @@ def test_generic_breaks_at_its_force(blender, tmp_path, share, holds, step):
     blocks = Blocks(**step)
     hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
     join(blocks, [hanging], Joint("GENERIC", breaking_force_n=share * WEIGHT_N))
-    assert bool(blocks.play(tmp_path, 24).intact[-1][0]) is holds
+    assert bool(blocks.play(tmp_path, 24).frames.intact[-1][0]) is holds
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -64,12 +68,12 @@ def test_a_free_move_falls_freely_and_carries_nothing(blender, tmp_path, axis):
     sliding = blocks.connect("FIXED", (0.5, 0, 5), blocks.block((0, 0, 5)), body)
     join(blocks, [sliding], Joint("GENERIC", free=(MOTIONS[axis],)))
     results = blocks.play(tmp_path, 24)
-    np.testing.assert_allclose(results.connection_forces_n[-1][0], 0.0, atol=STATICS * WEIGHT_N)
+    np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1][0], 0.0, atol=STATICS * WEIGHT_N)
     # Velocity first, then place: after n steps of h the way is g h² n (n + 1) / 2.
     steps = 24 * 10
     way = GRAVITY / 240.0**2 * steps * (steps + 1) / 2.0
-    assert results.places_m[-1, 0, axis] - (1, 0, 5)[axis] == pytest.approx(way, rel=1e-5)
-    others = np.delete(results.places_m[-1, 0] - (1, 0, 5), axis)
+    assert results.frames.positions_m[-1, 0, axis] - (1, 0, 5)[axis] == pytest.approx(way, rel=1e-5)
+    others = np.delete(results.frames.positions_m[-1, 0] - (1, 0, 5), axis)
     np.testing.assert_allclose(others, 0.0, atol=1e-6)
 
 
@@ -85,8 +89,8 @@ def test_a_free_turn_carries_no_moment_about_its_axis_and_all_others(blender, tm
     blocks.connect("FIXED", (1, 0, 5), arm, weight)
     blocks.scene.gravity = GRAVITY * np.eye(3)[(axis + 2) % 3]  # turns about the axis that is free
     results = blocks.play(tmp_path, 2)
-    assert abs(results.connection_moments_nm[-1][0, axis]) < STATICS * WEIGHT_N
-    turned = results.rotations[-1, 1]
+    assert abs(results.frames.loads.connection_moments_nm[-1][0, axis]) < STATICS * WEIGHT_N
+    turned = results.frames.rotations[-1, 1]
     assert turned[axis, axis] == pytest.approx(1.0, abs=1e-6)
     assert abs(turned - np.eye(3)).max() > 1e-3
 
@@ -112,7 +116,7 @@ def test_each_connection_breaks_at_its_own_strength(blender, tmp_path):
         Joint("FIXED", breaking_force_n=1.05 * WEIGHT_N),
         Joint("FIXED", breaking_force_n=0.95 * WEIGHT_N),
     )
-    assert blocks.play(tmp_path, 24).intact[-1].tolist() == [True, False, True, False]
+    assert blocks.play(tmp_path, 24).frames.intact[-1].tolist() == [True, False, True, False]
 
 
 def test_a_strength_of_its_own_without_one_of_the_scene(blender, tmp_path):
@@ -124,7 +128,7 @@ def test_a_strength_of_its_own_without_one_of_the_scene(blender, tmp_path):
         made[-1]["bda_area_m2"], made[-1]["bda_normal"] = area, (0.0, 0.0, -1.0)
     weak = Strength(1e9, 0.95 * WEIGHT_N / area, 1e9, 1e9, 1e9)
     join(blocks, made, Joint("FIXED", breaking_force_n=10.0 * WEIGHT_N), Joint("FIXED", strength=weak))
-    assert blocks.play(tmp_path, 24).intact[-1].tolist() == [True, False]
+    assert blocks.play(tmp_path, 24).frames.intact[-1].tolist() == [True, False]
 
 
 @pytest.mark.parametrize("stiffness", (20_000.0, 200_000.0))
@@ -134,8 +138,10 @@ def test_a_weight_sinks_by_its_weight_over_the_stiffness(blender, tmp_path, stif
     damped = Springs(stiffness, 0.6 * (stiffness * MASS_KG) ** 0.5)
     join(blocks, [hanging], Joint("GENERIC_SPRING", ("move z",), damped))
     results = blocks.play(tmp_path, 240)
-    assert 9.0 - results.places_m[-1, 1, 2] == pytest.approx(WEIGHT_N / stiffness, rel=STATICS)
-    np.testing.assert_allclose(results.connection_forces_n[-1][0], (0, 0, -WEIGHT_N), atol=STATICS * WEIGHT_N)
+    assert 9.0 - results.frames.positions_m[-1, 1, 2] == pytest.approx(WEIGHT_N / stiffness, rel=STATICS)
+    np.testing.assert_allclose(
+        results.frames.loads.connection_forces_n[-1][0], (0, 0, -WEIGHT_N), atol=STATICS * WEIGHT_N
+    )
 
 
 def test_a_spring_that_is_too_stiff_for_the_step_is_softened_as_the_reference_says(blender, tmp_path):
@@ -143,7 +149,7 @@ def test_a_spring_that_is_too_stiff_for_the_step_is_softened_as_the_reference_sa
     hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
     join(blocks, [hanging], Joint("GENERIC_SPRING", ("move z",), Springs(2e6, 8000.0)))
     results = blocks.play(tmp_path, 240)
-    assert 9.0 - results.places_m[-1, 1, 2] == pytest.approx(WEIGHT_N / (MASS_KG * 240.0**2 / 16.0), rel=1e-5)
+    assert 9.0 - results.frames.positions_m[-1, 1, 2] == pytest.approx(WEIGHT_N / (MASS_KG * 240.0**2 / 16.0), rel=1e-5)
 
 
 def test_a_weight_swings_on_its_spring_in_the_time_of_an_oscillator(blender, tmp_path):
@@ -151,7 +157,7 @@ def test_a_weight_swings_on_its_spring_in_the_time_of_an_oscillator(blender, tmp
     hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
     join(blocks, [hanging], Joint("GENERIC_SPRING", ("move z",), Springs(stiffness)))
     results = blocks.play(tmp_path, 240)
-    times, heights = results.times_s, results.places_m[:, 1, 2] - (9.0 - WEIGHT_N / stiffness)
+    times, heights = results.frames.time_s, results.frames.positions_m[:, 1, 2] - (9.0 - WEIGHT_N / stiffness)
     falling = np.flatnonzero((heights[:-1] > 0.0) & (heights[1:] <= 0.0))
     share = heights[falling] / (heights[falling] - heights[falling + 1])
     crossings = times[falling] + share * (times[falling + 1] - times[falling])
@@ -168,12 +174,12 @@ def test_an_arm_turns_until_the_spring_carries_its_moment(blender, tmp_path, sti
     turning = Springs(turning_stiffness_nm_rad=stiffness, turning_damping_nms_rad=0.02 * stiffness)
     join(blocks, [blocks.connect("FIXED", (0.5, 0.0, 5), wall, arm)], Joint("GENERIC_SPRING", ("turn y",), turning))
     results = blocks.play(tmp_path, 240)
-    angle = np.arcsin(-results.rotations[-1, 1][2, 0])
+    angle = np.arcsin(-results.frames.rotations[-1, 1][2, 0])
     moment = lever[0] * np.cos(angle) * WEIGHT_N  # its own lever, shorter by as much as the arm has turned
     # Ten seconds of damping leave some 1e-5 of the swing.
     assert stiffness * angle == pytest.approx(moment, rel=1e-4)
-    assert results.connection_moments_nm[-1][0, 1] == pytest.approx(moment, rel=1e-4)
-    assert results.connection_moments_nm[-1][0, 0] == pytest.approx(-lever[1] * WEIGHT_N, rel=1e-4)
+    assert results.frames.loads.connection_moments_nm[-1][0, 1] == pytest.approx(moment, rel=1e-4)
+    assert results.frames.loads.connection_moments_nm[-1][0, 0] == pytest.approx(-lever[1] * WEIGHT_N, rel=1e-4)
 
 
 def test_blenders_own_generic_pulls_with_more_than_twice_the_weight_at_its_start(blender, tmp_path):
@@ -186,7 +192,7 @@ def test_blenders_own_generic_pulls_with_more_than_twice_the_weight_at_its_start
         setattr(hanging.rigid_body_constraint, f"use_limit_{name}", True)
         setattr(hanging.rigid_body_constraint, f"limit_{name}_lower", 0.0)
         setattr(hanging.rigid_body_constraint, f"limit_{name}_upper", 0.0)
-    peaks = blocks.play(tmp_path, 2).connection_peaks_n[1]
+    peaks = blocks.play(tmp_path, 2).frames.loads.connection_peaks_n[1]
     assert peaks == pytest.approx([2.2 * WEIGHT_N], rel=1e-3)
 
 
@@ -194,4 +200,4 @@ def test_ours_pulls_with_the_weight_from_its_start(blender, tmp_path):
     blocks = Blocks()
     hanging = blocks.connect("FIXED", (0, 0, 9.5), blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG))
     join(blocks, [hanging], Joint("GENERIC"))
-    assert blocks.play(tmp_path, 2).connection_peaks_n[1] == pytest.approx([WEIGHT_N], rel=STATICS)
+    assert blocks.play(tmp_path, 2).frames.loads.connection_peaks_n[1] == pytest.approx([WEIGHT_N], rel=STATICS)

@@ -89,12 +89,12 @@ def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
 
     scene, recording = hanging.scene, handlers.latest()
     contours.show(scene, ContourSettings(quantity=Quantity.SUM))
-    sums = np.array([frame["body_sums_n"] for frame in recording.frames])
+    sums = np.array([frame.loads.body_sums_n for frame in recording.frames])
     names, moving = recording.inventory.body_names.tolist(), [1, 3]
     for frame in (2, 5, 3, 5):
         scene.frame_set(frame)
         rows = [names.index(hanging.world.collection.objects[each].name) for each in moving]
-        row = [each["frames"] for each in recording.frames].index(frame)
+        row = [each.number for each in recording.frames].index(frame)
         shares = sums[row, rows] / sums[:, rows].max()
         assert np.allclose(shown_colours(hanging)[moving], linear(colours(ColourMap.BLUE_TO_RED, shares)), atol=1e-6)
 
@@ -165,7 +165,7 @@ def test_handlers_are_there_once(hanging):
 
 
 def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_path):
-    from dataclasses import replace
+    from sample_results import changed
 
     from bridge_demolition_addon.core.results.arrays import load_results
     from bridge_demolition_addon.simulation.display import contours
@@ -176,14 +176,14 @@ def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_
     contours.show(scene, FRAME_BY_FRAME)
     scene.frame_set(5)
     live = shown_colours(hanging)
-    contours.use_results(scene, replace(results, body_sums_n=2.0 * results.body_sums_n))
+    contours.use_results(scene, changed(results, body_sums_n=2.0 * results.frames.loads.body_sums_n))
     row = contours.series_of(scene).row_at(5)
-    recorded = [frame["body_sums_n"] for frame in handlers.latest().frames][row]
-    assert np.array_equal(contours.series_of(scene).arrays(row)["body_sums_n"], 2.0 * recorded)
+    recorded = [frame.loads.body_sums_n for frame in handlers.latest().frames][row]
+    assert np.array_equal(contours.series_of(scene).frame(row).loads.body_sums_n, 2.0 * recorded)
     contours.refresh(scene)
     assert np.allclose(shown_colours(hanging), live)  # a frame's own range takes the factor out again
     with pytest.raises(ContourError, match="none of their"):
-        contours.use_results(scene, replace(results, body_names=np.array(["a", "b", "c", "d"])))
+        contours.use_results(scene, changed(results, body_names=np.array(["a", "b", "c", "d"])))
 
 
 def test_hidden_connections_work_all_the_same(blender, tmp_path):
@@ -197,7 +197,7 @@ def test_hidden_connections_work_all_the_same(blender, tmp_path):
     assert symbols_are_hidden(layer, blocks.scene) and not connection.visible_get() and block.visible_get()
     results = blocks.play(tmp_path, FRAMES)
     # It hangs: the connection carries 100 kg, within a thousandth that the solver leaves.
-    assert abs(results.connection_forces_n[-1, 0, 2]) == pytest.approx(100.0 * 9.80665, rel=1e-3)
+    assert abs(results.frames.loads.connection_forces_n[-1, 0, 2]) == pytest.approx(100.0 * 9.80665, rel=1e-3)
     hide_symbols(layer, blocks.scene, hidden=False)
     assert not symbols_are_hidden(layer, blocks.scene) and connection.visible_get()
 
@@ -215,8 +215,10 @@ def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_fram
     scene.view_layers[0].update()
     assert scene.rigidbody_world.point_cache.is_outdated
     for row in (5, 2, 4):
-        scene.frame_set(int(results.frames[row]))
-        assert tuple(block.evaluated_get(graph).matrix_world.translation) == pytest.approx(results.places_m[row, 0])
+        scene.frame_set(int(results.frames.number[row]))
+        assert tuple(block.evaluated_get(graph).matrix_world.translation) == pytest.approx(
+            results.frames.positions_m[row, 0]
+        )
     # As the simulation would be begun anew in a render, it has to rest there: Blender crashes otherwise.
     assert len(render_film(scene, tmp_path / "film", FRAME_BY_FRAME, small_film(kind=FilmKind.PICTURES))) == FRAMES + 1
     assert scene.rigidbody_world.enabled

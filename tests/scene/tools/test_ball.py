@@ -42,8 +42,8 @@ def test_each_hit_falls_freely_on_its_own_target(hits):
     summary = summarise(hits, np.array((0, 0, -STANDARD_GRAVITY_M_S2)))
     found = summary["hits_of_the_ball"]
     assert len(found) == 3
-    ball = hits.of_kind("ball")[0]
-    substep = hits.substep_s[-1]
+    ball = hits.inventory.of_kind("ball")[0]
+    substep = hits.frames.substep_s[-1]
     for hit, drop in zip(found, BALL.drops, strict=True):
         speed = np.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * drop.drop_height_m)
         # The speed before the sub-step of the hit lacks up to that sub-step's gravity.
@@ -51,8 +51,8 @@ def test_each_hit_falls_freely_on_its_own_target(hits):
         assert hit["time_s"] == pytest.approx(drop.release_time_s + drop.fall_time_s, abs=2.0 * substep + 1 / 24)
         # All of the momentum goes into the slab, and no more: it does not bounce.
         assert hit["impulse_Ns"] == pytest.approx(BALL.mass_kg * speed, rel=0.01)
-        step = np.searchsorted(hits.times_s, hit["time_s"])
-        np.testing.assert_allclose(hits.places_m[step, ball], (*drop.target_m, 0.5), atol=0.05)
+        step = np.searchsorted(hits.frames.time_s, hit["time_s"])
+        np.testing.assert_allclose(hits.frames.positions_m[step, ball], (*drop.target_m, 0.5), atol=0.05)
     assert summary["impact"]["time_s"] == pytest.approx(0.5 + BALL.fall_time_s, abs=1 / 24)
 
 
@@ -69,16 +69,20 @@ def test_ball_reaches_the_deck_as_fast_as_a_free_fall(blender, tmp_path):
 
 
 def test_nothing_is_flung_by_the_lift(hits):
-    ball = hits.of_kind("ball")[0]
-    speeds = np.linalg.norm(hits.velocities_m_s, axis=2)
+    ball = hits.inventory.of_kind("ball")[0]
+    speeds = np.linalg.norm(hits.frames.velocities_m_s, axis=2)
     for hit in HITS:
-        lifting = (hits.times_s > hit.lift_time_s) & (hits.times_s <= hit.lift_time_s + hit.lift_duration_s + 1 / 24)
+        lifting = (hits.frames.time_s > hit.lift_time_s) & (
+            hits.frames.time_s <= hit.lift_time_s + hit.lift_duration_s + 1 / 24
+        )
         begin = np.flatnonzero(lifting)[0]
-        way = np.linalg.norm(np.diff(hits.places_m[begin - 1 :, ball][: lifting.sum() + 1], axis=0), axis=1).sum()
+        way = np.linalg.norm(
+            np.diff(hits.frames.positions_m[begin - 1 :, ball][: lifting.sum() + 1], axis=0), axis=1
+        ).sum()
         assert speeds[lifting, ball].max() < 1.55 * way / hit.lift_duration_s
-        assert np.linalg.norm(hits.places_m[begin, ball] - hits.places_m[begin - 1, ball]) < 0.05
+        assert np.linalg.norm(hits.frames.positions_m[begin, ball] - hits.frames.positions_m[begin - 1, ball]) < 0.05
         np.testing.assert_allclose(
-            hits.places_m[lifting][-1, ball], (*hit.target_m, hit.drop_height_m + 0.5), atol=1e-3
+            hits.frames.positions_m[lifting][-1, ball], (*hit.target_m, hit.drop_height_m + 0.5), atol=1e-3
         )
         block = 1
         assert speeds[lifting, block].max() < 0.5
@@ -97,16 +101,16 @@ def test_ball_is_lifted_from_where_it_has_rolled(blender, tmp_path):
     ball = create_ball(blocks.world, settings, 0.6, 1, first_step + 12)
     create_hits(ball, settings, [0.6] * len(settings.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
     results = blocks.play(tmp_path, 24 * 8)
-    row = results.of_kind("ball")[0]
-    lifted = int(np.flatnonzero(results.times_s > 4.02)[0])  # the ball rolls on in the frame up to 4 s
-    before = results.places_m[lifted - 1, row]
+    row = results.inventory.of_kind("ball")[0]
+    lifted = int(np.flatnonzero(results.frames.time_s > 4.02)[0])  # the ball rolls on in the frame up to 4 s
+    before = results.frames.positions_m[lifted - 1, row]
     assert before[2] < -9.0 and np.hypot(*before[:2]) > 3.0
-    moves = np.linalg.norm(np.diff(results.places_m[lifted - 1 : lifted + 73, row], axis=0), axis=1)
+    moves = np.linalg.norm(np.diff(results.frames.positions_m[lifted - 1 : lifted + 73, row], axis=0), axis=1)
     assert moves[0] < 0.05
     assert moves.max() < 1.51 * moves.sum() / 72.0
-    turns = np.diff(results.rotations[lifted - 1 : lifted + 73, row], axis=0)
+    turns = np.diff(results.frames.rotations[lifted - 1 : lifted + 73, row], axis=0)
     assert abs(turns).max() < 1e-3
-    np.testing.assert_allclose(results.places_m[lifted + 72, row], (3, 1, 0.6 + 2.0 + 0.5), atol=1e-3)
+    np.testing.assert_allclose(results.frames.positions_m[lifted + 72, row], (3, 1, 0.6 + 2.0 + 0.5), atol=1e-3)
 
 
 def test_scenario_with_hits_in_a_row(tmp_path):
@@ -118,10 +122,10 @@ def test_scenario_with_hits_in_a_row(tmp_path):
     assert scenario_from_text(scenario_text(scenario)) == scenario
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     results = load_results(tmp_path / "run" / "results.npz")
-    row = results.of_kind("ball")[0]
-    released = np.searchsorted(results.times_s, 2.7)
+    row = results.inventory.of_kind("ball")[0]
+    released = np.searchsorted(results.frames.time_s, 2.7)
     np.testing.assert_allclose(
-        results.places_m[released - 1, row], (3.0, 1.0, deck_top(I235.bridge) + 2.0 + 0.67), atol=1e-3
+        results.frames.positions_m[released - 1, row], (3.0, 1.0, deck_top(I235.bridge) + 2.0 + 0.67), atol=1e-3
     )
     assert summary["impact"]["time_s"] == pytest.approx(0.1 + ball.fall_time_s, abs=0.1)
 

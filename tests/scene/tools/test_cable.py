@@ -37,11 +37,13 @@ def play_swing(cable, folder, seconds):
 def test_swing_has_the_period_of_a_pendulum(blender, tmp_path, angle_degrees):
     cable = replace(CABLE, angle_degrees=angle_degrees)
     results = play_swing(cable, tmp_path, 18.0)
-    (ball,) = results.of_kind("ball")
-    aside = results.places_m[:, ball, 1] - 2.0
-    assert np.abs(results.places_m[:, ball, 0] - 1.0).max() < 1e-3
+    (ball,) = results.inventory.of_kind("ball")
+    aside = results.frames.positions_m[:, ball, 1] - 2.0
+    assert np.abs(results.frames.positions_m[:, ball, 0] - 1.0).max() < 1e-3
     before = np.flatnonzero(np.diff(np.sign(aside)))
-    crossings = results.times_s[before] - aside[before] * np.diff(results.times_s)[before] / np.diff(aside)[before]
+    crossings = (
+        results.frames.time_s[before] - aside[before] * np.diff(results.frames.time_s)[before] / np.diff(aside)[before]
+    )
     half = np.radians(angle_degrees) / 2.0
     # The series of the mathematical pendulum, to the ninth power of the angle (C. Huygens; Landau, Mechanics, § 11).
     series = sum(
@@ -55,13 +57,13 @@ def test_swing_has_the_period_of_a_pendulum(blender, tmp_path, angle_degrees):
     assert cable.period_s(1.34) == pytest.approx(period, rel=0.0015)
     # At rest until it is let go, and then through its lowest point with v² = 2 g h, less what the steps cost.
     assert crossings[0] == pytest.approx(0.5 + cable.period_s(1.34) / 4.0, abs=1.5 / 24.0)
-    assert np.linalg.norm(results.velocities_m_s[:, ball], axis=1).max() == pytest.approx(
+    assert np.linalg.norm(results.frames.velocities_m_s[:, ball], axis=1).max() == pytest.approx(
         np.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * 8.0 * (1.0 - np.cos(2.0 * half))), rel=0.01
     )
-    lengths = np.linalg.norm(results.places_m[:, ball] - CABLE.crane_point_m, axis=1)
+    lengths = np.linalg.norm(results.frames.positions_m[:, ball] - CABLE.crane_point_m, axis=1)
     assert np.ptp(lengths) < 0.03
     # It is no connection of the structure.
-    assert len(results.connection_names) == 0
+    assert len(results.inventory.connection_names) == 0
 
 
 def test_ball_on_a_cable_knocks_a_pier_out(tmp_path):
@@ -74,14 +76,14 @@ def test_ball_on_a_cable_knocks_a_pier_out(tmp_path):
     assert scenario_from_text(scenario_text(scenario)) == scenario
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     results = load_results(tmp_path / "run" / "results.npz")
-    (row,) = results.of_kind("ball")
+    (row,) = results.inventory.of_kind("ball")
     # The ball's edge meets the column's face at x = -0.35 m, some way past its lowest point.
-    met = results.places_m[np.flatnonzero(results.frames == summary["impact"]["frame"])[0], row]
+    met = results.frames.positions_m[np.flatnonzero(results.frames.number == summary["impact"]["frame"])[0], row]
     assert met[0] + 0.67 == pytest.approx(-0.35, abs=0.15)
     assert met[1] == pytest.approx(2.125, abs=0.05)
     hit = summary["hits_of_the_ball"][0]
     assert hit["approach_m_s"] == pytest.approx(cable.largest_speed_m_s, rel=0.05)
-    assert results.intact[results.times_s < hit["time_s"] - 0.05].all()
+    assert results.frames.intact[results.frames.time_s < hit["time_s"] - 0.05].all()
     assert summary["connections"]["broken"] > 0
     assert summary["bodies"]["shard"] == 200
 

@@ -58,28 +58,30 @@ def slab(blender, tmp_path):
 
 
 def test_jackhammer_removes_material_where_it_is_driven_and_nowhere_else(slab):
-    assert slab.intact[slab.times_s < HAMMER.start_time_s].all()
-    shards = slab.of_kind("shard")
-    fallen = slab.places_m[0, shards, 2] - slab.places_m[-1, shards, 2] > 1.0
-    distances = from_path(slab.places_m[0, shards])
+    assert slab.frames.intact[slab.frames.time_s < HAMMER.start_time_s].all()
+    shards = slab.inventory.of_kind("shard")
+    fallen = slab.frames.positions_m[0, shards, 2] - slab.frames.positions_m[-1, shards, 2] > 1.0
+    distances = from_path(slab.frames.positions_m[0, shards])
     # Shards are √(8 × 4 / 200) = 0.4 m wide. Of those that the chisel meets within half of that, hardly one holds on;
     # what falls with them is at most the neighbours' neighbours.
     assert fallen[distances < HAMMER.diameter_m / 2.0 + 0.2].mean() > 0.8
     assert distances[fallen].max() < HAMMER.diameter_m / 2.0 + 3 * 0.4
-    moved = np.linalg.norm(slab.places_m[-1, shards] - slab.places_m[0, shards], axis=1)
+    moved = np.linalg.norm(slab.frames.positions_m[-1, shards] - slab.frames.positions_m[0, shards], axis=1)
     beyond = distances > HAMMER.diameter_m / 2.0 + 3 * 0.4
     assert beyond.sum() > 80
     assert moved[beyond].max() < 0.05
-    assert slab.intact[-1][slab.points_m[:, 0] < -1.5].all()  # 2.5 m from the path and more
+    assert slab.frames.intact[-1][slab.inventory.points_m[:, 0] < -1.5].all()  # 2.5 m from the path and more
 
 
 def test_chisel_is_where_it_is_led(slab):
-    (tool,) = slab.of_kind("tool")
-    np.testing.assert_allclose(slab.places_m[:, tool], tip_places(HAMMER, TOP_M, slab.times_s), atol=1e-4)
-    heights = slab.places_m[:, tool, 2]
+    (tool,) = slab.inventory.of_kind("tool")
+    np.testing.assert_allclose(
+        slab.frames.positions_m[:, tool], tip_places(HAMMER, TOP_M, slab.frames.time_s), atol=1e-4
+    )
+    heights = slab.frames.positions_m[:, tool, 2]
     assert heights.min() == pytest.approx(TOP_M - HAMMER.depth_m, abs=1e-4)
     # At 24 frames and 4 blows a second, frames are chords of the cosine.
-    assert abs(slab.velocities_m_s[:, tool]).max() <= HAMMER.largest_speed_m_s * (1.0 + 1e-3)
+    assert abs(slab.frames.velocities_m_s[:, tool]).max() <= HAMMER.largest_speed_m_s * (1.0 + 1e-3)
 
 
 def test_scenario_with_a_jackhammer(tmp_path):
@@ -90,8 +92,10 @@ def test_scenario_with_a_jackhammer(tmp_path):
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     assert summary["connections"]["broken"] > 0
     results = load_results(tmp_path / "run" / "results.npz")
-    (tool,) = results.of_kind("tool")
+    (tool,) = results.inventory.of_kind("tool")
     np.testing.assert_allclose(
-        results.places_m[:, tool], tip_places(hammer, deck_top(scenario.bridge), results.times_s), atol=1e-4
+        results.frames.positions_m[:, tool],
+        tip_places(hammer, deck_top(scenario.bridge), results.frames.time_s),
+        atol=1e-4,
     )
-    assert results.intact[results.times_s < 0.19].all()
+    assert results.frames.intact[results.frames.time_s < 0.19].all()

@@ -51,8 +51,8 @@ def test_one_charge_gives_the_impulse_of_the_table(blender, tmp_path, apply, ste
     results = blocks.play(tmp_path, frames_for(blocks, 0.05))
     # 8 kg stretch the times and impulses of 1 kg by 2; a cube of 1 m shows 1 m² to the charge.
     expected = 2.0 * IMPULSE_AT_5_PA_S
-    assert MASS_KG * results.velocities_m_s[-1, 0] == pytest.approx([expected, 0.0, 0.0], rel=PROMISE, abs=0.01)
-    assert results.blast_impulses_ns.sum(axis=0)[0] == pytest.approx([expected, 0.0, 0.0], rel=PROMISE, abs=0.01)
+    assert MASS_KG * results.frames.velocities_m_s[-1, 0] == pytest.approx([expected, 0.0, 0.0], rel=PROMISE, abs=0.01)
+    assert results.frames.blast_impulses_ns.sum(axis=0)[0] == pytest.approx([expected, 0.0, 0.0], rel=PROMISE, abs=0.01)
 
 
 @every_way
@@ -70,7 +70,7 @@ def test_three_charges_with_delays_on_a_turned_body(blender, tmp_path, apply, st
     results = blocks.play(tmp_path, frames_for(blocks, 0.12))
     # Turned by an eighth, a cube shows √2 m² to its sides.
     expected = IMPULSE_AT_5_PA_S * np.array([np.sqrt(2.0), 2.0 * np.sqrt(2.0), 3.0])
-    assert MASS_KG * results.velocities_m_s[-1, 0] == pytest.approx(expected, rel=PROMISE)
+    assert MASS_KG * results.frames.velocities_m_s[-1, 0] == pytest.approx(expected, rel=PROMISE)
 
 
 @every_way
@@ -91,7 +91,7 @@ def test_bodies_of_a_touching_deck_each_get_their_own_load(blender, tmp_path, ap
     areas = abs(directions).sum(axis=2)  # of a cube of 1 m whose faces look along the axes
     pulses = blast_pulses(stand_offs, [2.0, 1.0], [0.0, 0.003], ["air", "air"])
     expected = np.einsum("nc,nci->ni", pulses.impulses_pa_s * areas, directions)
-    got = 10_000.0 * results.velocities_m_s[-1]
+    got = 10_000.0 * results.frames.velocities_m_s[-1]
     assert np.linalg.norm(got - expected, axis=1) == pytest.approx(0.0, abs=PROMISE * np.linalg.norm(expected))
     assert (np.linalg.norm(got - expected, axis=1) < PROMISE * np.linalg.norm(expected, axis=1)).all()
 
@@ -102,13 +102,13 @@ def test_nothing_pushes_before_the_front_arrives_or_after_it_has_passed(blender,
     blocks.block((5.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], apply, start_s=0.004)
     results = blocks.play(tmp_path, 40)
-    speeds, times = np.linalg.norm(results.velocities_m_s[:, 0], axis=1), results.times_s
+    speeds, times = np.linalg.norm(results.frames.velocities_m_s[:, 0], axis=1), results.frames.time_s
     before, after = times <= 0.004 + ARRIVAL_AT_5_S, times > 0.004 + END_AT_5_S + 1e-3
     assert before.sum() > 10 < after.sum()
     np.testing.assert_array_equal(speeds[before], 0.0)
     assert np.ptp(speeds[after]) == 0.0 < speeds[-1]
     assert (np.diff(speeds[~before & ~after]) > 0.0).all()
-    np.testing.assert_array_equal(results.blast_impulses_ns[before | after], 0.0)
+    np.testing.assert_array_equal(results.frames.blast_impulses_ns[before | after], 0.0)
 
 
 @every_way
@@ -120,7 +120,7 @@ def test_nothing_stays_switched_on(blender, tmp_path, apply):
     for frame in range(1, 15):  # into the middle of the positive phase
         blocks.scene.frame_set(frame)
     handlers.stop()
-    speeds = recording.results().velocities_m_s[:, 0, 0]
+    speeds = recording.results().frames.velocities_m_s[:, 0, 0]
     assert speeds[-1] > speeds[-2] > 0.0
     graph = blender.context.view_layer.depsgraph
     fields = force_objects(blocks.scene).values()
@@ -144,7 +144,7 @@ def test_a_run_from_the_start_gives_the_same_again(blender, tmp_path, apply):
     for name in ("first", "second", "third"):
         (folder := tmp_path / name).mkdir()
         blocks.world.substeps_per_frame = 5  # makes Blender forget the frames that it played
-        velocities.append(blocks.play(folder, 8).velocities_m_s)
+        velocities.append(blocks.play(folder, 8).frames.velocities_m_s)
         logs.append((folder / "explosion_log.csv").read_bytes())
     assert np.linalg.norm(velocities[0][-1], axis=1).min() > 0.0
     assert velocities[1].tobytes() == velocities[2].tobytes()
@@ -161,12 +161,12 @@ def test_a_sleeping_body_is_woken(blender, tmp_path, apply):
     body.rigid_body.deactivate_linear_velocity = body.rigid_body.deactivate_angular_velocity = 0.0
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], apply)
     results = blocks.play(tmp_path, 40)
-    assert results.asleep[results.times_s <= ARRIVAL_AT_5_S, 0].all()
-    assert not results.asleep[results.times_s > END_AT_5_S, 0].any()
-    velocity = results.velocities_m_s[-1, 0]
+    assert results.frames.asleep[results.frames.time_s <= ARRIVAL_AT_5_S, 0].all()
+    assert not results.frames.asleep[results.frames.time_s > END_AT_5_S, 0].any()
+    velocity = results.frames.velocities_m_s[-1, 0]
     assert MASS_KG * velocity[0] == pytest.approx(IMPULSE_AT_5_PA_S, rel=PROMISE)
     # It begins to fall when the front arrives, to within a step.
-    fallen_s = results.times_s[-1] - ARRIVAL_AT_5_S
+    fallen_s = results.frames.time_s[-1] - ARRIVAL_AT_5_S
     assert -velocity[2] == pytest.approx(STANDARD_GRAVITY_M_S2 * fallen_s, abs=STANDARD_GRAVITY_M_S2 * 1.001e-3)
 
 
@@ -200,7 +200,7 @@ def test_charges_do_nothing_while_explosion_is_not_ticked(blender, tmp_path, app
     blocks = weightless()
     blocks.block((5.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], apply, explosion=False)
-    np.testing.assert_array_equal(blocks.play(tmp_path, 5).velocities_m_s, 0.0)
+    np.testing.assert_array_equal(blocks.play(tmp_path, 5).frames.velocities_m_s, 0.0)
 
 
 @every_way
@@ -211,7 +211,7 @@ def test_a_charge_in_the_middle_of_a_body_pushes_it_upwards(blender, tmp_path, a
     results = blocks.play(tmp_path, 5)
     # The smallest stand-off stands for all that are smaller: that of the charge's own surface.
     expected = blast_pulses([[0.0]], [1.0], [0.0], ["air"]).impulses_pa_s.item()
-    assert 1e6 * results.velocities_m_s[-1, 0] == pytest.approx([0.0, 0.0, expected], rel=PROMISE, abs=1e-3)
+    assert 1e6 * results.frames.velocities_m_s[-1, 0] == pytest.approx([0.0, 0.0, expected], rel=PROMISE, abs=1e-3)
 
 
 def rows_of(path):
@@ -247,7 +247,7 @@ def test_the_log_tells_every_load(blender, tmp_path, apply):
     np.testing.assert_allclose(
         column("mean_pressure_Pa") * column("projected_area_m2") * frame_s, column("impulse_Ns"), rtol=1e-6
     )
-    in_results = results.blast_impulses_ns[np.isin(results.frames, frames), 0]
+    in_results = results.frames.blast_impulses_ns[np.isin(results.frames.number, frames), 0]
     np.testing.assert_allclose(in_results, forces * frame_s, rtol=1e-6, atol=1e-6)
 
 
@@ -258,9 +258,9 @@ def test_momentum_of_connected_bodies_is_that_of_the_blast(blender, tmp_path, ap
     blocks.connect("FIXED", (5, 0.5, 0), first, second)
     set_off(blocks, [charge("a", (0, 0.3, 0), 4.0)], apply)
     results = blocks.play(tmp_path, 6)
-    got = MASS_KG * results.velocities_m_s[-1].sum(axis=0)
+    got = MASS_KG * results.frames.velocities_m_s[-1].sum(axis=0)
     # The joint only passes on what it gets; the solver leaves a part in 1e5.
-    assert got == pytest.approx(results.blast_impulses_ns.sum(axis=(0, 1)), rel=1e-4, abs=0.01)
+    assert got == pytest.approx(results.frames.blast_impulses_ns.sum(axis=(0, 1)), rel=1e-4, abs=0.01)
 
 
 @every_way
@@ -277,9 +277,9 @@ def test_thresholds_follow_slowed_time(blender, tmp_path, apply, share, holds):
     timeline = Timeline.of(blocks.time.step.frame_s, 0.5, [SlowMotion(0.1, 0.05, 0.002)])
     animate_time_scale(blocks.scene, timeline, 3)
     results = blocks.play(tmp_path, len(timeline))
-    assert bool(results.intact[-1][0]) is holds
+    assert bool(results.frames.intact[-1][0]) is holds
     # What breaks does so at once, what holds does so in all frames, 25 of them twenty times shorter than the first.
-    np.testing.assert_allclose(np.diff(results.times_s), timeline.frame_lengths_s, rtol=1e-6)
+    np.testing.assert_allclose(np.diff(results.frames.time_s), timeline.frame_lengths_s, rtol=1e-6)
 
 
 @every_way
@@ -290,10 +290,10 @@ def test_slowed_time_keeps_the_impulse(blender, tmp_path, apply):
     timeline = Timeline.of(blocks.time.step.frame_s, 0.2, [SlowMotion(0.1, 0.02, 0.001)])
     animate_time_scale(blocks.scene, timeline, 3)
     results = blocks.play(tmp_path, len(timeline))
-    assert MASS_KG * results.velocities_m_s[-1, 0, 0] == pytest.approx(IMPULSE_AT_5_PA_S, rel=PROMISE)
-    assert results.times_s[-1] == pytest.approx(timeline.ends_s[-1], rel=1e-6)
+    assert MASS_KG * results.frames.velocities_m_s[-1, 0, 0] == pytest.approx(IMPULSE_AT_5_PA_S, rel=PROMISE)
+    assert results.frames.time_s[-1] == pytest.approx(timeline.ends_s[-1], rel=1e-6)
     # Of 3.333 ms of positive phase a frame of 1 ms shows at least three parts.
-    assert (results.blast_impulses_ns[:, 0, 0] > 0.0).sum() in (4, 5)
+    assert (results.frames.blast_impulses_ns[:, 0, 0] > 0.0).sum() in (4, 5)
 
 
 def limits_of(scene):
@@ -311,7 +311,7 @@ def test_fields_are_ignored_while_none_pushes_and_heeded_afterwards(blender, tmp
         ignored.append(limits_of(blocks.scene).collection is not None)
     handlers.stop()
     assert recording.error is None
-    pushes = np.array([frame["blast_impulses_ns"].any() for frame in recording.frames[1:]])
+    pushes = np.array([frame.blast_impulses_ns.any() for frame in recording.frames[1:]])
     np.testing.assert_array_equal(ignored[2:], ~pushes)
     assert pushes.any() and not pushes.all()
     assert limits_of(blocks.scene).collection is None
@@ -326,7 +326,9 @@ def test_fields_of_the_users_own_push_on(blender, tmp_path):
     wind.shape, wind.strength, wind.falloff_power = "PLANE", 24.0 * MASS_KG, 0.0
     results = blocks.play(tmp_path, 20)
     # 1 N on every kg; Blender reckons in single precision.
-    assert results.velocities_m_s[-1, 0] == pytest.approx([0.0, 0.0, results.times_s[-1]], rel=1e-4, abs=1e-6)
+    assert results.frames.velocities_m_s[-1, 0] == pytest.approx(
+        [0.0, 0.0, results.frames.time_s[-1]], rel=1e-4, abs=1e-6
+    )
 
 
 def test_building_force_objects_again_updates_and_does_not_double(blender, tmp_path):
@@ -342,7 +344,7 @@ def test_building_force_objects_again_updates_and_does_not_double(blender, tmp_p
     built = build_force_objects(blocks.scene, bodies_of(blocks.scene))
     assert (built.made, built.kept, built.removed) == (1, 1, 1)
     assert set(force_objects(blocks.scene)) == {bodies[1], added}
-    assert blocks.play(tmp_path, 3).velocities_m_s[-1, :, 0].min() > 0.0
+    assert blocks.play(tmp_path, 3).frames.velocities_m_s[-1, :, 0].min() > 0.0
 
 
 def test_force_objects_need_a_body_to_push(blender):
@@ -418,8 +420,8 @@ def test_fields_need_nothing_of_bullets_memory(strange_blender, tmp_path, step):
     blocks.block((10.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 8.0)], "fields")
     results = blocks.play(tmp_path, frames_for(blocks, 0.08))
-    assert str(results.reading) == "change of momentum between frames"
-    assert MASS_KG * results.velocities_m_s[-1, 0, 0] == pytest.approx(2.0 * IMPULSE_AT_5_PA_S, rel=PROMISE)
+    assert results.reading == "change of momentum between frames"
+    assert MASS_KG * results.frames.velocities_m_s[-1, 0, 0] == pytest.approx(2.0 * IMPULSE_AT_5_PA_S, rel=PROMISE)
 
 
 def test_direct_loads_are_refused_where_memory_is_strange(strange_blender, tmp_path):

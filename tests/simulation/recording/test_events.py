@@ -48,20 +48,20 @@ def test_bar_falls_freely_below_a_saw_cut_from_its_time_on(blender, tmp_path, ev
     keep_changes(bar.scene, [SawCut(time_s=cut_s, point_m=(0, 0, 13), normal=(0, 0, 2))])
     recording, results = play(bar.scene, tmp_path, 24, every_substep)
     below = bar.fracture.centres[:, 2] < 13.0
-    order = [results.body_names.tolist().index(shard.name) for shard in bar.shards]
-    velocities = results.velocities_m_s[:, order, 2]
-    before = results.times_s < cut_s
-    assert results.intact[before].all()
+    order = [results.inventory.body_names.tolist().index(shard.name) for shard in bar.shards]
+    velocities = results.frames.velocities_m_s[:, order, 2]
+    before = results.frames.time_s < cut_s
+    assert results.frames.intact[before].all()
     assert abs(velocities[before]).max() < 0.05
     # The cut comes before the first sub-step at or after its time.
-    substep = results.substep_s[-1]
-    falling_s = results.times_s[-1] - substep * np.ceil(cut_s / substep - 1e-3)
+    substep = results.frames.substep_s[-1]
+    falling_s = results.frames.time_s[-1] - substep * np.ceil(cut_s / substep - 1e-3)
     np.testing.assert_allclose(velocities[-1, below].mean(), -STANDARD_GRAVITY_M_S2 * falling_s, rtol=5e-3)
     assert abs(velocities[-1, ~below]).max() < 0.05
-    sides = results.places_m[0][results.pairs][:, :, 2] > 13.0
-    np.testing.assert_array_equal(results.intact[-1], sides[:, 0] == sides[:, 1])
-    (happening,) = recording.happenings
-    assert happening == {
+    sides = results.frames.positions_m[0][results.inventory.pairs][:, :, 2] > 13.0
+    np.testing.assert_array_equal(results.frames.intact[-1], sides[:, 0] == sides[:, 1])
+    (applied,) = recording.applied_events
+    assert applied == {
         "time_s": pytest.approx(cut_s, abs=substep),
         "kind": "saw cut",
         "shards": [],
@@ -82,18 +82,18 @@ def test_tower_comes_down_by_what_is_taken_from_under_it(blender, tmp_path, asle
     mark_member(lowest, "pier 1", "pier")
     keep_changes(blocks.scene, [Removal(time_s=0.5, members=["pier"])])
     recording, results = play(blocks.scene, tmp_path, 60)
-    height = results.places_m[:, :, 2]
-    assert abs(height[results.times_s < 0.5] - height[0]).max() < 0.01
+    height = results.frames.positions_m[:, :, 2]
+    assert abs(height[results.frames.time_s < 0.5] - height[0]).max() < 0.01
     np.testing.assert_allclose(height[-1, 2:5], [0.5, 1.5, 0.5], atol=0.01)
     # Nothing is flung: what falls by 1 m is no faster than that, and what stood beside it stays.
-    speeds = np.linalg.norm(results.velocities_m_s, axis=2)
+    speeds = np.linalg.norm(results.frames.velocities_m_s, axis=2)
     assert speeds.max() <= 1.01 * np.sqrt(2.0 * STANDARD_GRAVITY_M_S2)
     assert speeds[:, 4].max() < 0.05
-    assert np.linalg.norm(results.places_m[-1, 4] - results.places_m[0, 4]) < 0.01
+    assert np.linalg.norm(results.frames.positions_m[-1, 4] - results.frames.positions_m[0, 4]) < 0.01
     # What is gone carries nothing, and what lies where it stood bears on the ground.
-    assert not results.body_peak_sums_n[-1, 1]
-    assert results.body_forces_n[-1, 0, 2] == pytest.approx(-3 * WEIGHT_N, rel=0.01)
-    assert recording.happenings[0]["shards"] == [lowest.name]
+    assert not results.frames.loads.body_peak_sums_n[-1, 1]
+    assert results.frames.loads.body_forces_n[-1, 0, 2] == pytest.approx(-3 * WEIGHT_N, rel=0.01)
+    assert recording.applied_events[0]["shards"] == [lowest.name]
 
 
 def test_blocks_taken_away_together_bear_on_each_other_no_more(blender, tmp_path):
@@ -104,9 +104,9 @@ def test_blocks_taken_away_together_bear_on_each_other_no_more(blender, tmp_path
         blocks.block((0, 0, 0.5 + level), MASS_KG)
     keep_changes(blocks.scene, [Removal(time_s=0.5, lowest_corner_m=(-1, -1, 0), highest_corner_m=(1, 1, 2.2))])
     _, results = play(blocks.scene, tmp_path, 60)
-    assert not results.body_peak_sums_n[-1, 1:3].any()
-    assert not results.velocities_m_s[-1, 1:3].any()
-    assert results.places_m[-1, 3, 2] == pytest.approx(0.5, abs=0.01)
+    assert not results.frames.loads.body_peak_sums_n[-1, 1:3].any()
+    assert not results.frames.velocities_m_s[-1, 1:3].any()
+    assert results.frames.positions_m[-1, 3, 2] == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -118,8 +118,8 @@ def test_weakened_connection_bears_what_is_left_of_its_breaking_force(blender, t
     blocks.connect("FIXED", (0, 0, 9.5), ceiling, block, 2.0 * WEIGHT_N)
     keep_changes(blocks.scene, [Weakening(time_s=0.2 + 0.1 * n, factor=each) for n, each in enumerate(factors)])
     _, results = play(blocks.scene, tmp_path, 24)
-    assert results.intact[results.times_s < 0.19].all()
-    assert bool(results.intact[-1, 0]) is holds
+    assert results.frames.intact[results.frames.time_s < 0.19].all()
+    assert bool(results.frames.intact[-1, 0]) is holds
 
 
 @pytest.mark.parametrize(("factor", "holds"), ((0.55, True), (0.45, False)))
@@ -135,8 +135,8 @@ def test_weakened_section_bears_what_is_left_of_its_strength(blender, tmp_path, 
     bar.shards[lower].rigid_body.mass = 3.0 * DENSITY_KG_M3 * area
     keep_changes(bar.scene, [Weakening(time_s=0.3, factor=factor)])
     _, results = play(bar.scene, tmp_path, 24)
-    assert results.intact[results.times_s < 0.29].all()
-    assert bool(results.intact[-1, 0]) is holds
+    assert results.frames.intact[results.frames.time_s < 0.29].all()
+    assert bool(results.frames.intact[-1, 0]) is holds
 
 
 def test_saw_cuts_the_reinforcement_that_a_broken_section_hangs_by(blender, tmp_path):
@@ -147,10 +147,10 @@ def test_saw_cuts_the_reinforcement_that_a_broken_section_hangs_by(blender, tmp_
     bar.shards[lower].rigid_body.mass = 300.0  # three times what the joint bears intact; its tie bears 1 kN of it
     keep_changes(bar.scene, [SawCut(time_s=0.5, point_m=bar.fracture.centres.mean(axis=0).tolist(), normal=(0, 0, 1))])
     _, results = play(bar.scene, tmp_path, 24)
-    pulls = results.connection_peaks_n[:, 0]
-    assert not results.intact[results.times_s > 0.2].any()
-    assert pulls[(results.times_s > 0.2) & (results.times_s < 0.49)].min() > 500.0
-    assert not pulls[results.times_s > 0.55].any()
+    pulls = results.frames.loads.connection_peaks_n[:, 0]
+    assert not results.frames.intact[results.frames.time_s > 0.2].any()
+    assert pulls[(results.frames.time_s > 0.2) & (results.frames.time_s < 0.49)].min() > 500.0
+    assert not pulls[results.frames.time_s > 0.55].any()
 
 
 def test_several_changes_happen_in_order_of_time(blender, tmp_path):
@@ -163,9 +163,9 @@ def test_several_changes_happen_in_order_of_time(blender, tmp_path):
     keep_changes(bar.scene, changes)
     assert changes_of(bar.scene) == tuple(changes)
     recording, _ = play(bar.scene, tmp_path, 24)
-    happenings = recording.happenings
-    assert [each["kind"] for each in happenings] == ["weakening", "saw cut", "removal"]
-    assert [each["time_s"] for each in happenings] == pytest.approx([0.2, 0.4, 0.6], abs=1.0 / 240.0)
+    applied = recording.applied_events
+    assert [each["kind"] for each in applied] == ["weakening", "saw cut", "removal"]
+    assert [each["time_s"] for each in applied] == pytest.approx([0.2, 0.4, 0.6], abs=1.0 / 240.0)
     keep_changes(bar.scene, [])
     assert changes_of(bar.scene) == ()
 
@@ -181,10 +181,10 @@ def test_changes_start_anew_with_the_simulation(blender, tmp_path):
             bar.scene.frame_set(frame)
     handlers.stop()
     assert recording.error is None
-    assert len(recording.happenings) == 1
+    assert len(recording.applied_events) == 1
     results = recording.results()
-    assert results.intact[results.times_s < 0.3].all()
-    assert not results.intact[-1].all()
+    assert results.frames.intact[results.frames.time_s < 0.3].all()
+    assert not results.frames.intact[-1].all()
 
 
 def test_change_that_concerns_nothing_is_refused(blender, tmp_path):

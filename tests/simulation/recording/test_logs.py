@@ -1,14 +1,12 @@
 """Logs read back as any other program would read them."""
 
 import csv
-from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from sample_results import FRAME_S, G, frame_of, hanging_chain, without_connections
+from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.core.mechanics.section_forces import SectionForces
-from bridge_demolition_addon.scene.inventory import Inventory
 from bridge_demolition_addon.simulation.recording.logs import (
     BREAKING_COLUMNS,
     DEBRIS_COLUMNS,
@@ -125,10 +123,6 @@ def vectors(rows, *columns):
     return np.array([[float(row[column]) for column in columns] for row in rows])
 
 
-def inventory_of(results):
-    return Inventory(**{item.name: getattr(results, item.name) for item in fields(Inventory)})
-
-
 def broken(connections, time_s=0.0, first=0.0):
     """Breaks of some connections under loads that count up from a first number, column by column."""
     numbers = first + np.arange(6.0 * len(connections)).reshape(-1, 6)
@@ -138,11 +132,11 @@ def broken(connections, time_s=0.0, first=0.0):
 
 def logged(folder, results, breaks=()):
     """All logs of a recording whose connections break in its last frame."""
-    logs = Logs(folder, inventory_of(results))
-    for step in range(len(results.frames)):
-        logs.write_frame(frame_of(results, step))
-    logs.write_breaks(int(results.frames[-1]), breaks)
-    logs.close(frame_of(results, -1))
+    logs = Logs(folder, results.inventory)
+    for frame in results.frames:
+        logs.write_frame(frame)
+    logs.write_breaks(results.frames.number[-1], breaks)
+    logs.close(results.frames[-1])
 
 
 # Nine digits are written.
@@ -154,21 +148,21 @@ def test_force_log_holds_what_was_gathered(tmp_path):
     logged(tmp_path, results)
     rows = table(tmp_path / "force_log.csv")
     assert tuple(rows[0]) == FORCE_COLUMNS
-    assert [row["body"] for row in rows] == 5 * results.body_names.tolist()
-    assert [int(row["frame"]) for row in rows] == np.repeat(results.frames, 4).tolist()
-    np.testing.assert_allclose(vectors(rows, "time_s")[:, 0], np.repeat(results.times_s, 4), rtol=WRITTEN)
+    assert [row["body"] for row in rows] == 5 * results.inventory.body_names.tolist()
+    assert [int(row["frame"]) for row in rows] == np.repeat(results.frames.number, 4).tolist()
+    np.testing.assert_allclose(vectors(rows, "time_s")[:, 0], np.repeat(results.frames.time_s, 4), rtol=WRITTEN)
     for columns, values in (
-        (("force_x_N", "force_y_N", "force_z_N"), results.body_forces_n),
-        (("force_sum_N",), results.body_sums_n),
-        (("peak_force_N",), results.body_peaks_n),
-        (("peak_force_sum_N",), results.body_peak_sums_n),
+        (("force_x_N", "force_y_N", "force_z_N"), results.frames.loads.body_forces_n),
+        (("force_sum_N",), results.frames.loads.body_sums_n),
+        (("peak_force_N",), results.frames.loads.body_peaks_n),
+        (("peak_force_sum_N",), results.frames.loads.body_peak_sums_n),
         (
             ("contact_impulse_x_Ns", "contact_impulse_y_Ns", "contact_impulse_z_Ns"),
-            results.body_contact_impulses_ns,
+            results.frames.loads.body_contact_impulses_ns,
         ),
-        (("signed_2019_N",), results.body_signed_2019_n),
-        (("von_mises_Pa",), results.von_mises_pa),
-        (("asleep",), results.asleep),
+        (("signed_2019_N",), results.frames.loads.body_signed_2019_n),
+        (("von_mises_Pa",), results.frames.loads.von_mises_pa),
+        (("asleep",), results.frames.asleep),
     ):
         assert values.any(), columns
         np.testing.assert_allclose(vectors(rows, *columns), values.reshape(20, -1), rtol=WRITTEN, err_msg=str(columns))
@@ -195,10 +189,10 @@ def test_lines_of_the_force_log_by_hand(tmp_path):
 
 def test_principal_stresses_are_the_largest_and_the_smallest(tmp_path):
     results = hanging_chain()
-    stresses = results.stresses_pa.copy()
+    stresses = results.frames.loads.stresses_pa.copy()
     # Mohr's circle around 50 with the radius √(30² + 40²) = 50, and a third principal stress in between.
     stresses[1, 2] = [[80, 40, 0], [40, 20, 0], [0, 0, 7]]
-    logged(tmp_path, replace(results, stresses_pa=stresses))
+    logged(tmp_path, changed(results, stresses_pa=stresses))
     rows = [row for row in table(tmp_path / "force_log.csv") if (row["frame"], row["body"]) == ("3", "lower")]
     # Rounding of an eigenvalue that is 0.
     np.testing.assert_allclose(vectors(rows, "stress_largest_Pa", "stress_smallest_Pa"), [[100, 0]], atol=1e-12)
@@ -210,10 +204,10 @@ def test_debris_log_holds_first_and_last_places(tmp_path):
     rows = table(tmp_path / "debris_log.csv")
     assert tuple(rows[0]) == DEBRIS_COLUMNS
     assert [(int(row["frame"]), row["body"]) for row in rows] == [
-        (frame, name) for frame in (2, 6) for name in results.body_names
+        (frame, name) for frame in (2, 6) for name in results.inventory.body_names
     ]
     np.testing.assert_allclose(
-        vectors(rows, "x_m", "y_m", "z_m"), results.places_m[[0, 4]].reshape(-1, 3), rtol=WRITTEN
+        vectors(rows, "x_m", "y_m", "z_m"), results.frames.positions_m[[0, 4]].reshape(-1, 3), rtol=WRITTEN
     )
     # Only *lower* moved, by (3, 4, -12) m: 13 m away, thrown by 5 m.
     travelled = np.zeros((8, 2))
@@ -250,7 +244,11 @@ def test_without_breaks_the_breaking_log_has_its_header_alone(tmp_path):
 def test_no_zero_has_a_sign(tmp_path):
     results = hanging_chain()
     loads = SectionForces(np.array([-0.0]), np.array([[-0.0, 0.0]]), np.array([-0.0]), np.array([[-0.0, 1.0]]))
-    logged(tmp_path, replace(results, body_forces_n=-0.0 * results.body_forces_n), [Breaks(0.1, np.array([0]), loads)])
+    logged(
+        tmp_path,
+        changed(results, body_forces_n=-0.0 * results.frames.loads.body_forces_n),
+        [Breaks(0.1, np.array([0]), loads)],
+    )
     for log in ("force_log.csv", "debris_log.csv", "breaking_log.csv"):
         assert not [row for row in rows_of(tmp_path / log) if "-0" in row]
 
@@ -258,7 +256,7 @@ def test_no_zero_has_a_sign(tmp_path):
 def test_loads_that_are_not_known_are_nan_in_the_log(tmp_path):
     results = hanging_chain()
     names = ("body_forces_n", "body_peaks_n", "stresses_pa", "von_mises_pa")
-    logged(tmp_path, replace(results, **{name: np.full_like(getattr(results, name), np.nan) for name in names}))
+    logged(tmp_path, changed(results, **{name: np.full_like(results.arrays()[name], np.nan) for name in names}))
     rows = table(tmp_path / "force_log.csv")
     unknown = vectors(rows, "force_x_N", "peak_force_N", "stress_largest_Pa", "stress_smallest_Pa", "von_mises_Pa")
     assert np.isnan(unknown).all()
@@ -268,29 +266,29 @@ def test_loads_that_are_not_known_are_nan_in_the_log(tmp_path):
 @pytest.mark.parametrize("name", ['a,b and "c"', "100 %s", "Brücke ×2", "two\nlines", "a\rb", "a\r\nb", " ", ""])
 def test_any_name_comes_back_from_every_log(tmp_path, name):
     results = hanging_chain()
-    results = replace(
+    results = changed(
         results,
         body_names=np.array(["Ground", name, "lower", "Wrecking ball"]),
         connection_names=np.array([name, "Connection.001"]),
     )
     logged(tmp_path, results, [broken([0])])
     for log in ("force_log.csv", "debris_log.csv"):
-        assert [row["body"] for row in table(tmp_path / log)][:4] == results.body_names.tolist()
+        assert [row["body"] for row in table(tmp_path / log)][:4] == results.inventory.body_names.tolist()
     (row,) = table(tmp_path / "breaking_log.csv")
     assert (row["connection"], row["first_body"], row["second_body"]) == (name, name, "Ground")
 
 
 def test_every_frame_of_every_log_is_on_disk_at_once(tmp_path):
     results = hanging_chain()
-    logs = Logs(tmp_path, inventory_of(results))
+    logs = Logs(tmp_path, results.inventory)
     assert [len(rows_of(tmp_path / f"{log}_log.csv")) for log in ("force", "debris", "breaking")] == [1, 1, 1]
     for step in range(3):
-        logs.write_frame(frame_of(results, step))
+        logs.write_frame(results.frames[step])
         logs.write_breaks(2 + step, [broken([0])])
         # Places are logged at the beginning and, once more, at the end.
         lengths = [len(rows_of(tmp_path / f"{log}_log.csv")) for log in ("force", "debris", "breaking")]
         assert lengths == [1 + 4 * (step + 1), 5, 2 + step]
-    logs.close(frame_of(results, 2))
+    logs.close(results.frames[2])
     assert len(rows_of(tmp_path / "debris_log.csv")) == 9
 
 

@@ -5,7 +5,7 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet.world import BulletWorld
-from bridge_demolition_addon.core.mechanics.frame_loads import FrameLoads
+from bridge_demolition_addon.core.mechanics.frame_loads import LoadAccumulator
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation.recording import handlers
 from bridge_demolition_addon.simulation.recording.recorder import Recording
@@ -16,7 +16,7 @@ GRAVITY = np.array([0.0, 0.0, float(np.float32(-STANDARD_GRAVITY_M_S2))])
 
 def largest_impulse(loads, substep_s):
     """Of the impulses that any body gets in a sub-step; the weight of the heaviest where there is none."""
-    return max(loads["body_sums_n"].max(), 500.0 * STANDARD_GRAVITY_M_S2) * substep_s
+    return max(loads.body_sums_n.max(), 500.0 * STANDARD_GRAVITY_M_S2) * substep_s
 
 
 def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkeypatch):
@@ -41,17 +41,17 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         before = getattr(recorder, "velocities_before", np.zeros((33, 3)))
         take_down(recorder, substep_s)
         after = recorder._world.velocities()
-        one = FrameLoads(recorder._inventory.pairs, recorder._inventory.volumes_m3, recorder._reader.normals)
-        one.add(recorder._reader.read(substep_s), substep_s)
+        one = LoadAccumulator(recorder._inventory.pairs, recorder._inventory.volumes_m3, recorder._reader.normals)
+        one.add(recorder._reader.read(substep_s))
         masses = recorder._inventory.masses_kg[1:, None]
-        impulses = one.finish()["body_forces_n"][1:] * substep_s + masses * GRAVITY * substep_s
+        impulses = one.finish().body_forces_n[1:] * substep_s + masses * GRAVITY * substep_s
         errors.append(abs(masses * (after - before)[1:] - impulses).max() / largest_impulse(one.finish(), substep_s))
         recorder.velocities_before = after.copy()
 
     monkeypatch.setattr(SubstepRecorder, "_take_down", compare)
     results = blocks.play(tmp_path, 60)
     assert len(errors) == 600
-    assert (~results.intact[-1]).any()
+    assert (~results.frames.intact[-1]).any()
     # Bullet works in double precision; masses reach it in single precision, as they do here.
     assert max(errors) < 1e-6
 
@@ -65,12 +65,12 @@ def test_ball_hands_over_its_momentum(blender, tmp_path):
         ball = blocks.block((0, 0, 2.5), mass)
         ball["bda_kind"] = "ball"
         results = blocks.play(tmp_path, 24)
-        impulses, times = results.ball_impulses_ns[:, 0, 2], results.ball_times_s
-        velocity = results.ball_velocities_m_s[-1, 0, 2]
+        impulses, times = results.balls.impulses_ns[:, 0, 2], results.balls.times_s
+        velocity = results.balls.velocities_m_s[-1, 0, 2]
         assert impulses.sum() == pytest.approx(mass * (velocity - GRAVITY[2] * times[-1]), rel=1e-6)
         np.testing.assert_allclose(
-            results.body_contact_impulses_ns[:, 1].sum(axis=0),
-            results.ball_impulses_ns[:, 0].sum(axis=0),
+            results.frames.loads.body_contact_impulses_ns[:, 1].sum(axis=0),
+            results.balls.impulses_ns[:, 0].sum(axis=0),
             rtol=1e-9,
             atol=1e-9 * impulses.sum(),
         )
@@ -85,9 +85,9 @@ def test_last_substep_alone_is_an_option_and_says_so(blender, tmp_path):
         blocks.scene.frame_set(frame)
     handlers.stop()
     results = recording.results()
-    assert str(results.reading) == "last sub-step of each frame"
-    assert results.body_forces_n[-1, 1, 2] == pytest.approx(-100.0 * GRAVITY[2], rel=1e-6)
-    assert results.times_s[-1] == pytest.approx(23 * blocks.time.step.frame_s)
+    assert results.reading == "last sub-step of each frame"
+    assert results.frames.loads.body_forces_n[-1, 1, 2] == pytest.approx(-100.0 * GRAVITY[2], rel=1e-6)
+    assert results.frames.time_s[-1] == pytest.approx(23 * blocks.time.step.frame_s)
 
 
 def test_nothing_of_ours_is_left_in_the_world(blender, tmp_path):

@@ -90,7 +90,7 @@ def test_a_still_does_not_disturb_a_recording(extension, scene):
         scene.frame_set(frame)
     recording = handlers.current()
     assert recording.error is None
-    assert [frame["frames"] for frame in recording.frames] == list(range(2, FRAMES + 1))
+    assert [frame.number for frame in recording.frames] == list(range(2, FRAMES + 1))
 
 
 @pytest.mark.parametrize("played", [1, 5])

@@ -1,0 +1,66 @@
+"""Bodies and connections of a run, as they stand when its simulation begins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inventory:
+    """n bodies and m connections.
+
+    Attributes
+    ----------
+    body_names, body_kinds : (n,) str
+        Names, and kinds: shard, ball, ground, tool, crane.
+    masses_kg, volumes_m3 : (n,) float
+        Both 0 for a body that never moves.
+    body_members, body_member_kinds : (n,) str
+        Name and kind of the member that each body is a piece of; empty where it is of none.
+    vertices_m : (v, 3) float
+        Vertices of all bodies, each in its own axes from its origin.
+    vertex_counts : (n,) int
+        How many of them each body has.
+    connection_names : (m,) str
+    pairs : (m, 2) int
+        Indices of the connected bodies.
+    points_m : (m, 3) float
+        Where the connections are.
+    areas_m2 : (m,) float
+        Areas that they stand for.
+    normals : (m, 3) float
+        Unit normals from the first body to the second.
+    second_moments_m4 : (m, 2, 2) float
+        Second moments of these areas about the sections' y and z axes.
+    """
+
+    body_names: np.ndarray
+    body_kinds: np.ndarray
+    masses_kg: np.ndarray
+    volumes_m3: np.ndarray
+    body_members: np.ndarray
+    body_member_kinds: np.ndarray
+    vertices_m: np.ndarray
+    vertex_counts: np.ndarray
+    connection_names: np.ndarray
+    pairs: np.ndarray
+    points_m: np.ndarray
+    areas_m2: np.ndarray
+    normals: np.ndarray
+    second_moments_m4: np.ndarray
+
+    @property
+    def moves(self) -> np.ndarray:
+        """Whether each body (n,) can move at all."""
+        return self.masses_kg > 0.0
+
+    def of_kind(self, kind: str) -> np.ndarray:
+        """Indices of the bodies of a kind."""
+        return np.flatnonzero(self.body_kinds == kind)
+
+    def vertices_of(self, body: int) -> np.ndarray:
+        """Vertices (v, 3) of a body in its own axes, m."""
+        first = int(self.vertex_counts[:body].sum())
+        return self.vertices_m[first : first + self.vertex_counts[body]]

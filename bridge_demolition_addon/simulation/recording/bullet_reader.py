@@ -1,0 +1,103 @@
+"""Frames read from Bullet's memory: loads of all sub-steps, motion and breaking."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ...bullet.world import BulletWorld
+from ...core.mechanics.frame_loads import FrameLoads
+from ...core.results.frames import BallHistory, Frame
+from ...core.results.inventory import Inventory
+from ...scene.connections.breaking_settings import breaking_of
+from ...scene.structural_changes import events_of
+from ...scene.time_scale import time_step_at
+from .blast import Blast
+from .events import AppliedEvent, Events
+from .substeps import Breaks, SubstepRecorder
+
+
+class BulletReader:
+    """Reads the frames of one simulation.
+
+    Parameters
+    ----------
+    scene, bodies, connections
+        The scene and what is simulated in it.
+    world
+        Its world, bound just now, before any time passes.
+    inventory
+        Its bodies and connections.
+    blast
+        What explodes, or None.
+    every_substep
+        Whether loads are read after every sub-step, or only after the last one of each frame.
+    """
+
+    def __init__(
+        self,
+        scene: bpy.types.Scene,
+        bodies: Sequence[bpy.types.Object],
+        connections: Sequence[bpy.types.Object],
+        world: BulletWorld,
+        inventory: Inventory,
+        blast: Blast | None,
+        *,
+        every_substep: bool,
+    ):
+        self._scene, self._world, self._every_substep = scene, world, every_substep
+        self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
+        normal_substep_s = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start).substep_s
+        breaking = breaking_of(scene, connections)
+        self._substeps = SubstepRecorder(world, inventory, breaking, self._events, blast, normal_substep_s)
+        after = self._substeps.after_substep if every_substep else None
+        world.call_around_substeps(self._substeps.before_substep, after)
+
+    @property
+    def applied_events(self) -> Sequence[AppliedEvent]:
+        """Removals, saw cuts and weakenings so far."""
+        return self._events.applied
+
+    @property
+    def ball_history(self) -> BallHistory:
+        """Hits of the balls so far."""
+        return self._substeps.ball_history()
+
+    @property
+    def seconds(self) -> float:
+        """Wall time that reading has taken so far."""
+        return self._substeps.seconds
+
+    def read_first_frame(self, substep_s: float) -> Frame:
+        """Return a frame in which no time passed, or else one whose loads were not asked for in time."""
+        self._substeps.skip(substep_s * self._scene.rigidbody_world.substeps_per_frame)
+        loads, _ = self._substeps.finish_frame()
+        return self._frame(substep_s, loads.unknown() if substep_s > 0.0 else loads)
+
+    def read_frame(self, substep_s: float) -> tuple[Frame, list[Breaks]]:
+        """Return the frame whose sub-steps have this length, without blast, and what broke in it."""
+        if not self._every_substep:
+            self._substeps.after_substep(substep_s)
+            self._substeps.skip(substep_s * (self._scene.rigidbody_world.substeps_per_frame - 1))
+        if self._substeps.error:
+            raise self._substeps.error
+        loads, breaks = self._substeps.finish_frame()
+        return self._frame(substep_s, loads), breaks
+
+    def _frame(self, substep_s: float, loads: FrameLoads) -> Frame:
+        positions, rotations = self._world.places()
+        return Frame(
+            number=self._scene.frame_current,
+            time_s=self._substeps.elapsed_s,
+            substep_s=substep_s,
+            positions_m=positions,
+            rotations=rotations,
+            velocities_m_s=self._world.velocities(),
+            angular_velocities_rad_s=self._world.spins(),
+            asleep=self._world.asleep(),
+            intact=self._world.intact(),
+            blast_impulses_ns=np.zeros_like(positions),
+            loads=loads,
+        )
