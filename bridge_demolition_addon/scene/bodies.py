@@ -35,40 +35,40 @@ class Kind(StrEnum):
 
 
 def kind_of(body: bpy.types.Object) -> Kind:
-    """What a body stands for; one that nobody marked is a shard where it can move, and ground where it cannot."""
+    """Return what a body stands for; one without a mark is a shard where it can move, and ground where it cannot."""
     if _KIND in body:
         return Kind(body[_KIND])
     return Kind.SHARD if body.rigid_body.type == "ACTIVE" else Kind.GROUND
 
 
 def member_of(body: bpy.types.Object) -> tuple[str, str]:
-    """Name and kind of the member that a body is a piece of, both empty where it is of none."""
+    """Return name and kind of the member that a body is a piece of, both empty where it is of none."""
     return str(body.get(_MEMBER, "")), str(body.get(_MEMBER_KIND, ""))
 
 
 def mark_member(body: bpy.types.Object, name: str, kind: str) -> None:
-    """Note on a body the member that it is a piece of."""
+    """Mark a body with the member that it is a piece of."""
     body[_MEMBER], body[_MEMBER_KIND] = name, kind
 
 
 def is_marked(body: bpy.types.Object) -> bool:
-    """Whether a body was made here."""
+    """Return whether the add-on made a body."""
     return _KIND in body
 
 
 def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """All mesh objects that take part in the scene's rigid-body world."""
+    """Return all mesh objects that take part in the scene's rigid-body world."""
     return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]
 
 
 def triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3), scaled as the body is, and triangles (t, 3) of a body's mesh."""
+    """Return vertices (v, 3) float of a body's mesh, scaled as the body is, and its triangles (t, 3) int."""
     vertices, triangles = mesh_arrays(body.data)
     return vertices * np.array(body.matrix_world.to_scale()), triangles
 
 
 def mesh_arrays(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3) of a mesh in its own axes, and triangles (t, 3)."""
+    """Return vertices (v, 3) float of a mesh in its own axes, and its triangles (t, 3) int."""
     mesh.calc_loop_triangles()
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
@@ -78,7 +78,7 @@ def mesh_arrays(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def hull_points(body: bpy.types.Object) -> np.ndarray:
-    """Vertices (v, 3) of a body's mesh, scaled as the body is, from its origin, which Bullet takes for its centre."""
+    """Return vertices (v, 3) float of a body's mesh, scaled, from its origin, which is the body's centre for Bullet."""
     return triangulated(body)[0]
 
 
@@ -89,16 +89,18 @@ def create_shards(
     centres_m: np.ndarray,
     masses_kg: np.ndarray,
 ) -> list[bpy.types.Object]:
-    """One active body per shard, its origin at its centre of mass.
+    """Make an active body for each shard, its origin at its centre of mass.
 
     Parameters
     ----------
-    collection
+    collection : bpy.types.Collection
         Where the bodies go: that of a rigid-body world, best while `off_scene`.
-    settings
+    settings : ShardSettings
         Surface, damping and rest of all of them.
-    shards, centres_m, masses_kg
-        For each of n shards its mesh, centre of mass (n, 3) and mass (n,).
+    shards : sequence of length n
+        Their meshes.
+    centres_m, masses_kg : (n, 3) float, (n,) float
+        Their centres of mass and masses.
     """
     names = numbered_names("Shard", len(shards), bpy.data.objects, bpy.data.meshes)
     meshes = make_named(bpy.data.meshes, names, lambda name, _: bpy.data.meshes.new(name))
@@ -127,7 +129,7 @@ def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> Non
 
 
 def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
-    """Passive block with its top at height 0, `half_size_m` to every side of the origin."""
+    """Make a passive block with its top at height 0, `half_size_m` to every side of the origin."""
     solid = box((2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M), (0.0, 0.0, 0.0))
     ground = create_body(world, mesh_of("Ground", solid), Kind.GROUND, "BOX")
     ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
@@ -140,7 +142,7 @@ def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings:
 def create_body(
     world: bpy.types.RigidBodyWorld, mesh: bpy.types.Mesh, kind: Kind, collision_shape: str
 ) -> bpy.types.Object:
-    """A body of a mesh in the world's collection, which makes it a rigid body."""
+    """Make a body of a mesh in the world's collection, which makes it a rigid body."""
     body = bpy.data.objects.new(mesh.name, mesh)
     world.collection.objects.link(body)
     body.rigid_body.collision_shape = collision_shape
@@ -155,7 +157,7 @@ def set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution: 
 
 
 def mesh_of(name: str, solid: trimesh.Trimesh) -> bpy.types.Mesh:
-    """A mesh of a solid."""
+    """Make a mesh of a solid."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
     return mesh

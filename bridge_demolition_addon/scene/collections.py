@@ -1,4 +1,4 @@
-"""Collections of our own in a scene, found by a mark, so that they may be renamed."""
+"""The add-on's own collections in a scene, found by a mark, so that the user may rename them."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ _ROLE = "bda_role"
 
 
 def find_collection(scene: bpy.types.Scene, role: str) -> bpy.types.Collection | None:
-    """The scene's collection for a role, if there is one."""
+    """Return the scene's collection for a role, None where there is none."""
     return next((each for each in scene.collection.children if each.get(_ROLE) == role), None)
 
 
 def collection_for(scene: bpy.types.Scene, role: str) -> bpy.types.Collection:
-    """The scene's collection for a role, made where there is none yet; the role is its first name."""
+    """Return the scene's collection for a role; a new one is named after the role."""
     collection = find_collection(scene, role)
     if collection is None:
         collection = bpy.data.collections.new(role)

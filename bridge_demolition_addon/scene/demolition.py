@@ -1,4 +1,4 @@
-"""A whole demolition as Blender data: a model's shards and connections, the ground and the ball."""
+"""A whole demolition as Blender data: shards, connections, ground and tools."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .tools.jackhammer import create_jackhammer
 from .world import START_FRAME, create_world, off_scene
 
 FIRST_STEP_FRAME = START_FRAME + 2
-"""First frame that time leads to: Blender makes the world in the frame before, in which no time passes."""
+"""First frame that time leads to: in the frame before, Blender makes the world and no time passes."""
 
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
@@ -75,15 +75,15 @@ def _breaking(settings: ConnectionSettings) -> Breaking:
 
 
 def last_frame(scenario: Scenario) -> int:
-    """Frame at which a scenario's duration is over."""
+    """Return the frame at which a scenario's duration is over."""
     return FIRST_STEP_FRAME - 1 + len(scenario.timeline)
 
 
 def release_frame(scenario: Scenario) -> int:
-    """First frame towards which the ball falls freely."""
+    """Return the first frame towards which the ball falls freely."""
     return first_frame_after(scenario, scenario.ball.release_time_s)
 
 
 def first_frame_after(scenario: Scenario, time_s: float) -> int:
-    """First frame that begins at a simulated time or later."""
+    """Return the first frame that begins at a simulated time or later."""
     return FIRST_STEP_FRAME + scenario.timeline.frames_until(time_s)

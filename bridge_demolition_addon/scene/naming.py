@@ -9,14 +9,14 @@ from typing import TypeVar
 import bpy
 
 _BLOCK = 512
-"""Blender keeps data sorted by name. It looks for the place of a new name from the end in blocks of so many: the first
-of a block tells whether the place is in it, and then it goes through the block name by name (`id_sort_by_name`)."""
+"""Blender keeps data sorted by name. It looks for the place of a new name from the end, in blocks of this size: the
+first name of a block decides whether the place is in it, and then it goes through the block (`id_sort_by_name`)."""
 
 _Made = TypeVar("_Made", bound=bpy.types.ID)
 
 
 def numbered_names(prefix: str, count: int, *collections: bpy.types.bpy_prop_collection) -> list[str]:
-    """A prefix with as many numbers as are needed, higher than those that anything in some collections has with it."""
+    """Return a prefix with new numbers, higher than any that it has in some collections."""
     pattern = re.compile(re.escape(prefix) + r" (\d+)(\.\d+)?")
     names = (name for each in collections for name in each.keys())  # noqa: SIM118  iterating would give the data
     first = 1 + max((int(match[1]) for name in names if (match := pattern.fullmatch(name))), default=-1)
@@ -26,18 +26,18 @@ def numbered_names(prefix: str, count: int, *collections: bpy.types.bpy_prop_col
 def make_named(
     collection: bpy.types.bpy_prop_collection, names: Sequence[str], make: Callable[[str, int], _Made]
 ) -> list[_Made]:
-    """Make something for each name, in the order in which Blender sorts names in fastest.
+    """Make something for each name, in the order that costs Blender the least time.
 
     The last names are made first, as many as leave the place for all others at the beginning of a block. That is about
     five times as fast as to make all in order.
 
     Parameters
     ----------
-    collection
+    collection : bpy.types.bpy_prop_collection
         Where Blender keeps what is made, such as all objects of the file.
-    names
+    names : sequence of str
         In ascending order, and none of them taken.
-    make
+    make : callable
         Makes one from its name and its number among all.
 
     Returns

@@ -1,4 +1,4 @@
-"""Taking a demolition out of its scene again, with everything that only it used, and connections that hold nothing."""
+"""Removing a demolition from its scene with everything that only it used, and connections that lack a body."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .world import START_FRAME
 
 
 def remove_demolition(scene: bpy.types.Scene) -> int:
-    """Remove everything that building a demolition has put into a scene, but for the charges; how many bodies.
+    """Remove everything that was built in a scene but the charges, and return how many bodies there were.
 
-    The scene goes to its start frame. Bodies that were not made here stay, and the rigid-body world with them; so do
-    meshes that something else uses.
+    The scene goes to its start frame. Bodies that were not built here stay, and the rigid-body world with them; so
+    do meshes that something else uses.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         return 0
@@ -42,7 +42,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
 
 
 def remove_loose_connections(scene: bpy.types.Scene) -> int:
-    """Remove connections that lack a body, as those of a deleted shard do; how many there were.
+    """Remove connections that lack a body, such as those of a deleted shard, and return how many there were.
 
     The scene goes to its start frame.
     """
@@ -58,13 +58,13 @@ def remove_loose_connections(scene: bpy.types.Scene) -> int:
 def _remove_in_turn(scene: bpy.types.Scene, *groups: list[bpy.types.Object]) -> None:
     """Remove objects and the meshes that only they used, one group after the other.
 
-    Blender keeps Bullet's world, and the pointers in it, until it is told of a change and evaluated at the start. A
-    body that is removed while an old connection still points to it ends the process when time goes on.
+    Blender keeps Bullet's world, and the pointers in it, until a setting changes and the start frame is evaluated. A
+    body that is removed while an old connection still points to it crashes Blender when time goes on.
     """
     for group in groups:
         meshes = {each.data for each in group if each.type == "MESH"}
         bpy.data.batch_remove(group)
-        _start_anew(scene)
+        _restart(scene)
         bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
 
 
@@ -76,8 +76,8 @@ def _remove_world(scene: bpy.types.Scene) -> None:
     bpy.data.batch_remove(empty)
 
 
-def _start_anew(scene: bpy.types.Scene) -> None:
-    """Have Blender drop what it simulated, and evaluate the scene at its start frame."""
+def _restart(scene: bpy.types.Scene) -> None:
+    """Make Blender drop what it simulated and evaluate the scene at its start frame."""
     world = scene.rigidbody_world
     world.substeps_per_frame = world.substeps_per_frame  # any setting counts as a change
     for layer in scene.view_layers:

@@ -1,4 +1,4 @@
-"""Changes to the structure in the course of time, kept with the scene, and the members that they name."""
+"""Changes to the structure, kept with the scene until a recording applies them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _CHANGES = "bda_changes"
 
 
 def keep_changes(scene: bpy.types.Scene, changes: Sequence[Change]) -> None:
-    """Keep changes in the scene, which is saved with it; a recording of the scene makes them happen."""
+    """Keep changes in the scene, and so in its file; a recording of the scene applies them."""
     if changes:
         scene[_CHANGES] = tables_text(changes)
     elif _CHANGES in scene:
@@ -36,7 +36,7 @@ def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
 
 
 def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory) -> tuple[Event, ...]:
-    """The scene's changes as events on its bodies and connections, in order of time.
+    """Return the scene's changes as events on its bodies and connections, in order of time.
 
     Raises
     ------

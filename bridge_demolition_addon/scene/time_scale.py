@@ -1,4 +1,4 @@
-"""A scene's time scale through its frames: animated, where frames differ in length."""
+"""The scene's time scale, animated where frames differ in length."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _PATH = "rigidbody_world.time_scale"
 
 
 def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: int) -> None:
-    """Give every frame its length, from the first to which time leads; frames that do not differ need no animation."""
+    """Give every frame its length, from the first that time leads to; frames of one length need no animation."""
     world = scene.rigidbody_world
     normal = world.time_scale
     scales = timeline.frame_lengths_s * scene.render.fps / scene.render.fps_base
@@ -31,7 +31,7 @@ def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: 
 
 
 def stop_animation(scene: bpy.types.Scene) -> None:
-    """Give all frames the same length again."""
+    """Give all frames the same length."""
     curve = _curve(scene)
     if curve:
         for frame in [point.co.x for point in curve.keyframe_points]:
@@ -39,12 +39,12 @@ def stop_animation(scene: bpy.types.Scene) -> None:
 
 
 def time_is_animated(scene: bpy.types.Scene) -> bool:
-    """Whether frames may differ in length."""
+    """Return whether frames may differ in length."""
     return _curve(scene) is not None
 
 
 def time_step_at(scene: bpy.types.Scene, frame: int) -> TimeStep:
-    """How the scene cuts the time that leads to a frame."""
+    """Return the length of a frame and of its sub-steps."""
     step = scene_time_step(scene)
     curve = _curve(scene)
     if curve is None:
@@ -54,7 +54,7 @@ def time_step_at(scene: bpy.types.Scene, frame: int) -> TimeStep:
 
 
 def _curve(scene: bpy.types.Scene) -> bpy.types.FCurve | None:
-    """The curve of the scene's time scale, if that is animated."""
+    """Return the curve of the scene's time scale, None where it is not animated."""
     animation = scene.animation_data
     if animation is None or animation.action is None:
         return None

@@ -11,7 +11,7 @@ from .blast.force_fields import force_collection
 
 
 def symbols_are_hidden(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
-    """Whether all that there are of these empties are hidden; False where there are none."""
+    """Return whether all of these empties are hidden; False where there are none."""
     if not has_symbols(layer, scene):
         return False
     of_collections = (each.hide_viewport for each in _collections(layer, scene))
@@ -19,7 +19,7 @@ def symbols_are_hidden(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bo
 
 
 def has_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
-    """Whether there are such empties."""
+    """Return whether there are such empties."""
     return any(True for _ in itertools.chain(_collections(layer, scene), _loose(layer, scene)))
 
 
@@ -38,7 +38,7 @@ def _collections(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator
 
 
 def _loose(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator[bpy.types.Object]:
-    """Empties of connections whose own collection is not in the scene: Blender's own buttons leave it out."""
+    """Return empties of connections whose collection is not in the scene, as with Blender's own buttons."""
     constraints = scene.rigidbody_world and scene.rigidbody_world.constraints
     if not constraints or any(each.collection == constraints for each in _all(layer.layer_collection)):
         return

@@ -15,7 +15,7 @@ START_FRAME = 1
 
 
 def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int) -> bpy.types.RigidBodyWorld:
-    """Give a scene a rigid-body world of its own, over the frames from `START_FRAME` to `last_frame`."""
+    """Give a scene a rigid-body world, over the frames from `START_FRAME` to `last_frame`."""
     scene.unit_settings.system = "METRIC"
     scene.unit_settings.scale_length = 1.0
     scene.gravity = (0.0, 0.0, -STANDARD_GRAVITY_M_S2)
@@ -39,7 +39,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
 
 
 def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
-    """How the scene cuts time now."""
+    """Return the length of frames and sub-steps that the scene has now."""
     world = scene.rigidbody_world
     return TimeStep(scene.render.fps, scene.render.fps_base, world.substeps_per_frame, world.time_scale)
 
@@ -47,7 +47,7 @@ def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
 def keep_played_frames(scene: bpy.types.Scene) -> None:
     """Turn the frames played so far into a bake, which is saved with the file and played back as it was.
 
-    Without it Blender simulates a loaded file anew, and then nothing lets the bodies of broken connections collide.
+    Without it Blender simulates a loaded file again, and then nothing lets the bodies of broken connections collide.
     """
     scene.frame_set(START_FRAME)
     with bpy.context.temp_override(scene=scene, point_cache=scene.rigidbody_world.point_cache):
@@ -56,11 +56,11 @@ def keep_played_frames(scene: bpy.types.Scene) -> None:
 
 @contextmanager
 def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bpy.types.Collection]]:
-    """The collections of bodies and of connections, taken off the scene while many objects are linked to them.
+    """Take the collections of bodies and connections off the scene while many objects are linked to them.
 
-    What is linked to them becomes a body or a connection of the scene's world at once, as ever. But every link to a
-    collection that a scene shows has Blender go through all that is in it, so that thousands of them take a time that
-    grows with the square of their number.
+    What is linked to them becomes a body or a connection of the scene's world all the same. But for every link to a
+    collection that a scene shows, Blender goes through all that is in it: the time would grow with the square of
+    their number.
     """
     bodies, connections = scene.rigidbody_world.collection, scene.rigidbody_world.constraints
     shown = [each for each in (bodies, connections) if each in scene.collection.children[:]]
@@ -74,6 +74,6 @@ def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bp
 
 
 def evaluated_scenes(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
-    """Blender's evaluated copies of a scene with a rigid-body world, one for each of its view layers that has been."""
+    """Return Blender's evaluated copies of a scene with a rigid-body world, one for each evaluated view layer."""
     graphs = [layer.depsgraph for layer in scene.view_layers if layer.depsgraph]
     return [graph.scene_eval for graph in graphs if graph.scene_eval and graph.scene_eval.rigidbody_world]

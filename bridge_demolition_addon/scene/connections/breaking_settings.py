@@ -1,4 +1,4 @@
-"""What breaks the connections of a scene besides Blender's own threshold, kept with the scene."""
+"""What breaks connections besides Blender's own threshold, kept with the scene."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class Breaking:
 
     Attributes
     ----------
-    strength
-        Of all connections that stand for an area, or of each; None where Blender's breaking threshold alone decides.
-    warm_up_s
+    strength : Strength or None
+        Strength of all connections with an area, or of each; None where Blender's breaking threshold alone decides.
+    warm_up_s : float
         Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
-    ductility
-        What is left of connections that their strength did not save; None where nothing is.
-    warm_up_damping
+    ductility : Ductility or None
+        What is left of a broken connection; None for nothing.
+    warm_up_damping : float
         Share of their velocities that shards lose in one second of the warm-up, from 0 to 1.
     """
 
@@ -42,7 +42,7 @@ class Breaking:
 
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
-    """Note it in the scene, which is saved with it."""
+    """Keep it in the scene, and so in its file."""
     scene[_WARM_UP], scene[_DAMPING] = breaking.warm_up_s, breaking.warm_up_damping
     for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility)):
         if values:
@@ -52,14 +52,14 @@ def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
 
 
 def set_strength(connection: bpy.types.Object, strength: Strength | None) -> None:
-    """Give a connection a strength of its own instead of the scene's; None lets no stress break it."""
+    """Give a connection a strength of its own instead of the scene's; with None no stress breaks it."""
     connection[_STRENGTH] = astuple(strength or _UNBREAKABLE)
 
 
 def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:
-    """What was noted in a scene and with connections; in any other, Blender's threshold and no warm-up.
+    """Return what is kept in a scene and with connections; in any other, Blender's threshold and no warm-up.
 
-    Where connections (m,) have strengths of their own, the strength has arrays (m,).
+    Where any of m connections has a strength of its own, the strength has arrays (m,) float.
     """
     strength = Strength(*scene[_STRENGTH]) if _STRENGTH in scene else None
     if any(_STRENGTH in each for each in connections):

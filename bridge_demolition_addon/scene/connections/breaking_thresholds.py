@@ -1,4 +1,4 @@
-"""Breaking thresholds: forces as people give them, and impulses in a sub-step as Blender takes them."""
+"""Breaking thresholds: given as forces, written to Blender as impulses in a sub-step."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FORCE = "bda_breaking_force_n"
 
 
 def set_breaking_force(connection: bpy.types.Object, force_n: float, step: TimeStep) -> None:
-    """Have a connection break at a force, whatever the step: it is kept with the connection."""
+    """Make a connection break at a force, which is kept with it for other steps."""
     connection[_FORCE] = force_n
     constraint = connection.rigid_body_constraint
     constraint.use_breaking = True
@@ -23,14 +23,13 @@ def set_breaking_force(connection: bpy.types.Object, force_n: float, step: TimeS
 def rewrite_thresholds(scene: bpy.types.Scene) -> bool:
     """Write the breaking thresholds that the kept forces have in the scene's present step.
 
-    It is the step that the start frame has, where the time scale is animated. Blender takes a new threshold for a
-    reason to simulate anew: this is for before a simulation starts, and not for while it runs. A connection that no
-    force is kept with has the threshold that somebody gave it, and keeps that.
+    Where the time scale is animated, the step is that of the start frame. With a new threshold Blender simulates from
+    the start again, so call this before a simulation starts. A connection without a kept force keeps its threshold.
 
     Returns
     -------
     bool
-        Whether any threshold was another one before.
+        Whether any threshold has changed.
     """
     step = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start)
     changed = False

@@ -19,7 +19,7 @@ _SECOND_MOMENTS = "bda_second_moments_m4"
 
 
 def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """All objects that hold a constraint of the scene's rigid-body world, but for the cables of balls."""
+    """Return all objects with a constraint of the scene's rigid-body world, but for the cables of balls."""
     constraints = scene.rigidbody_world.constraints
     if not constraints:
         return []
@@ -27,27 +27,35 @@ def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 
 def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
-    """The two bodies that a connection holds together, as far as it has them."""
+    """Return the two bodies that a connection holds together; None stands for one that it lacks."""
     constraint = connection.rigid_body_constraint
     return {constraint.object1, constraint.object2}
 
 
 def loose_connections(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Connections that lack a body of the scene's world, as those of a deleted shard do; Blender simulates none."""
+    """Return connections that lack a body of the scene's world, such as those of a deleted shard: they do nothing."""
     bodies = set(bodies_of(scene))
     return [each for each in connections_of(scene) if not ends_of(each) <= bodies]
 
 
 def mark_cable(constraint: bpy.types.Object) -> None:
-    """Note on a constraint that it is a cable, and no connection whose loads and breaking are followed."""
+    """Mark a constraint as a cable, not a connection whose loads and breaking are recorded."""
     constraint[_IS_CABLE] = True
 
 
 def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sections that connections stand for: areas (m,), unit normals (m, 3), second moments of area (m, 2, 2); m, m⁴.
+    """Return the sections of m connections.
 
-    Normals point from first to second bodies. A connection that was not made here has no area, and the direction
-    between its bodies' origins for a normal; one with only an area is a square.
+    A connection that the add-on did not make has the area 0, and the direction between its bodies' origins as normal;
+    one with only an area is a square.
+
+    Returns
+    -------
+    areas_m2 : (m,) float
+    normals : (m, 3) float
+        Unit vectors from first to second bodies.
+    second_moments_m4 : (m, 2, 2) float
+        Second moments of area.
     """
     areas = np.array([connection.get(_AREA, 0.0) for connection in connections], float)
     normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
@@ -73,16 +81,18 @@ def create_connections(
     ground: bpy.types.Object | None,
     second_moments_m4: np.ndarray,
 ) -> list[bpy.types.Object]:
-    """One constraint per connection, at its point, in the world's axes: a hinge turns about the vertical.
+    """Make a constraint for each connection, at its point, in the world's axes: a hinge turns about the vertical.
 
     Parameters
     ----------
-    collection
+    collection : bpy.types.Collection
         Where they go: that of a rigid-body world's constraints, best while `off_scene`.
-    connections, second_moments_m4
-        The m connections, and (m, 2, 2) second moments of their areas.
+    connections : Connections
+        The m connections.
     shards, ground
         The bodies that they hold together.
+    second_moments_m4 : (m, 2, 2) float
+        Second moments of their areas.
     """
     # Sorted behind the shards, of which there are many, see `make_named`.
     names = numbered_names("Shard connection", len(connections), bpy.data.objects)

@@ -1,8 +1,8 @@
 """Colours of contours on bodies, and the look of a scene that shows them as they are.
 
-Colours are written into Blender's evaluated copies of the bodies, never into the bodies themselves: that costs a tenth
-of what it does to change the objects, as Blender has nothing to bring up to date; it works in a render, which has
-copies of its own; and the bodies' own colours and materials are always there, whatever ends the showing.
+Colours are written into Blender's evaluated copies of the bodies, never into the bodies themselves. That takes a tenth
+of the time, as Blender has nothing to update. It works in a render, which has copies of its own. And the bodies keep
+their own colours and materials, however the display ends.
 """
 
 from __future__ import annotations
@@ -30,22 +30,24 @@ _PLAIN = {
         "show_object_outline": True,
     },
 }
-"""Settings with which a colour comes out of a render as it went in."""
+"""Settings that leave colours in a render as they are."""
 
 
 def paint(
     scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, rows: Mapping[str, int], screen_colours: np.ndarray
 ) -> None:
-    """Give bodies a colour, until Blender evaluates them anew or they are painted again.
+    """Colour bodies until Blender evaluates them again or they are painted again.
 
     Parameters
     ----------
-    scene, depsgraph
-        Scene with a rigid-body world, and whose evaluated copies are painted.
-    rows
-        Which colour, by the bodies' names; a body that is missing keeps its own.
-    screen_colours
-        (n, 3) colours as a screen has them; a body with a nan keeps its own.
+    scene : bpy.types.Scene
+        Scene with a rigid-body world.
+    depsgraph : bpy.types.Depsgraph
+        Has the evaluated copies that are painted.
+    rows : mapping of str to int
+        Row of each body's colour, by its name; a body that is missing keeps its own colour.
+    screen_colours : (n, 3) float
+        Colours as a screen has them; a body with a nan keeps its own.
     """
     painted = np.column_stack((linear(screen_colours), np.ones(len(screen_colours))))
     wanted = [tuple(colour) if known else None for colour, known in zip(painted.tolist(), _known(painted), strict=True)]
@@ -60,21 +62,23 @@ def place(
     scene: bpy.types.Scene,
     depsgraph: bpy.types.Depsgraph,
     rows: Mapping[str, int],
-    places_m: np.ndarray,
+    positions_m: np.ndarray,
     rotations: np.ndarray,
 ) -> None:
-    """Show bodies where they were recorded, until Blender evaluates them anew, as `paint` shows colours.
+    """Show bodies where they were recorded until Blender evaluates them again, as `paint` shows colours.
 
-    Blender forgets the frames it played with any change to a setting of the scene, be it one of the sidebar.
+    Blender forgets the frames it played with any change of a setting of the scene, even one in the sidebar.
 
     Parameters
     ----------
-    scene, depsgraph
-        Scene with a rigid-body world, and whose evaluated copies are placed.
-    rows
-        Which place, by the names of the bodies that are to be placed.
-    places_m, rotations
-        (n, 3) and (n, 3, 3) of their origins.
+    scene : bpy.types.Scene
+        Scene with a rigid-body world.
+    depsgraph : bpy.types.Depsgraph
+        Has the evaluated copies that are placed.
+    rows : mapping of str to int
+        Row of each body that is to be placed, by its name.
+    positions_m, rotations : (n, 3) float, (n, 3, 3) float
+        Positions of the bodies' origins, and rotation matrices.
     """
     for body in _bodies(scene):
         row = rows.get(body.name)
@@ -83,7 +87,7 @@ def place(
         evaluated = body.evaluated_get(depsgraph)
         if evaluated.is_evaluated:
             rotation = Matrix(rotations[row]).to_quaternion()
-            evaluated.matrix_world = Matrix.LocRotScale(Vector(places_m[row]), rotation, body.scale)
+            evaluated.matrix_world = Matrix.LocRotScale(Vector(positions_m[row]), rotation, body.scale)
 
 
 def unpaint(scene: bpy.types.Scene) -> None:
@@ -95,9 +99,9 @@ def unpaint(scene: bpy.types.Scene) -> None:
 
 
 def show_colours(scene: bpy.types.Scene) -> None:
-    """Let every renderer show the objects' colours as they are: one material for all, no light, no tone mapping.
+    """Make every renderer show the objects' colours as they are: one material for all, no light, no tone mapping.
 
-    What there was is kept in the scene itself, so that it goes wherever the scene goes: through undo and into files.
+    What was set before is kept in the scene, and so survives undo and goes into files.
     """
     if _LOOK not in scene:
         scene[_LOOK] = {
@@ -117,7 +121,7 @@ def show_colours(scene: bpy.types.Scene) -> None:
 
 
 def show_materials(scene: bpy.types.Scene) -> None:
-    """Put back what `show_colours` has replaced; nothing where it has not."""
+    """Put back what `show_colours` has replaced, if it has."""
     if _LOOK in scene:
         for name, value in scene[_LOOK].to_dict().items():
             path, _, last = name.rpartition(".")
@@ -135,7 +139,7 @@ def show_materials(scene: bpy.types.Scene) -> None:
 
 
 def colours_are_shown(scene: bpy.types.Scene) -> bool:
-    """Whether `show_colours` was the last of the two."""
+    """Return whether colours are shown, by `show_colours`."""
     return _LOOK in scene
 
 
@@ -159,7 +163,7 @@ def _find_material() -> bpy.types.Material | None:
 
 
 def _material() -> bpy.types.Material:
-    """Material that shines in the colour of its object."""
+    """Return a material that shines in the colour of its object."""
     material = _find_material()
     if material:
         return material

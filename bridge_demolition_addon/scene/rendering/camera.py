@@ -17,7 +17,7 @@ _EXPOSURE = 1.0
 
 
 def prepare_pictures(scene: bpy.types.Scene, points: np.ndarray, width_px: int, height_px: int) -> None:
-    """Aim a camera at points (n, 3) in m that are to be seen, and set up the renderer."""
+    """Aim a camera at points (n, 3) float, m, that are to be seen, and set up the renderer."""
     aim_camera(scene, points, width_px / height_px)
     render = scene.render
     render.engine = "BLENDER_WORKBENCH"
@@ -37,14 +37,14 @@ def prepare_pictures(scene: bpy.types.Scene, points: np.ndarray, width_px: int, 
 
 
 def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
-    """Render one frame that was simulated already; Blender plays it back from its cache."""
+    """Render a frame that was simulated already; Blender plays it back from its cache."""
     scene.frame_set(frame)
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 def aim_camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:
-    """Give a scene a camera beside the road that sees points (n, 3) in m, in pictures of an aspect (width : height)."""
+    """Add a camera beside the road that sees points (n, 3) float, m, in pictures of an aspect (width : height)."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
     camera.data.sensor_fit = "HORIZONTAL"  # by default a picture that is higher than wide turns the sensor
@@ -58,7 +58,7 @@ def aim_camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy
 
 
 def _viewpoint(points: np.ndarray, axes: np.ndarray, aspect: float) -> np.ndarray:
-    """Where a camera with the given axes (3, 3: right, up, back, as columns) has all points (n, 3) in its picture."""
+    """Return where a camera sees all points (n, 3); its axes (3, 3) are right, up and back, as columns."""
     middle = axes @ _middle(points @ axes)
     seen = (points - middle) @ axes
     half_width = _SENSOR_MM / 2.0 / _LENS_MM

@@ -17,7 +17,7 @@ from .camera import aim_camera
 
 _RENDER_SETTINGS = ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage", "dither_intensity")
 _SMOOTHING = "FXAA"
-"""Of Workbench; its default takes three times as long, and flat colours need no better."""
+"""Of Workbench: its default takes three times as long, and flat colours do not need it."""
 
 _IMAGE_SETTINGS = ("media_type", "file_format", "color_mode", "color_depth")
 
@@ -28,9 +28,9 @@ class RenderSettings:
 
     Attributes
     ----------
-    width_px, height_px
+    width_px, height_px : int
         Size; even, as films cannot have odd ones.
-    engine
+    engine : str
         Blender's name of the renderer: BLENDER_WORKBENCH is by far the fastest.
 
     Raises
@@ -51,9 +51,9 @@ class RenderSettings:
 
 @contextmanager
 def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Iterator[None]:
-    """Render PNG pictures of a size; afterwards the scene is at its frame, and as it was.
+    """Render PNG pictures within this context; afterwards the scene is as it was, at its frame.
 
-    A scene without a camera has one, beside the road, for the time being.
+    A scene without a camera has one beside the road meanwhile.
     """
     render, frame, camera = scene.render, scene.frame_current, scene.camera
     kept = [(render, name, getattr(render, name)) for name in _RENDER_SETTINGS]
@@ -65,7 +65,7 @@ def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Ite
         render.engine = settings.engine
         render.resolution_x, render.resolution_y = settings.width_px, settings.height_px
         render.resolution_percentage = 100
-        render.dither_intensity = 0.0  # noise that hides steps of colour, and those of contours are meant
+        render.dither_intensity = 0.0  # its noise hides the steps of colour that contours have
         scene.display.render_aa = _SMOOTHING
         if hasattr(image, "media_type"):  # from Blender 5.0 on it decides which formats there are
             image.media_type = "IMAGE"
@@ -82,7 +82,7 @@ def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Ite
 
 
 def encode_film(pictures: Sequence[Path], film: Path, pictures_per_second: float) -> None:
-    """Make an MP4 film (H.264) of pictures, all of one size and in one folder; one may come several times.
+    """Make an MP4 film (H.264) of pictures of one size in one folder; a picture may come several times.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def _set_up_encoder(render: bpy.types.RenderSettings, film: Path, pictures_per_s
 
 
 def _lay_out(scene: bpy.types.Scene, pictures: Sequence[Path]) -> None:
-    """One strip of all pictures, from the first frame on; it grows with each."""
+    """Make one strip of all pictures, from the first frame on; it grows with each."""
     editor = scene.sequence_editor_create()
     strips = editor.strips if hasattr(editor, "strips") else editor.sequences  # their name before Blender 4.4
     strip = strips.new_image("Pictures", str(pictures[0]), 1, 1)
@@ -139,7 +139,7 @@ def _size(picture: Path) -> tuple[int, int]:
 
 
 def _corners(scene: bpy.types.Scene) -> np.ndarray:
-    """Corners (c, 3) of the boxes around all bodies that move, m."""
+    """Return the corners (c, 3) float of the boxes around all bodies that move, m."""
     corners = [
         body.matrix_world @ type(body.location)(corner)
         for body in bodies_of(scene)

@@ -1,4 +1,4 @@
-"""The wrecking ball: let go, lifted by animation, let go again."""
+"""The wrecking ball: released, lifted by animation, released again."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _STEEL = (0.08, 0.09, 0.10, 1.0)
 def create_ball(
     world: bpy.types.RigidBodyWorld, settings: Ball, deck_top_m: float, start_frame: int, release_frame: int
 ) -> bpy.types.Object:
-    """Wrecking ball above its target: held by animation up to its release, then free.
+    """Make a wrecking ball above its target: fixed by animation up to its release, then free.
 
     In the release frame it is free for the first time, so that it falls in the step towards that frame.
     """
@@ -40,8 +40,8 @@ def create_ball(
     # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
     rigid.linear_damping, rigid.angular_damping = 0.0, settings.angular_damping
     rigid.use_deactivation = False
-    for frame, held in ((start_frame, True), (release_frame, False)):
-        rigid.kinematic = held
+    for frame, is_fixed in ((start_frame, True), (release_frame, False)):
+        rigid.kinematic = is_fixed
         ball.keyframe_insert("rigid_body.kinematic", frame=frame)
     rigid.kinematic = True
     # Blender animates a body before it simulates it only where its place is animated; otherwise it may let go of the
@@ -57,19 +57,19 @@ def create_hits(
 
     Parameters
     ----------
-    surfaces_m
+    surfaces_m : sequence of float
         Heights of what lies under the targets of all drops, the first one's too.
-    first_step_frame
+    first_step_frame : int
         First frame that time leads to.
-    timeline
+    timeline : Timeline
         The frames from there on.
     """
     if not settings.hits:
         return
     radius = settings.diameter_m / 2.0
-    held = tuple(ball.location)
+    start = tuple(ball.location)
     release_frame = first_step_frame + timeline.frames_until(settings.release_time_s)
-    key_values(ball, "location", [START_FRAME, release_frame], [held, held])
+    key_values(ball, "location", [START_FRAME, release_frame], [start, start])
     key_values(ball, "rotation_euler", [START_FRAME], [ball.rotation_euler], constant=True)
     lying = (*settings.target_m, surfaces_m[0] + radius)
     for hit, surface in zip(settings.hits, surfaces_m[1:], strict=True):
@@ -91,15 +91,15 @@ def plan_lift(
     start_m: tuple[float, float, float],
     end_m: tuple[float, float, float],
 ) -> None:
-    """Have a ball lifted to a place, led by animation for the first time in the step towards a frame.
+    """Animate a lift of the ball to a place; animation leads it for the first time in the step towards `lift_frame`.
 
-    Where the ball will lie by then is not known: the way begins at a guess until `lift_from` says better.
+    Where the ball will lie by then is not known yet: the path begins at a guess, which `lift_from` corrects.
 
     Parameters
     ----------
-    shares
-        (k,) share of the lift's time that has passed in the frame before `lift_frame` and in those that follow it,
-        from 0 to 1.
+    shares : (k,) float
+        Share of the lift's time that has passed in the frame before `lift_frame` and in those that follow it, from 0
+        to 1.
     """
     lifts = values_from_text(ball.get(_LIFTS, ""), [])
     ball[_LIFTS] = values_text([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
@@ -107,16 +107,16 @@ def plan_lift(
 
 
 def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
-    """First frame, shares of time (k,) and end (3,) of every lift that was planned."""
+    """Return first frame, shares of time (k,) float and end (3,) float of every planned lift."""
     lifts = values_from_text(ball.get(_LIFTS, ""), [])
     return [(frame, np.array(shares), np.array(end)) for frame, shares, end in lifts]
 
 
 def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:
-    """Have a lift begin where the ball is in the frame before it, as its matrix says.
+    """Make a lift begin where the ball is in the frame before it, as its matrix says.
 
-    A body that animation begins to lead is taken by Blender to its animated place within one frame, at whatever speed
-    that needs, and turned as well.
+    Blender takes a body that animation begins to lead to its animated place within one frame, at any speed, and turns
+    it as well.
     """
     place, rotation, _ = matrix.decompose()
     frames = _frames(lift_frame, shares)

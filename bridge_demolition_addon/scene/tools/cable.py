@@ -1,4 +1,4 @@
-"""The cable of a wrecking ball: a point of the ball's own solid that a crane holds."""
+"""The cable of a wrecking ball: a point of the ball's own solid, fixed to the tip of a crane."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..connections.constraints import mark_cable
 
 _CRANE_SIZE_M = 0.3
 _APART_FROM_ALL = 19
-"""Bullet's collision collection of the crane's tip, which nothing else is in: the crane itself is hit by nothing."""
+"""Collision collection of the crane's tip alone, so that nothing hits it."""
 
 
 def create_cable(world: bpy.types.RigidBodyWorld, ball: bpy.types.Object, settings: BallCable) -> bpy.types.Object:

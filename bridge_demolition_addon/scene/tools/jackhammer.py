@@ -1,4 +1,4 @@
-"""Jackhammers: chisels that animation drives up and down along a path."""
+"""Jackhammers: chisels that animation moves up and down along a path."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ _STEEL = (0.15, 0.13, 0.05, 1.0)
 def create_jackhammer(
     world: bpy.types.RigidBodyWorld, settings: Jackhammer, deck_top_m: float, start_frame: int, timeline: Timeline
 ) -> bpy.types.Object:
-    """A chisel with a keyframe in every frame; its origin is at the tip.
+    """Make a chisel with a keyframe in every frame; its origin is at the tip.
 
     Parameters
     ----------
-    deck_top_m
+    deck_top_m : float
         Height of the deck.
-    start_frame
-        Frame of the time 0, the last one before time leads on.
-    timeline
+    start_frame : int
+        Frame of the time 0, the last one before time passes.
+    timeline : Timeline
         The frames from there on. Blender moves a body in a straight line over the sub-steps between two frames.
     """
     solid = trimesh.creation.cylinder(settings.diameter_m / 2.0, settings.length_m, sections=_SIDES)

@@ -1,4 +1,4 @@
-"""Motion of bodies by keyframes, written whole and not one by one."""
+"""Keyframes of bodies, written all at once."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ import numpy as np
 def key_values(
     body: bpy.types.Object, data_path: str, frames: np.ndarray, values: np.ndarray, *, constant: bool = False
 ) -> None:
-    """Set keyframes of a property with k components, (c,) frames and (c, k) values; others than these stay.
+    """Set keyframes of a property with k components; its other keyframes stay.
 
     Parameters
     ----------
-    constant
+    frames, values : (c,) float, (c, k) float
+        The keyframes.
+    constant : bool
         Whether values hold until the next keyframe, instead of going there in a straight line.
     """
     values = np.asarray(values, float).reshape(len(frames), -1)
@@ -35,7 +37,7 @@ def _keys(curve: bpy.types.FCurve) -> dict[float, float]:
 
 
 def _curve(body: bpy.types.Object, data_path: str, index: int) -> bpy.types.FCurve:
-    """The curve of a property, made where it is not there yet."""
+    """Return the curve of a property, a new one where there is none yet."""
     curves = _curves(body)
     return curves.find(data_path, index=index) or curves.new(data_path, index=index)
 
