@@ -11,13 +11,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import bpy
-import numpy as np
 
 from ..core.display.camera_targets import points_to_see
 from ..core.display.contours import ContourSettings
-from ..core.results.arrays import Results
 from ..core.results.files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
-from ..core.results.key_frame import telling_step
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
 from ..core.sequence.checked_model import runnable_model
@@ -124,7 +121,7 @@ def run_scenario(
         raise KeyboardInterrupt
     if pictures:
         progress.stage("rendering pictures")
-        _render(scene, folder, results)
+        _render(scene, folder, summary["key_frame"]["frame"])
     if film:
         progress.stage("rendering the film")
         _render_film(scene, folder, progress)
@@ -188,8 +185,7 @@ def _interruptible() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
 
 
-def _render(scene: bpy.types.Scene, folder: Path, results: Results) -> None:
-    """Pictures at the start, at the moment that tells most and at the end."""
-    telling = int(results.frames.number[telling_step(results, np.array(scene.gravity))])
-    for name, frame in zip(PICTURES, (START_FRAME, telling, scene.frame_end), strict=True):
+def _render(scene: bpy.types.Scene, folder: Path, key_frame: int) -> None:
+    """Render pictures at the start, at the moment that shows most and at the end."""
+    for name, frame in zip(PICTURES, (START_FRAME, key_frame, scene.frame_end), strict=True):
         render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")

@@ -9,11 +9,9 @@ import numpy as np
 
 from ..mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
-from .motion import first_hit, throw
+from .key_frame import RESTING_WEIGHTS, impact_step, key_step
+from .motion import throw
 from .removed_shards import without_taken_away
-
-_RESTING_WEIGHTS = 3.0
-"""A ball that rests or rolls is pressed with about its weight; a hit presses with more than this many times as much."""
 
 
 def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None) -> dict[str, Any]:
@@ -29,6 +27,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         How long hits of the ball last; by default as long as elastic ones.
     """
     left, _ = without_taken_away(results)
+    key, reason = key_step(results, gravity_m_s2)
     return {
         "frames": len(results.frames),
         "simulated_s": float(results.frames.time_s[-1]),
@@ -39,6 +38,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "bodies": {kind: len(results.inventory.of_kind(kind)) for kind in ("shard", "ball", "ground")},
         "connections": _connections(results),
         "impact": _moment(results, impact_step(results, gravity_m_s2)),
+        "key_frame": {**_moment(results, key), "reason": reason},
         "reading": results.reading,
         "hits_of_the_ball": _hits(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
@@ -46,21 +46,6 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "largest_throw": _largest_throw(left),
         "blast": _blast(results),
     }
-
-
-def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
-    """Recorded step in which the ball, once it falls, is first stopped by anything; None where it never is."""
-    for ball in results.inventory.of_kind("ball"):
-        moving = np.flatnonzero(results.frames.velocities_m_s[:, ball].any(axis=1))
-        if len(moving):
-            if len(results.inventory.of_kind("crane")):
-                return _first_push(results, ball, gravity_m_s2)
-            released = max(0, moving[0] - 1)  # a ball that falls a few centimetres is hit in its very first step
-            hit = first_hit(
-                results.frames.velocities_m_s[released:, ball], results.frames.time_s[released:], gravity_m_s2
-            )
-            return None if hit is None else int(released) + hit
-    return None
 
 
 def first_hit_s(summary: Mapping[str, Any]) -> float | None:
@@ -84,14 +69,6 @@ def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
     return {"time_s": float(results.frames.time_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
 
 
-def _first_push(results: Results, ball: int, gravity_m_s2: np.ndarray) -> int | None:
-    """First recorded step in which contacts push a ball, which swings on a cable, more than its rest would."""
-    resting_force = _RESTING_WEIGHTS * results.inventory.masses_kg[ball] * np.linalg.norm(gravity_m_s2)
-    pushes = np.linalg.norm(results.frames.loads.body_contact_impulses_ns[:, ball], axis=1)
-    steps = np.flatnonzero(pushes > resting_force * np.diff(results.frames.time_s, prepend=results.frames.time_s[0]))
-    return int(steps[0]) if len(steps) else None
-
-
 def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None) -> list[dict[str, Any]]:
     """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not."""
     steps = np.diff(results.balls.times_s, prepend=results.frames.time_s[0])
@@ -100,7 +77,7 @@ def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | No
         mass = results.inventory.masses_kg[ball]
         radius = np.cbrt(0.75 / np.pi * results.inventory.volumes_m3[ball])
         contact = Contact.between(STEEL, CONCRETE, mass, radius)
-        resting_force = _RESTING_WEIGHTS * mass * np.linalg.norm(gravity_m_s2)
+        resting_force = RESTING_WEIGHTS * mass * np.linalg.norm(gravity_m_s2)
         velocities = results.balls.velocities_m_s[:, column]
         for hit in hits(results.balls.impulses_ns[:, column], steps, results.frames.time_s[0], resting_force):
             before = velocities[hit.first_step - 1] if hit.first_step else np.zeros(3)

@@ -48,7 +48,7 @@ LIMITS = (
 
 
 def cover_section(run: Run, version: str) -> Section:
-    """What was run, and whether all of it is there."""
+    """Return what was run, and whether all of it is there."""
     blocks: list[Block] = [Paragraph(text, is_notice=True) for text in run.shortcomings]
     blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
     if run.results is not None:
@@ -59,16 +59,16 @@ def cover_section(run: Run, version: str) -> Section:
 
 
 def trust_section(run: Run) -> Section:
-    """Where the numbers come from, and how far to trust them."""
+    """Return where the numbers come from, and how far to trust them."""
     modelled = (
-        "A bridge of rigid shards that connections hold together until they break, contact with friction, gravity"
+        "a bridge of rigid shards that connections hold together until they break, contact with friction, gravity"
     )
     if run.scenario and run.scenario.ball:
         modelled += ", a wrecking ball"
     if run.scenario and run.scenario.charges and run.scenario.blast.explosion:
         modelled += ", the air blast of charges on the outsides of the shards"
     blocks: list[Block] = [
-        Paragraph(f"What is modelled: {modelled[0].lower()}{modelled[1:]}."),
+        Paragraph(f"What is modelled: {modelled}."),
         facts("Where the numbers come from", SOURCES),
         facts("What has been checked, against what and how closely it agrees", TRUST),
         *(Paragraph(text) for text in LIMITS),
@@ -77,9 +77,9 @@ def trust_section(run: Run) -> Section:
 
 
 def scenario_section(run: Run, text: str) -> Section:
-    """The whole scenario, so that the run can be repeated."""
-    told = "With this file and the versions above the run can be repeated: the same scenario gives the same logs."
-    return Section("The scenario", (Paragraph(told), Listing(text)))
+    """Return the whole scenario, so that the run can be repeated."""
+    use = "With this file and the versions above the run can be repeated: the same scenario gives the same logs."
+    return Section("The scenario", (Paragraph(use), Listing(text)))
 
 
 def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
@@ -160,13 +160,6 @@ def _findings(run: Run) -> Iterator[tuple[str, str]]:
 
 
 def _caption(run: Run, picture: str) -> str:
-    """What a picture shows; that in the middle is of the moment that `core.telling_moment` chooses."""
-    if picture != "impact":
-        return {"before": "Before", "after": "At the end"}[picture]
-    summary = run.summary or {}
-    if run.impact_s is not None:
-        return "At the impact of the ball"
-    if summary.get("blast"):
-        return "Shortly after the blast"
-    broken = summary.get("connections", {}).get("broken")
-    return "When half of the connections that broke had broken" if broken else "At the largest force"
+    """Return what a picture shows; in summaries of earlier versions there is no key frame."""
+    reason = (run.summary or {}).get("key_frame", {}).get("reason", "In the course of the run")
+    return {"before": "Before", "after": "At the end"}.get(picture, reason)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from sample_results import GRAVITY, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.core.results.summary import first_hit_s, impact_step, summarise
+from bridge_demolition_addon.core.results.key_frame import impact_step
+from bridge_demolition_addon.core.results.summary import first_hit_s, summarise
 
 BODY_SERIES = (
     "places_m",
