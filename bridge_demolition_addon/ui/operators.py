@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import bpy
-from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import OutputError
 from ..simulation.recording import handlers
-from .sidebar import RELATIVE_PATHS
+from .sidebar import path_property
 
 
 class Refusing:
@@ -29,7 +28,7 @@ class Refusing:
 class FileWriter(ExportHelper):
     """Base of operators that ask for a file to write; each gives the suffix as `filename_ext`, and a `filter_glob`."""
 
-    filepath: StringProperty(name="File", description="File to write", subtype="FILE_PATH", options=RELATIVE_PATHS)
+    filepath: path_property("File", "File to write")
 
     def usual_path(self, context: bpy.types.Context) -> str:
         """Return the path that is proposed; empty for one named after the saved file."""

@@ -10,16 +10,13 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty, 
 from .blast import prop as charge_properties
 from .contours.prop import ContourProperties
 from .scenario import prop as scenario_properties
-from .sidebar import RELATIVE_PATHS
+from .sidebar import path_property
 
 
 def _settings_class(scenario_group: type[bpy.types.PropertyGroup]) -> type[bpy.types.PropertyGroup]:
     properties: dict[str, Any] = {
-        "scenario_path": StringProperty(
-            name="Scenario",
-            description="Scenario file (TOML) to load or to save; Build Scenario loads one that was not loaded yet",
-            subtype="FILE_PATH",
-            options=RELATIVE_PATHS,
+        "scenario_path": path_property(
+            "Scenario", "Scenario file (TOML) to load or to save; Build Scenario loads one that was not loaded yet"
         ),
         "loaded_path": StringProperty(options={"HIDDEN"}, description="Scenario file that was loaded or saved last"),
         "scenario": PointerProperty(type=scenario_group),
@@ -47,31 +44,20 @@ def _settings_class(scenario_group: type[bpy.types.PropertyGroup]) -> type[bpy.t
         ),
         "charges_given": StringProperty(options={"HIDDEN"}, description="Charges as they were loaded, in JSON"),
         "total_mass": StringProperty(options={"HIDDEN"}, description="Mass of all active bodies but the ball"),
-        "output_directory": StringProperty(
-            name="Results",
-            description="Folder for the logs and results of the recording; it is made when the handler is registered",
-            subtype="DIR_PATH",
-            options=RELATIVE_PATHS,
+        "output_directory": path_property(
+            "Results",
+            "Folder for the logs and results of the recording; it is made when the handler is registered",
+            "DIR_PATH",
         ),
         "overwrite": BoolProperty(
             name="Overwrite",
             description="Replace the results of an earlier recording in that folder, and log files that are there",
             default=False,
         ),
-        "debris_log_path": StringProperty(
-            name="Debris Log",
-            description="File for the debris log; where none is given it goes to the folder of the results",
-            subtype="FILE_PATH",
-            options=RELATIVE_PATHS,
-        ),
-        "force_log_path": StringProperty(
-            name="Force Log",
-            description="File for the force log; where none is given it goes to the folder of the results",
-            subtype="FILE_PATH",
-            options=RELATIVE_PATHS,
-        ),
+        "debris_log_path": path_property("Debris Log", "File for the debris log; none for the folder of the results"),
+        "force_log_path": path_property("Force Log", "File for the force log; none for the folder of the results"),
     }
-    contents = {"__doc__": "What the panels ask for.", "__annotations__": properties}
+    contents = {"__doc__": "Settings that the panels show.", "__annotations__": properties}
     return type("BDA_PG_settings", (ContourProperties, bpy.types.PropertyGroup), contents)
 
 
@@ -83,7 +69,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take the settings away again."""
+    """Take the settings from all scenes."""
     del bpy.types.Scene.bda
     bpy.utils.unregister_class(scenario_properties.registered_group("BDA_PG_settings"))
     scenario_properties.unregister()

@@ -1,18 +1,18 @@
-"""What all panels of the sidebar share: the tab they stand in, and how much fits into its width."""
+"""What all panels and settings of the sidebar share: the tab, sentences on several lines, and paths."""
 
 from __future__ import annotations
 
 import textwrap
+from typing import Any
 
 import bpy
+from bpy.props import StringProperty
 
 _LETTER_PX = 6.5
 _EDGES_PX = 75
-"""Of the sidebar, at 100 %: its tabs, the margins of a panel and an icon."""
+"""Width that a line of text does not have, at 100 %: tabs, the margins of a panel and an icon."""
 
-
-RELATIVE_PATHS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
-"""Options of properties for paths that may be relative to the saved file."""
+_RELATIVE_PATHS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
 
 
 class SidebarPanel:
@@ -24,13 +24,18 @@ class SidebarPanel:
 
 
 def letters_of(context: bpy.types.Context) -> int:
-    """Letters that fit into a line of the sidebar."""
+    """Return how many letters fit into a line of the sidebar."""
     width = context.region.width / context.preferences.system.ui_scale
     return max(int((width - _EDGES_PX) / _LETTER_PX), 10)
 
 
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "ERROR") -> None:
-    """A sentence on as many lines as it needs, as Blender cuts off what is wider than the sidebar."""
+    """Draw a sentence on as many lines as it needs, as Blender cuts off what is wider than the sidebar."""
     column = layout.column(align=True)
     for number, line in enumerate(textwrap.wrap(text, letters_of(context))):
         column.label(text=line, icon="BLANK1" if number else icon)
+
+
+def path_property(name: str, description: str, subtype: str = "FILE_PATH") -> Any:
+    """Return a property for a path, which may be relative to the saved file."""
+    return StringProperty(name=name, description=description, subtype=subtype, options=_RELATIVE_PATHS)

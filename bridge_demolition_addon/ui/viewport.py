@@ -1,4 +1,4 @@
-"""What is selected, and where the 3D view looks."""
+"""Selecting objects, and what the 3D view looks at."""
 
 from collections.abc import Iterable
 
@@ -18,14 +18,14 @@ def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object])
 
 
 def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> None:
-    """Let the 3D view that the mouse is in show what is selected beside the sidebar, where the mouse is in one.
+    """Make the 3D view that the mouse is in, if any, show what is selected, beside the sidebar.
 
     Parameters
     ----------
-    context
-        With the 3D view as its area.
-    surroundings
-        How many times as far as is needed to look from.
+    context : bpy.types.Context
+        Its area is the 3D view.
+    surroundings : float
+        How many times as far away as needed to look from.
     """
     if not context.area or context.area.type != "VIEW_3D":
         return
@@ -42,7 +42,7 @@ def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> N
 
 
 def covered_px(context: bpy.types.Context, kind: str) -> float:
-    """Width of a region of the 3D view that lies over the view itself, px."""
+    """Return the width of a region that covers a part of the 3D view, px."""
     region = next((each for each in context.area.regions if each.type == kind), None)
     covers = region and context.preferences.system.use_region_overlap and region.width > 1
     return float(region.width) if covers else 0.0

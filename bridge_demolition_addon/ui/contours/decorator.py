@@ -1,6 +1,6 @@
-"""Drawn over the 3D view: colour bar, force vectors, charges and their stand-off rings.
+"""Drawing over the 3D view: colour bar, force vectors, charges and their stand-off rings.
 
-Nothing here changes any data, and nothing raises: what cannot be drawn is told in the sidebar.
+Nothing here changes any data, and nothing raises: the sidebar says what cannot be drawn.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ def register() -> None:
     """Draw from now on; what is drawn depends on the settings."""
     space = bpy.types.SpaceView3D
     for name, draw, when in (("view", _draw_in_space, "POST_VIEW"), ("pixels", _draw_on_screen, "POST_PIXEL")):
-        _draw_handles.append(space.draw_handler_add(_kept_from_raising(name, draw), (), "WINDOW", when))
+        _draw_handles.append(space.draw_handler_add(_without_raising(name, draw), (), "WINDOW", when))
 
 
 def unregister() -> None:
-    """Draw no more."""
+    """Stop drawing."""
     while _draw_handles:
         bpy.types.SpaceView3D.draw_handler_remove(_draw_handles.pop(), "WINDOW")
     _trouble.clear()
@@ -68,12 +68,12 @@ def unregister() -> None:
 
 
 def trouble() -> str:
-    """Why something could not be drawn the last time; empty where everything was."""
+    """Return why something could not be drawn the last time; empty where everything was."""
     return next(iter(_trouble.values()), "")
 
 
 def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
-    """Lines of the arrows (6 k, 3), m, for each kind of force that is to be shown."""
+    """Return the lines of the arrows, (6 k, 3) float, m, for each kind of force that is shown."""
     settings, series = scene.bda, contours.series_of(scene)
     row = series.row_at(scene.frame_current) if series else None
     if not settings.show_vectors or row is None:
@@ -98,7 +98,7 @@ def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
 
 
 def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
-    """For each charge whose damage reaches the ground, its ring as lines (2 p, 3) in m at height 0, and its radius."""
+    """Return a ring at height 0 as lines (2 p, 3) float, m, and its radius for each charge whose damage gets there."""
     charges, number = charges_of(scene), int(scene.bda.ring_damage)
     key = (charges, number)
     if key not in _rings:
@@ -114,12 +114,12 @@ def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
     return rings
 
 
-def _kept_from_raising(name: str, draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
+def _without_raising(name: str, draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
     def guarded() -> None:
         try:
             draw(bpy.context)
             _trouble.pop(name, None)
-        except Exception as error:  # would go to the console with every redraw: the sidebar tells it
+        except Exception as error:  # the sidebar shows it; the console would get it with every redraw
             _trouble[name] = str(error)
 
     return guarded
@@ -266,7 +266,7 @@ def _write(context: bpy.types.Context, x: float, y: float, text: str) -> None:
 
 
 def _write_at(context: bpy.types.Context, place_m: tuple, text: str, dot: bool = False) -> None:
-    """Text beside a place in space, on a ground of its own, so that it is seen before any colour."""
+    """Write a text beside a place in space, on a dark ground so that it is seen before any colour."""
     where = location_3d_to_region_2d(context.region, context.region_data, place_m)
     if where is None:
         return
@@ -286,10 +286,10 @@ def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tup
 
 
 def _tools_width(context: bpy.types.Context) -> float:
-    """How much of the view's left the toolbar covers, px."""
+    """Return how much of the view's left the toolbar covers, px."""
     return covered_px(context, "TOOLS")
 
 
 def _right_end(context: bpy.types.Context) -> float:
-    """Where the sidebar begins to cover the view, px."""
+    """Return where the sidebar begins to cover the view, px."""
     return context.region.width - covered_px(context, "UI")

@@ -1,13 +1,13 @@
 """Settings of contours, vectors and films, kept in the scene as part of ``scene.bda``."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ...core.blast.damage import THRESHOLDS
 from ...core.display.colour_scale import ColourMap
 from ...core.display.contours import TITLES, Quantity, RangeKind
 from ...simulation.display.film import FilmKind
-from ..sidebar import RELATIVE_PATHS
+from ..sidebar import path_property
 from . import view as contour_view
 
 _QUANTITIES = (
@@ -25,7 +25,7 @@ _RANGES = (
 _MAPS = (
     (ColourMap.BLUE_TO_RED.name, "2019", "Blue for low, over green, to red for high"),
     (ColourMap.VIRIDIS.name, "Viridis", "Even to the eye, from violet over green to yellow"),
-    (ColourMap.CIVIDIS.name, "Cividis", "Even to the eye, also for those that take red for green"),
+    (ColourMap.CIVIDIS.name, "Cividis", "Even to the eye, also for colour-blind people"),
     (ColourMap.INFERNO.name, "Inferno", "Even to the eye, from black over red to yellow"),
 )
 _VECTORS = (
@@ -52,7 +52,7 @@ def _redraw(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> 
 
 
 class ContourProperties:
-    """What contours, vectors and films are like; a part of the scene's settings."""
+    """The part of the scene's settings on contours, vectors and films."""
 
     contours: BoolProperty(
         name="Contours",
@@ -94,12 +94,7 @@ class ContourProperties:
     colour_bar: BoolProperty(
         name="Colour Bar", description="Show the colour bar in the 3D view", default=True, update=_redraw
     )
-    results_path: StringProperty(
-        name="Kept Results",
-        description="File results.npz of an earlier recording of this scene",
-        subtype="FILE_PATH",
-        options=RELATIVE_PATHS,
-    )
+    results_path: path_property("Kept Results", "File results.npz of an earlier recording of this scene")
     show_vectors: BoolProperty(
         name="Force Vectors", description="Show forces as arrows in the 3D view", default=False, update=_redraw
     )
@@ -131,12 +126,7 @@ class ContourProperties:
     ring_damage: EnumProperty(
         name="Damage", description="What the rings stand for", items=_DAMAGES, default="1", update=_redraw
     )
-    film_directory: StringProperty(
-        name="Film",
-        description="Folder for the pictures or the film; it is made if new",
-        subtype="DIR_PATH",
-        options=RELATIVE_PATHS,
-    )
+    film_directory: path_property("Film", "Folder for the pictures or the film; it is made if new", "DIR_PATH")
     film_kind: EnumProperty(name="Make", description="What is rendered", items=_KINDS)
     film_slowness: FloatProperty(
         name="Slower By",

@@ -12,11 +12,11 @@ from ...simulation.display import contours
 _COLOURS_BEFORE = "bda_colours_before"
 
 _refusals: dict[int, str] = {}
-"""By scenes, why their settings cannot be shown."""
+"""Why settings cannot be shown, by scenes."""
 
 
 def settings_of(scene: bpy.types.Scene) -> ContourSettings:
-    """What the sidebar's settings ask for.
+    """Return what the sidebar's settings ask for.
 
     Raises
     ------
@@ -54,19 +54,19 @@ def follow(scene: bpy.types.Scene) -> None:
 
 
 def trouble(scene: bpy.types.Scene) -> str:
-    """Why contours cannot be shown as they are asked for; empty where they can."""
+    """Return why contours cannot be shown as asked for; empty where they can."""
     error = contours.error_of(scene)
     return _refusals.get(scene.session_uid) or (str(error) if error else "")
 
 
 def follow_later(scene: bpy.types.Scene) -> None:
-    """Have undone, redone or loaded settings followed, as soon as Blender has drawn what it is drawing now."""
+    """Follow settings that were undone, redone or loaded, once Blender has finished its present drawing."""
     if scene.bda.contours != contours.is_shown(scene) and scene.session_uid not in _refusals:
         _schedule()
 
 
 def redraw() -> None:
-    """Draw the 3D views anew."""
+    """Redraw the 3D views."""
     for area in _views(None):
         area.tag_redraw()
 
@@ -99,7 +99,7 @@ def _follow_all() -> None:
 
 
 def _show_colours_in_views(scene: bpy.types.Scene) -> None:
-    """Let solid 3D views show the objects' colours, without light; each keeps in its screen how it was."""
+    """Make solid 3D views show the objects' colours, without light; each screen keeps what was set before."""
     for area in _views(scene):
         screen, number = area.id_data, str(list(area.id_data.areas).index(area))
         before = screen.get(_COLOURS_BEFORE, {})
@@ -124,7 +124,7 @@ def _show_materials_in_views(scene: bpy.types.Scene) -> None:
 
 
 def _views(scene: bpy.types.Scene | None) -> Iterator[bpy.types.Area]:
-    """The 3D views that show a scene, or any for None."""
+    """Return the 3D views that show a scene, or all of them for None."""
     for manager in bpy.data.window_managers:
         for window in manager.windows:
             if scene is None or window.scene == scene:

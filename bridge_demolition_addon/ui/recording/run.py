@@ -22,7 +22,7 @@ _LOOKING_ROUND = {
     "WHEELDOWNMOUSE",
     "WINDOW_DEACTIVATE",
 }
-"""Events that Blender gets as ever; all others would change what is simulated, or undo it."""
+"""Events that Blender still gets during a run; all others would change what is simulated, or undo it."""
 
 _SLOW_FRAME_S = 0.5
 
@@ -154,7 +154,7 @@ CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
 
 
 def progress_text(playing: Playing) -> str:
-    """How far a run is, for the status bar."""
+    """Return how far a run is, for the status bar."""
     left = round(playing.remaining_s)
     parts = [
         f"Running: {playing.done} of {playing.total} frames",

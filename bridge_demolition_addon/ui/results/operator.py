@@ -124,7 +124,7 @@ class BDA_OT_make_report(Refusing, bpy.types.Operator):
 
 
 class _CursorProgress:
-    """How far a report is, at the mouse."""
+    """Shows how far a report is, at the mouse."""
 
     def __init__(self, manager: bpy.types.WindowManager):
         self._manager = manager
@@ -138,7 +138,7 @@ class _CursorProgress:
         self._manager.progress_update(done / total)
 
     def finish(self) -> None:
-        """Give the mouse back."""
+        """Show the usual mouse again."""
         self._manager.progress_end()
 
 

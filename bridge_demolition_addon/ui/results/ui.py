@@ -33,7 +33,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         row.operator("bda.draw_charts")
 
     def _draw_place(self, label: str, found: dict[str, Any] | None, last_frame: int | None) -> None:
-        """A largest value, with a button that leads to where and when it was."""
+        """Draw a largest value, with a button that leads to where and when it was."""
         if found is None:
             return
         value = f"{found['force_N'] / _N_PER_KN:,.0f} kN" if "force_N" in found else f"{found['throw_m']:.2f} m"
@@ -58,7 +58,7 @@ CLASSES = (BDA_PT_results, BDA_PT_report)
 
 
 def lines_of(summary: dict[str, Any]) -> list[str]:
-    """The totals of a summary, each in a few words."""
+    """Return the totals of a summary, each in a few words."""
     connections = summary["connections"]
     return [
         f"Total mass: {summary['mass_kg']['shard']:,.0f} kg".replace(",", " "),

@@ -22,7 +22,7 @@ class _ListOperator:
     def _list(
         self, context: bpy.types.Context
     ) -> tuple[bpy.types.PropertyGroup, str, bpy.types.bpy_prop_collection] | None:
-        """The group that holds the list, the list's name, and the list; None, and a message, where there is none."""
+        """Return the group that holds the list, the list's name and the list; report an error where there is none."""
         owner, _, name = self.path.rpartition(".")
         try:
             group = context.scene.path_resolve(owner)
@@ -89,10 +89,10 @@ class BDA_OT_move_table(_ListOperator, bpy.types.Operator):
 
 
 class BDA_UL_tables(bpy.types.UIList):
-    """Tables of one kind, each by the first of its keys."""
+    """Tables of one kind, each shown by its first value."""
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index) -> None:
-        """One row: its number and what tells it from others."""
+        """Draw a row: its number and its first value."""
         layout.label(text=f"{index + 1}  {_summary(item)}")
 
 
@@ -100,7 +100,7 @@ CLASSES = (BDA_OT_add_table, BDA_OT_remove_table, BDA_OT_move_table, BDA_UL_tabl
 
 
 def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: Field) -> None:
-    """The list of a field with its buttons."""
+    """Draw the list of a field with its buttons."""
     path = group.path_from_id(item.name)
     row = layout.row()
     row.template_list(LIST, path, group, item.name, group, item.name + INDEX, rows=3)
@@ -113,7 +113,7 @@ def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: 
 
 
 def _summary(group: bpy.types.PropertyGroup) -> str:
-    """The first value of a table, in words."""
+    """Return the first value of a table, in words."""
     table_class = next(each for each in all_tables() if group_name(each) == type(group).__name__)
     for item in key_fields(table_class):
         if is_optional(item) and not getattr(group, USE + item.name):

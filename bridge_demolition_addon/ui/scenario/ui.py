@@ -30,7 +30,7 @@ _PARENTS = {
     "exclusion": "BDA_PT_results",
     "neighbours": "BDA_PT_results",
 }
-"""Panels that other tables stand in; any that is not named here is a part of the sequence."""
+"""Panels that other tables stand in; those not named here belong to the sequence."""
 
 _BUTTONS = {"geometry": "bda.add_selected_members", "fracture": "bda.use_paint"}
 """Operators that fill in a table of a scenario."""
@@ -44,7 +44,7 @@ _PANEL = "BDA_PT_"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """How a key is drawn: its names, and whether it has a check box, several numbers, or a label of its own half."""
+    """How a key is drawn: its name and label, and whether it has a check box or several numbers."""
 
     name: str
     label: str
@@ -83,7 +83,7 @@ class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """All of it is in the panels within."""
+        """Draw nothing: its sub-panels have everything."""
 
 
 class _TablePanel(SidebarPanel):
@@ -117,7 +117,7 @@ class _TablePanel(SidebarPanel):
 def draw_keys(
     layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, table_class: type[Table]
 ) -> None:
-    """The keys of a table, each on a line, or on two where its label is long."""
+    """Draw the keys of a table, each on a line, or on two where its label is long."""
     letters = letters_of(context)
     column = layout.column()
     for row in rows_of(table_class):
@@ -127,7 +127,7 @@ def draw_keys(
 def draw_tables(
     layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, item: Field
 ) -> None:
-    """A list of tables, and below it the keys and tables of the one that is chosen."""
+    """Draw a list of tables, and below it the keys and tables of the chosen one."""
     draw_list(layout, group, item)
     tables, index = getattr(group, item.name), getattr(group, item.name + INDEX)
     if index >= len(tables):
@@ -145,7 +145,7 @@ def draw_tables(
 
 @cache
 def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
-    """How the keys of a table are drawn, in their order."""
+    """Return how the keys of a table are drawn, in their order."""
     return tuple(
         Row(
             name=item.name,
@@ -161,14 +161,14 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
 
 
 def panels() -> tuple[type[bpy.types.Panel], ...]:
-    """The panel of the scenario and those of its main tables, in the order of the work."""
+    """Return the panel of the scenario and those of its main tables, in the order of the work."""
     fields = {item.name: item for item in shown_tables(Scenario)}
     main = [_panel(fields[name], (), None, label) for name, label in _MAIN.items()]
     return (BDA_PT_scenario, *main, BDA_PT_sequence)
 
 
 def inner_panels() -> tuple[type[bpy.types.Panel], ...]:
-    """The panels of all other tables, to be registered after those that they stand in."""
+    """Return the panels of all other tables, to be registered after those that they stand in."""
     found: list[type[bpy.types.Panel]] = []
     for item in shown_tables(Scenario):
         if item.name in _MAIN:
@@ -180,7 +180,7 @@ def inner_panels() -> tuple[type[bpy.types.Panel], ...]:
 
 
 def _inner(item: Field, names: tuple[str, ...], parent: str) -> Iterator[type[bpy.types.Panel]]:
-    """Panels of the tables in a table; those in a list of tables are drawn with it."""
+    """Return panels of the tables in a table; those in a list of tables are drawn with it."""
     if holds_many(item):
         return
     table_class = subtable_class(item)

@@ -15,7 +15,7 @@ from ...core.errors import DemolitionError, GeometryError, OutputError
 from ...core.fracture.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
 from ..operators import FileWriter, Refusing, absolute, refused
-from ..sidebar import RELATIVE_PATHS
+from ..sidebar import path_property
 
 _CONCRETE_KG_M3 = 2400.0
 _MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
@@ -28,9 +28,7 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
     bl_label = "Add Selected Meshes"
     bl_options = {"REGISTER", "UNDO"}
 
-    directory: StringProperty(
-        name="Folder", description="Folder that the meshes are written to", subtype="DIR_PATH", options=RELATIVE_PATHS
-    )
+    directory: path_property("Folder", "Folder that the meshes are written to", "DIR_PATH")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
     density_kg_m3: FloatProperty(
         name="Density", description="Density of all of them, kg/m³", default=_CONCRETE_KG_M3, min=1e-3
@@ -115,7 +113,7 @@ CLASSES = (BDA_OT_add_selected_members, BDA_OT_use_paint)
 
 
 def _new_files(folder: Path, names: list[str], ours: set[Path]) -> dict[str, Path]:
-    """A file for each name; none that is there already but for those that the scenario has from here."""
+    """Return a file for each name; a file that is there already has to be one of the scenario's own."""
     files = {name: folder / (_file_name(name) + _MESH_SUFFIX) for name in names}
     if len(set(files.values())) < len(files):
         raise OutputError("two of the objects would have the same file name: rename one of them")

@@ -1,4 +1,4 @@
-"""Between the sidebar's properties and a scenario: nothing is lost on the way there and back.
+"""A scenario from the sidebar's properties, and back, without loss.
 
 Blender's numbers have single precision. A number that the user did not touch is the one that was loaded; any other is
 the shortest decimal that single precision takes for it, which is what the user typed.
@@ -39,7 +39,7 @@ _ROUNDING = 1e-14
 
 
 def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
-    """The scenario that the sidebar shows, with the charges of its scene.
+    """Return the scenario that the sidebar shows, with the charges of its scene.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
 
 
 def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others: Any) -> Table:
-    """The table that a property group shows, with other values that it does not.
+    """Return the table that a property group shows; values that it does not show are given.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def reset(group: bpy.types.PropertyGroup) -> None:
 
 
 def shortest(number: float) -> float:
-    """The shortest decimal that single precision takes for this number."""
+    """Return the shortest decimal that single precision takes for this number."""
     return float(str(np.float32(number)))
 
 
@@ -143,7 +143,7 @@ def _number(value: float, given: float | None) -> float:
 
 
 def _list_of(text: str, name: str, item: Field) -> list:
-    """A list as it is written in TOML; brackets around it may be left out."""
+    """Return a list from TOML; brackets around it may be left out."""
     for written in (text, f"[{text}]"):
         try:
             document = tomllib.loads(f"list = {written}")
