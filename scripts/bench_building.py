@@ -18,7 +18,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.geometry.mesh import Shard
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.mechanics.joint import Joint
 from bridge_demolition_addon.core.scenario import Ground, ShardSettings, TimeSettings
@@ -68,10 +68,9 @@ def table(measured: dict[str, float]) -> str:
     return "\n".join(lines)
 
 
-def _structure(count: int, connection_count: int) -> tuple[list[Shard], Connections]:
+def _structure(count: int, connection_count: int) -> tuple[list[TriangleMesh], Connections]:
     """Cubes in a row, each connected with the next ones."""
-    cube = box((0.9, 0.9, 0.9))
-    shards = [Shard(np.array(cube.vertices), np.array(cube.faces, np.int32))] * count
+    shards = [box((0.9, 0.9, 0.9))] * count
     first = np.arange(connection_count) % count
     pairs = np.column_stack((first, (first + 1 + np.arange(connection_count) // count) % count))
     normals = np.tile([1.0, 0.0, 0.0], (connection_count, 1))
@@ -82,7 +81,7 @@ def _places(count: int) -> np.ndarray:
     return np.column_stack((np.arange(count, dtype=float), np.zeros(count), np.full(count, 5.0)))
 
 
-def _seconds(way: Callable, shards: list[Shard], connections: Connections) -> tuple[float, float]:
+def _seconds(way: Callable, shards: list[TriangleMesh], connections: Connections) -> tuple[float, float]:
     """Time for building, and for Blender's first evaluation after it."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -95,7 +94,9 @@ def _seconds(way: Callable, shards: list[Shard], connections: Connections) -> tu
     return built - began, time.perf_counter() - built
 
 
-def _ours(scene: bpy.types.Scene, ground: bpy.types.Object, shards: list[Shard], connections: Connections) -> None:
+def _ours(
+    scene: bpy.types.Scene, ground: bpy.types.Object, shards: list[TriangleMesh], connections: Connections
+) -> None:
     places, masses = _places(len(shards)), np.full(len(shards), 100.0)
     joints, moments = [Joint("FIXED", breaking_force_n=BREAKING_FORCE_N)], np.tile(np.eye(2), (len(connections), 1, 1))
     with off_scene(scene) as (bodies, constraints):
@@ -104,7 +105,9 @@ def _ours(scene: bpy.types.Scene, ground: bpy.types.Object, shards: list[Shard],
         set_joints(held, joints, np.zeros(len(held), int), TIME.step)
 
 
-def _plain(scene: bpy.types.Scene, _ground: bpy.types.Object, shards: list[Shard], connections: Connections) -> None:
+def _plain(
+    scene: bpy.types.Scene, _ground: bpy.types.Object, shards: list[TriangleMesh], connections: Connections
+) -> None:
     world = scene.rigidbody_world
     body_template = bpy.data.objects.new("Shard", bpy.data.meshes.new("Shard"))
     world.collection.objects.link(body_template)

@@ -33,7 +33,7 @@ class Blocks:
         """A block; without a mass it never moves."""
         name = f"Block {len(self.world.collection.objects)}"
         mesh, solid = bpy.data.meshes.new(name), box(size_m, (0, 0, 0))
-        mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
+        mesh.from_pydata(solid.vertices, [], solid.triangles.tolist())
         body = bpy.data.objects.new(name, mesh)
         body.location = place
         self.world.collection.objects.link(body)

@@ -12,7 +12,7 @@ import numpy as np
 from manifold3d import CrossSection
 from pymap3d import enu2geodetic
 
-from ..core.results.footprint import outlines
+from ..core.geometry.plan_areas import outlines, signed_area
 from ..core.scenario import Site
 
 _CLOSED = 1
@@ -79,11 +79,6 @@ def _polygons(area: CrossSection, site: Site) -> list[Any]:
     """Return the coordinates of every separate part: its outline, then its holes."""
     parts = []
     for part in () if area.is_empty() else area.decompose():  # nothing would decompose into an empty part
-        rings = sorted(outlines(part), key=lambda ring: -_signed_area(ring))
+        rings = sorted(outlines(part), key=lambda ring: -signed_area(ring))
         parts.append([degrees(np.vstack([ring, ring[:1]]), site).round(8).tolist() for ring in rings])
     return parts
-
-
-def _signed_area(ring: np.ndarray) -> float:
-    after = np.roll(ring, -1, axis=0)
-    return float(np.sum(ring[:, 0] * after[:, 1] - after[:, 0] * ring[:, 1])) / 2.0

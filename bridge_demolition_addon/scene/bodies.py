@@ -7,9 +7,8 @@ from enum import StrEnum
 
 import bpy
 import numpy as np
-import trimesh
 
-from ..core.geometry.mesh import Shard
+from ..core.geometry.mesh import TriangleMesh
 from ..core.geometry.solids import box
 from ..core.scenario import Ground, ShardSettings
 from .naming import make_named, numbered_names
@@ -61,31 +60,26 @@ def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]
 
 
-def triangulated(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
-    """Return vertices (v, 3) float of a body's mesh, scaled as the body is, and its triangles (t, 3) int."""
-    vertices, triangles = mesh_arrays(body.data)
-    return vertices * np.array(body.matrix_world.to_scale()), triangles
+def scaled_mesh(body: bpy.types.Object) -> TriangleMesh:
+    """Return the triangles of a body's mesh, scaled as the body is, from its origin, which Bullet takes for its centre."""
+    mesh = triangle_mesh(body.data)
+    return TriangleMesh(mesh.vertices * np.array(body.matrix_world.to_scale()), mesh.triangles)
 
 
-def mesh_arrays(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Return vertices (v, 3) float of a mesh in its own axes, and its triangles (t, 3) int."""
+def triangle_mesh(mesh: bpy.types.Mesh) -> TriangleMesh:
+    """Return the triangles of a mesh, in its own axes."""
     mesh.calc_loop_triangles()
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
     mesh.vertices.foreach_get("co", vertices)
     mesh.loop_triangles.foreach_get("vertices", triangles)
-    return vertices.reshape(-1, 3).astype(float), triangles.reshape(-1, 3)
-
-
-def hull_points(body: bpy.types.Object) -> np.ndarray:
-    """Return vertices (v, 3) float of a body's mesh, scaled, from its origin, which is the body's centre for Bullet."""
-    return triangulated(body)[0]
+    return TriangleMesh(vertices.reshape(-1, 3).astype(float), triangles.reshape(-1, 3))
 
 
 def create_shards(
     collection: bpy.types.Collection,
     settings: ShardSettings,
-    shards: Sequence[Shard],
+    shards: Sequence[TriangleMesh],
     centres_m: np.ndarray,
     masses_kg: np.ndarray,
 ) -> list[bpy.types.Object]:
@@ -156,8 +150,8 @@ def set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution: 
     rigid.use_margin, rigid.collision_margin = True, margin_m
 
 
-def mesh_of(name: str, solid: trimesh.Trimesh) -> bpy.types.Mesh:
+def mesh_of(name: str, solid: TriangleMesh) -> bpy.types.Mesh:
     """Make a mesh of a solid."""
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
+    mesh.from_pydata(solid.vertices, [], solid.triangles.tolist())
     return mesh

@@ -8,9 +8,9 @@ import bpy
 import numpy as np
 
 from ..core.errors import SimulationError
-from ..core.geometry.solids import volumes_and_centres
+from ..core.geometry.mesh import TriangleMesh, volumes_and_centres
 from ..core.results.inventory import Inventory
-from .bodies import kind_of, member_of, triangulated
+from .bodies import kind_of, member_of, scaled_mesh
 from .connections.constraints import sections_of
 
 
@@ -25,7 +25,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
     moves = np.array([body.rigid_body.type == "ACTIVE" for body in bodies], bool)
     pairs = _pairs(bodies, connections)
     areas, normals, second_moments = sections_of(connections)
-    meshes = [triangulated(body) for body in bodies]
+    meshes = [scaled_mesh(body) for body in bodies]
     members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
     return Inventory(
         body_names=np.array([body.name for body in bodies]),
@@ -34,8 +34,8 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         volumes_m3=np.where(moves, _volumes(meshes), 0.0),
         body_members=members[:, 0],
         body_member_kinds=members[:, 1],
-        vertices_m=np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in meshes)]),
-        vertex_counts=np.array([len(vertices) for vertices, _ in meshes], int),
+        vertices_m=np.concatenate([np.zeros((0, 3)), *(mesh.vertices for mesh in meshes)]),
+        vertex_counts=np.array([len(mesh.vertices) for mesh in meshes], int),
         connection_names=np.array([connection.name for connection in connections]),
         pairs=pairs,
         points_m=np.array([each.matrix_world.translation for each in connections]).reshape(-1, 3),
@@ -58,8 +58,8 @@ def _pairs(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.O
     return np.array(pairs, int).reshape(-1, 2)
 
 
-def _volumes(meshes: Sequence[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
-    solid = [row for row, (_, triangles) in enumerate(meshes) if len(triangles)]
+def _volumes(meshes: Sequence[TriangleMesh]) -> np.ndarray:
+    solid = [row for row, mesh in enumerate(meshes) if len(mesh.triangles)]
     volumes = np.zeros(len(meshes))
-    volumes[solid] = abs(volumes_and_centres([meshes[row][0] for row in solid], [meshes[row][1] for row in solid])[0])
+    volumes[solid] = abs(volumes_and_centres([meshes[row] for row in solid])[0])
     return volumes

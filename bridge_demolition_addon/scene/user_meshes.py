@@ -6,9 +6,10 @@ import bpy
 import numpy as np
 
 from ..core.errors import GeometryError
+from ..core.geometry.mesh import TriangleMesh
 from ..core.geometry.repair import Repaired, repaired_solid
-from ..core.geometry.solids import mesh_of
-from .bodies import mesh_arrays
+from ..core.geometry.vectors import transformed
+from .bodies import triangle_mesh
 
 
 def solid_of_object(body: bpy.types.Object) -> Repaired:
@@ -23,7 +24,7 @@ def solid_of_object(body: bpy.types.Object) -> Repaired:
         It is not a mesh, or not a solid and cannot be made one; the text begins with its name.
     """
     _check_is_mesh(body, "convert it, or leave it out")
-    return repaired_solid(mesh_of(*_triangles_in_world(body)), body.name)
+    return repaired_solid(_mesh_in_world(body), body.name)
 
 
 def painted_points(body: bpy.types.Object, group: str) -> tuple[np.ndarray, np.ndarray]:
@@ -49,7 +50,7 @@ def painted_points(body: bpy.types.Object, group: str) -> tuple[np.ndarray, np.n
         known = ", ".join(each.name for each in body.vertex_groups) or "none"
         raise GeometryError(f"{body.name}: has no vertex group {group!r}; paint one, or choose from: {known}.")
     weights = np.array([_weight(vertex, index) for vertex in body.data.vertices])
-    return _in_world(body, mesh_arrays(body.data)[0]), weights
+    return _in_world(body, triangle_mesh(body.data).vertices), weights
 
 
 def _check_is_mesh(body: bpy.types.Object, advice: str) -> None:
@@ -57,23 +58,22 @@ def _check_is_mesh(body: bpy.types.Object, advice: str) -> None:
         raise GeometryError(f"{body.name}: is of type {body.type}, not a mesh; {advice}.")
 
 
-def _triangles_in_world(body: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
-    """Return vertices (v, 3) in m in the world's axes, and triangles (t, 3), of an object with its modifiers."""
+def _mesh_in_world(body: bpy.types.Object) -> TriangleMesh:
+    """Return the triangles of an object with its modifiers, in the world's axes."""
     evaluated = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
     try:
-        vertices, triangles = mesh_arrays(evaluated.to_mesh())
+        mesh = triangle_mesh(evaluated.to_mesh())
     finally:
         evaluated.to_mesh_clear()
+    seen = TriangleMesh(_in_world(evaluated, mesh.vertices), mesh.triangles)
     # A mirrored object shows its faces the other way round.
-    if evaluated.matrix_world.determinant() < 0.0:
-        triangles = triangles[:, ::-1]
-    return _in_world(evaluated, vertices), triangles
+    return seen.flipped() if evaluated.matrix_world.determinant() < 0.0 else seen
 
 
 def _in_world(body: bpy.types.Object, vertices: np.ndarray) -> np.ndarray:
     """Return vertices (v, 3) of an object, from its own axes to the world's, m."""
     matrix = np.array(body.matrix_world, dtype=float)
-    return vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    return transformed(matrix[:3, :3], vertices) + matrix[:3, 3]
 
 
 def _weight(vertex: bpy.types.MeshVertex, group: int) -> float:

@@ -102,7 +102,7 @@ def test_names_and_kinds(blocks):
     assert inventory.body_names.tolist() == ["Pier, left", "Brücke", "Ground", "Wrecking ball"]
     assert inventory.body_kinds.tolist() == ["ground", "shard", "ground", "ball"]
     assert inventory.masses_kg.tolist() == [0, 10, 0, 500]
-    # The facets of a sphere of 32 by 64 lie within it and leave 0.3 % of its volume out.
+    # The facets of a sphere of 88 around lie within it and leave 0.3 % of its volume out.
     assert inventory.volumes_m3[3] == pytest.approx(np.pi / 6, rel=5e-3)
     assert inventory.volumes_m3[3] < np.pi / 6
 

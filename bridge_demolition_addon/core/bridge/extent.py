@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from ..errors import GeometryError
+from ..geometry.vectors import cross_2d, length
 from ..scenario import Scenario
 from . import deck_top
 from .member import Member
@@ -30,14 +30,14 @@ def ground_half_size(members: Sequence[Member], clear_height_m: float) -> float:
 
     Parameters
     ----------
-    members
+    members : sequence of Member
         What stands on the ground.
-    clear_height_m
+    clear_height_m : float
         How high above it a ball hangs, m; 0 without one.
     """
     lower, upper = extent(members)
-    farthest = float(np.hypot(*np.maximum(abs(lower[:2]), abs(upper[:2]))))
-    across = math.hypot(*(upper - lower)[:2])
+    farthest = float(length(np.maximum(abs(lower[:2]), abs(upper[:2]))))
+    across = float(length((upper - lower)[:2]))
     return max(across, farthest) + _DEBRIS_ROOM * (float(upper[2]) + clear_height_m)
 
 
@@ -46,11 +46,11 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
 
     Parameters
     ----------
-    scenario
+    scenario : Scenario
         Of a bridge alone the deck's top is taken, which joints do not interrupt.
-    members
+    members : sequence of Member
         All members of the scenario.
-    place_m
+    place_m : (2,) float
         Along the road, and across it.
 
     Raises
@@ -60,7 +60,7 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
     """
     if scenario.bridge and not scenario.geometry:
         return deck_top(scenario.bridge)
-    corners = np.concatenate([np.asarray(each.solid.vertices)[np.asarray(each.solid.faces)] for each in members])
+    corners = np.concatenate([each.solid.corners for each in members])
     heights = _heights_above(corners, np.asarray(place_m, dtype=float))
     if not len(heights):
         raise GeometryError(
@@ -73,11 +73,10 @@ def _heights_above(corners: np.ndarray, place: np.ndarray) -> np.ndarray:
     """Heights of the triangles (t, 3, 3) that lie over or under a place (2,)."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin
-    area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    area = cross_2d(first, second)
     lies = np.abs(area) > 0.0
     origin, first, second, area = origin[lies], first[lies], second[lies], area[lies]
     offset = place - origin[:, :2]
-    u = (offset[:, 0] * second[:, 1] - offset[:, 1] * second[:, 0]) / area
-    v = (first[:, 0] * offset[:, 1] - first[:, 1] * offset[:, 0]) / area
+    u, v = cross_2d(offset, second) / area, cross_2d(first, offset) / area
     inside = (u >= -_ON_EDGE) & (v >= -_ON_EDGE) & (u + v <= 1.0 + _ON_EDGE)
     return (origin[:, 2] + u * first[:, 2] + v * second[:, 2])[inside]

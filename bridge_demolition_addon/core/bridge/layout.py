@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-import trimesh
 
-from ..geometry.solids import mesh_of
+from ..geometry.mesh import TriangleMesh
+from ..geometry.rotations import rotation_about_z
+from ..geometry.vectors import transformed
 from ..scenario import Bridge
 
 
@@ -56,21 +58,21 @@ def deck_outline(bridge: Bridge) -> np.ndarray:
     return corners
 
 
-def skewed(bridge: Bridge, solid: trimesh.Trimesh) -> trimesh.Trimesh:
+def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
     """A solid sheared along the road as the skew asks for; its volume and its sections along the road stay the same."""
     if bridge.skew_deg == 0.0:
         return solid
-    vertices = np.array(solid.vertices, dtype=float)
+    vertices = solid.vertices.copy()
     vertices[:, 0] += vertices[:, 1] * bridge.shift_across
-    return mesh_of(vertices, np.asarray(solid.faces))
+    return replace(solid, vertices=vertices)
 
 
-def turned_with_axis(bridge: Bridge, solid: trimesh.Trimesh, along: float, across: float) -> trimesh.Trimesh:
+def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: float) -> TriangleMesh:
     """A solid that stands at a place on an unskewed axis, moved to the skewed axis and turned with it, in shape."""
     if bridge.skew_deg == 0.0:
         return solid
-    angle = -math.radians(bridge.skew_deg)
-    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    vertices = np.array(solid.vertices, dtype=float)
-    vertices[:, :2] = (vertices[:, :2] - (along, across)) @ turn.T + (along + across * bridge.shift_across, across)
-    return mesh_of(vertices, np.asarray(solid.faces))
+    rotation = rotation_about_z(-math.radians(bridge.skew_deg))
+    on_axis = np.array((along + across * bridge.shift_across, across))
+    vertices = solid.vertices.copy()
+    vertices[:, :2] = transformed(rotation, vertices[:, :2] - (along, across)) + on_axis
+    return replace(solid, vertices=vertices)

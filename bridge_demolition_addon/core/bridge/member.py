@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import trimesh
+from ..geometry.mesh import TriangleMesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -12,16 +12,16 @@ class Member:
 
     Attributes
     ----------
-    name
+    name : str
         What the member is called; no two of a model have the same name.
-    kind
+    kind : str
         What it is: ``deck``, ``girder``, ``pier cap``, ``pier``, ``abutment``, ``bridge`` for all of these in one, or
         whatever a user's own geometry is called.
-    solid
+    solid : TriangleMesh
         Closed, in m.
-    density_kg_m3
-        Density, kg/m³.
-    parts
+    density_kg_m3 : float, optional
+        Density, kg/m³; None as long as it is not known.
+    parts : tuple of TriangleMesh
         Convex solids that the member consists of, touching without overlap, where it is not convex itself and they are
         known. Cut within them its shards are convex. Bullet takes every shard for its convex hull, and a shard that
         is joined from pieces around a hollow reaches into its neighbours with its hull, and is thrown off them as soon
@@ -30,14 +30,14 @@ class Member:
 
     name: str
     kind: str
-    solid: trimesh.Trimesh
-    density_kg_m3: float
-    parts: tuple[trimesh.Trimesh, ...] = ()
+    solid: TriangleMesh
+    density_kg_m3: float | None = None
+    parts: tuple[TriangleMesh, ...] = ()
 
     @property
     def volume_m3(self) -> float:
         """Volume of the solid, m³."""
-        return float(self.solid.volume)
+        return self.solid.volume
 
     @property
     def mass_kg(self) -> float:

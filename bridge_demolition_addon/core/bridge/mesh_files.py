@@ -11,8 +11,11 @@ import numpy as np
 import trimesh
 
 from ..errors import GeometryError, ScenarioError
+from ..geometry.mesh import TriangleMesh
 from ..geometry.repair import repaired_solid
-from ..geometry.solids import mesh_of, union
+from ..geometry.rotations import rotation_about_z
+from ..geometry.solids import union
+from ..geometry.vectors import transformed
 from ..scenario import Geometry
 from ..scenario.geometry import MESH_FILES
 from ..schema import FARTHEST_M, SHORTEST_LENGTH_M
@@ -51,7 +54,7 @@ def geometry_members(tables: Sequence[Geometry]) -> tuple[tuple[Member, ...], tu
     return tuple(members), tuple(notes)
 
 
-def placed_mesh(table: Geometry) -> trimesh.Trimesh:
+def placed_mesh(table: Geometry) -> TriangleMesh:
     """The mesh in a file as it is, scaled, turned and moved to its place.
 
     Raises
@@ -63,18 +66,21 @@ def placed_mesh(table: Geometry) -> trimesh.Trimesh:
     """
     path = Path(table.file)
     mesh = _file_mesh(path)
-    vertices = np.asarray(mesh.vertices, dtype=float) * table.scale
+    vertices = mesh.vertices * table.scale
     up = table.up or ("y" if path.suffix.lower() == ".glb" else "z")
     if up == "y":
-        vertices = vertices @ _FROM_Y_UP.T
+        vertices = transformed(_FROM_Y_UP, vertices)
     if table.rotation_deg:
-        angle = math.radians(table.rotation_deg)
-        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        vertices[:, :2] = vertices[:, :2] @ turn.T
-    return mesh_of(vertices + np.array(table.place_m), np.asarray(mesh.faces))
+        vertices[:, :2] = transformed(rotation_about_z(math.radians(table.rotation_deg)), vertices[:, :2])
+    return TriangleMesh(vertices + np.array(table.place_m), mesh.triangles)
 
 
-def _file_mesh(path: Path) -> trimesh.Trimesh:
+def exported(mesh: TriangleMesh, suffix: str) -> bytes:
+    """The mesh as the content of a file whose name ends in that suffix, such as ``.stl``."""
+    return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(file_type=suffix[1:])
+
+
+def _file_mesh(path: Path) -> TriangleMesh:
     if path.suffix.lower() not in MESH_FILES:
         raise ScenarioError(f'geometry.file is "{path}": expected a file that ends in one of {", ".join(MESH_FILES)}')
     if not path.is_file():
@@ -85,11 +91,12 @@ def _file_mesh(path: Path) -> trimesh.Trimesh:
         raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
     if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
         raise GeometryError(f"{path}: has no faces; export a closed surface.")
-    return mesh
+    return TriangleMesh(np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int64))
 
 
-def _check_extent(mesh: trimesh.Trimesh, name: str) -> None:
-    farthest, thinnest = float(np.abs(mesh.bounds).max()), float(mesh.extents.min())
+def _check_extent(mesh: TriangleMesh, name: str) -> None:
+    lower, upper = mesh.bounds
+    farthest, thinnest = float(np.abs(mesh.bounds).max()), float((upper - lower).min())
     if farthest > FARTHEST_M:
         raise GeometryError(
             f"{name}: reaches {farthest:.4g} m from the origin; bring it within {FARTHEST_M:g} m by "
@@ -102,7 +109,7 @@ def _check_extent(mesh: trimesh.Trimesh, name: str) -> None:
         )
 
 
-def _check_above_ground(solid: trimesh.Trimesh, name: str) -> None:
+def _check_above_ground(solid: TriangleMesh, name: str) -> None:
     lowest = float(solid.bounds[0, 2])
     if lowest < -_BELOW_GROUND_M:
         raise GeometryError(
@@ -110,10 +117,10 @@ def _check_above_ground(solid: trimesh.Trimesh, name: str) -> None:
         )
 
 
-def _member(tables: Sequence[Geometry], solids: Sequence[trimesh.Trimesh]) -> Member:
+def _member(tables: Sequence[Geometry], solids: Sequence[TriangleMesh]) -> Member:
     first = tables[0]
     if len(tables) == 1:
-        density = first.density_kg_m3 or first.mass_kg / float(solids[0].volume)
+        density = first.density_kg_m3 or first.mass_kg / solids[0].volume
         return Member(first.name, first.kind, solids[0], density)
     for other in tables[1:]:
         if first.density_kg_m3 is None or (other.kind, other.density_kg_m3) != (first.kind, first.density_kg_m3):

@@ -6,14 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import trimesh
 
 from ..errors import ScenarioError
-from ..geometry.solids import mesh_of, union
+from ..geometry.mesh import TriangleMesh
+from ..geometry.solids import union
 from ..scenario import Bridge
 from .layout import deck_top, deck_underside, slab_underside
 from .member import Member
-from .shape import Shape
 from .substructure import substructure
 from .superstructure import superstructure
 
@@ -29,13 +28,12 @@ def bridge_members(bridge: Bridge) -> tuple[Member, ...]:
     ScenarioError
         Members with a density of their own weigh as much as the whole bridge, or more.
     """
-    shapes = [*superstructure(bridge), *substructure(bridge)]
+    members = [*superstructure(bridge), *substructure(bridge)]
     if bridge.merge:
-        convex = tuple(part for each in shapes for part in each.parts or (each.solid,))
-        shapes = [Shape("bridge", "bridge", _merged(bridge, [each.solid for each in shapes]), convex)]
-    unweighed = [Member(each.name, each.kind, each.solid, 0.0, each.parts) for each in shapes]
-    density = bridge_density(bridge, unweighed)
-    return tuple(replace(each, density_kg_m3=_own_density(bridge, each.kind) or density) for each in unweighed)
+        convex = tuple(part for each in members for part in each.parts or (each.solid,))
+        members = [Member("bridge", "bridge", _merged(bridge, [each.solid for each in members]), parts=convex)]
+    density = bridge_density(bridge, members)
+    return tuple(replace(each, density_kg_m3=_own_density(bridge, each.kind) or density) for each in members)
 
 
 def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
@@ -75,7 +73,7 @@ def _own_density(bridge: Bridge, kind: str) -> float | None:
     return parts[kind].density_kg_m3 if kind in parts else None
 
 
-def _merged(bridge: Bridge, solids: Sequence[trimesh.Trimesh]) -> trimesh.Trimesh:
+def _merged(bridge: Bridge, solids: Sequence[TriangleMesh]) -> TriangleMesh:
     """Solids that touch, as one; where they lie on each other their heights are made the same to the last bit."""
     base = deck_underside(bridge)
     levels = [0.0, base, slab_underside(bridge), deck_top(bridge)]
@@ -84,9 +82,9 @@ def _merged(bridge: Bridge, solids: Sequence[trimesh.Trimesh]) -> trimesh.Trimes
     return union([_on_levels(solid, np.array(levels)) for solid in solids])
 
 
-def _on_levels(solid: trimesh.Trimesh, levels: np.ndarray) -> trimesh.Trimesh:
-    vertices = np.array(solid.vertices, dtype=float)
+def _on_levels(solid: TriangleMesh, levels: np.ndarray) -> TriangleMesh:
+    vertices = solid.vertices.copy()
     apart = np.abs(vertices[:, 2:] - levels)
     nearest = levels[apart.argmin(axis=1)]
     vertices[:, 2] = np.where(apart.min(axis=1) <= _SAME_LEVEL_M, nearest, vertices[:, 2])
-    return mesh_of(vertices, np.asarray(solid.faces))
+    return replace(solid, vertices=vertices)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ..errors import ScenarioError
-from ..geometry.overlap import cut_apart
+from ..geometry.overlap import separated
 from ..scenario import Scenario
 from . import bridge_members
 from .extent import surface_height
@@ -56,7 +56,7 @@ def without_overlap(members: Sequence[Member]) -> PreparedMembers:
     for name in names:
         if names.count(name) > 1:
             raise ScenarioError(f'two members are called "{name}": expected a name of its own for each')
-    solids, removed = cut_apart([member.solid for member in members], names)
+    solids, removed = separated([member.solid for member in members], names)
     notes = [
         f"{name}: {volume:.4g} m³ cut off, as members before it take that room"
         for name, volume in zip(names, removed, strict=True)

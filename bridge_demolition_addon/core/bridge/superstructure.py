@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import trimesh
-
+from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import box, difference, union
 from ..scenario import Bridge
 from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside
-from .shape import Shape
+from .member import Member
 
 _BEYOND_M = 1.0
 """How far what is cut out of a box girder reaches beyond its ends: any length does that leaves no skin there."""
 
 
-def superstructure(bridge: Bridge) -> list[Shape]:
+def superstructure(bridge: Bridge) -> list[Member]:
     """Every deck, a box girder with its slab, and every girder."""
     ends = deck_ends(bridge)
     parts = []
@@ -23,31 +22,31 @@ def superstructure(bridge: Bridge) -> list[Shape]:
         girders = range(bridge.girders.number if bridge.girders else 0)
         for girder in girders:
             solid = skewed(bridge, _girder(bridge, begin, end, girder))
-            parts.append(Shape(f"{prefix}girder {girder + 1}", "girder", solid))
+            parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid))
     return parts
 
 
-def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Shape:
+def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Member:
     if not bridge.box_girder:
-        return Shape(name, "deck", skewed(bridge, _slab(bridge, begin, end)))
+        return Member(name, "deck", skewed(bridge, _slab(bridge, begin, end)))
     plates = (skewed(bridge, plate) for plate in _plates(bridge, begin, end))
-    return Shape(name, "deck", skewed(bridge, _box_girder(bridge, begin, end)), tuple(plates))
+    return Member(name, "deck", skewed(bridge, _box_girder(bridge, begin, end)), parts=tuple(plates))
 
 
-def _slab(bridge: Bridge, begin: float, end: float) -> trimesh.Trimesh:
+def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
     deck = bridge.deck
     middle = ((begin + end) / 2.0, 0.0, slab_underside(bridge) + deck.thickness_m / 2.0)
     return box((end - begin, deck.width_m, deck.thickness_m), middle)
 
 
-def _girder(bridge: Bridge, begin: float, end: float, girder: int) -> trimesh.Trimesh:
+def _girder(bridge: Bridge, begin: float, end: float, girder: int) -> TriangleMesh:
     girders = bridge.girders
     across = bridge.girder_spacing_m * (girder - (girders.number - 1) / 2.0)
     middle = ((begin + end) / 2.0, across, deck_underside(bridge) + girders.depth_m / 2.0)
     return box((end - begin, girders.width_m, girders.depth_m), middle)
 
 
-def _box_girder(bridge: Bridge, begin: float, end: float) -> trimesh.Trimesh:
+def _box_girder(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
     """Slab and box in one, with the cells cut out; what is united overlaps, so that no two faces coincide."""
     girder, bottom, top = bridge.box_girder, deck_underside(bridge), deck_top(bridge)
     middle, length = (begin + end) / 2.0, end - begin
@@ -64,7 +63,7 @@ def _box_girder(bridge: Bridge, begin: float, end: float) -> trimesh.Trimesh:
     return difference(union([_slab(bridge, begin, end), body]), cells)
 
 
-def _plates(bridge: Bridge, begin: float, end: float) -> list[trimesh.Trimesh]:
+def _plates(bridge: Bridge, begin: float, end: float) -> list[TriangleMesh]:
     """The slab, the webs and the bottom slab, which together are the box girder."""
     girder, bottom, ceiling = bridge.box_girder, deck_underside(bridge), slab_underside(bridge)
     middle, length, floor = (begin + end) / 2.0, end - begin, bottom + girder.bottom_thickness_m

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import GeometryError
+from ..geometry.vectors import distance
 
 _PAIRS_PER_BLOCK = 2_000_000
 """Distances computed in one go; bounds the memory."""
@@ -34,7 +35,7 @@ def density_around(places_m: np.ndarray, radii_m: Sequence[float], factors: Sequ
     radii, surplus = np.asarray(radii_m, dtype=float), np.asarray(factors, dtype=float) - 1.0
 
     def at(points: np.ndarray) -> np.ndarray:
-        distances = np.linalg.norm(points[:, None] - places[None], axis=2)
+        distances = distance(points[:, None], places)
         return 1.0 + (surplus * np.maximum(0.0, 1.0 - distances / radii)).max(axis=1, initial=0.0)
 
     return PointDensity(at, 1.0 + float(surplus.max(initial=0.0)))
@@ -87,7 +88,6 @@ def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) ->
 
 
 def _shepard(points: np.ndarray, known: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    squares = ((points[:, None] - known[None]) ** 2).sum(axis=2)
     # A place on a painted point takes its weight: the least distance keeps the division finite.
-    pull = 1.0 / np.maximum(squares, 1e-18)
-    return np.clip(pull @ weights / pull.sum(axis=1), 0.0, 1.0)
+    pull = 1.0 / np.maximum(distance(points[:, None], known), 1e-9) ** 2
+    return np.clip((pull * weights).sum(axis=1) / pull.sum(axis=1), 0.0, 1.0)

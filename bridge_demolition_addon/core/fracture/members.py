@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from trimesh import Trimesh
 
 from ..bridge.member import Member
 from ..errors import GeometryError, ScenarioError
-from ..geometry.mesh import Shard
+from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import contains
 from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
@@ -47,7 +46,7 @@ class CutMembers:
         What neighbouring shards have in common.
     """
 
-    shards: tuple[Shard, ...]
+    shards: tuple[TriangleMesh, ...]
     member_of_shard: np.ndarray
     masses_kg: np.ndarray
     centres_m: np.ndarray
@@ -100,7 +99,7 @@ def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDen
     )
 
 
-def shards_with_gaps(cut: CutMembers, members: Sequence[Member], gap_m: float) -> tuple[Shard, ...]:
+def shards_with_gaps(cut: CutMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
     """The shards with gaps between those of one member.
 
     Raises
@@ -231,12 +230,12 @@ def _counts(
     return counts
 
 
-def _amount(solid: Trimesh, density: PointDensity | None, seed: int) -> float:
+def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> float:
     """Volume of a solid, m³; where points lie closer it counts as many times."""
     if density is None:
-        return float(solid.volume)
+        return solid.volume
     samples = random_points(solid, _DENSITY_SAMPLES, np.random.default_rng(seed))
-    return float(solid.volume) * float(density.at(samples).mean())
+    return solid.volume * float(density.at(samples).mean())
 
 
 def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
@@ -258,7 +257,7 @@ def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> 
     return [points[first == index] for index in range(len(members))]
 
 
-def _all_faces(within: list[SharedFaces], shards: tuple[Shard, ...], member_of_shard: np.ndarray) -> SharedFaces:
+def _all_faces(within: list[SharedFaces], shards: tuple[TriangleMesh, ...], member_of_shard: np.ndarray) -> SharedFaces:
     """Faces shared within each member, and those where two members touch."""
     first_shards = np.searchsorted(member_of_shard, np.arange(len(within)))
     numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]

@@ -1,13 +1,16 @@
 """Points drawn from a solid at random, evenly or by a density."""
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 from manifold3d import Manifold
-from trimesh import Trimesh
 
+from ..arithmetic import cube_root
 from ..errors import GeometryError
+from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
+from ..geometry.vectors import dot
 from .density import PointDensity
 
 _MOST_MOVES = 20
@@ -18,7 +21,7 @@ _FILLED_ENOUGH = 0.3
 
 
 def random_points(
-    solid: Trimesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
+    solid: TriangleMesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
 ) -> np.ndarray:
     """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first.
 
@@ -42,19 +45,33 @@ def random_points(
     return np.concatenate([*firsts, drawn(whole, count - len(firsts), generator)])
 
 
-def moved_points(solid: Trimesh, points: np.ndarray, reach_m: float, generator: np.random.Generator) -> np.ndarray:
+def moved_points(solid: TriangleMesh, points: np.ndarray, reach_m: float, generator: np.random.Generator) -> np.ndarray:
     """Points (n, 3) moved at random by up to `reach_m`, each as soon as a move does not lead out of the solid."""
     moved, waiting = points.copy(), np.arange(len(points))
     for _ in range(_MOST_MOVES):
-        directions = generator.normal(size=(len(waiting), 3))
-        directions /= np.linalg.norm(directions, axis=1)[:, None]
-        tried = points[waiting] + directions * reach_m * np.cbrt(generator.random(len(waiting)))[:, None]
+        distances = reach_m * cube_root(generator.random(len(waiting)))
+        tried = points[waiting] + distances[:, None] * _directions(len(waiting), generator)
         inside = contains(solid, tried)
         moved[waiting[inside]] = tried[inside]
         waiting = waiting[~inside]
         if not len(waiting):
             break
     return moved
+
+
+def _directions(count: int, generator: np.random.Generator) -> np.ndarray:
+    """Unit vectors (count, 3), all directions alike, from uniform numbers alone, which are exact on every processor.
+
+    References
+    ----------
+    G. Marsaglia (1972), Choosing a point from the surface of a sphere, Annals of Mathematical Statistics 43, 645-646.
+    """
+    found = np.zeros((0, 2))
+    while len(found) < count:
+        tried = generator.uniform(-1.0, 1.0, (2 * (count - len(found)), 2))
+        found = np.concatenate([found, tried[dot(tried, tried) < 1.0]])[:count]
+    squares = dot(found, found)
+    return np.column_stack((found * (2.0 * np.sqrt(1.0 - squares))[:, None], 1.0 - 2.0 * squares))
 
 
 def _by_density(solid: Manifold, count: int, generator: np.random.Generator, density: PointDensity) -> np.ndarray:
@@ -71,9 +88,17 @@ def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.
     """Points (count, 3) in the solid, which is diced first, so that few of the points tried fall beside it."""
     # Halved so often at most, there are not many more dice than points.
     dice = _diced(solid, int(count).bit_length())
-    volumes = np.array([part.volume() for part in dice])
-    counts = generator.multinomial(count, volumes / volumes.sum())
+    counts = [count] if len(dice) == 1 else _shared_out(count, [part.volume() for part in dice], generator)
     return np.concatenate([_uniform_by_trial(part, some, generator) for part, some in zip(dice, counts, strict=True)])
+
+
+def _shared_out(count: int, volumes: Sequence[float], generator: np.random.Generator) -> np.ndarray:
+    """How many of some points (k,) fall into each part, at random by volume.
+
+    The generator's own multinomial numbers come from logarithms that differ by processor.
+    """
+    ends = np.cumsum(volumes)
+    return np.bincount(np.searchsorted(ends, generator.random(count) * ends[-1], side="right"), minlength=len(ends))
 
 
 def _diced(solid: Manifold, depth: int) -> list[Manifold]:
@@ -81,8 +106,8 @@ def _diced(solid: Manifold, depth: int) -> list[Manifold]:
     size = box[1] - box[0]
     if depth == 0 or solid.volume() > _FILLED_ENOUGH * size.prod():
         return [solid]
-    normal = np.eye(3)[np.argmax(size)]
-    halves = solid.split_by_plane(normal.tolist(), float(normal @ box.mean(axis=0)))
+    axis = int(np.argmax(size))
+    halves = solid.split_by_plane(np.eye(3)[axis].tolist(), float(box[:, axis].mean()))
     return [part for half in halves if half.volume() > 0 for part in _diced(half, depth - 1)]
 
 
@@ -91,7 +116,7 @@ def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generato
     mesh = from_manifold(solid)
     points = np.zeros((0, 3))
     while len(points) < count:
-        tries = int((count - len(points)) * np.prod(upper - lower) / solid.volume()) + 1
+        tries = int((count - len(points)) * (upper - lower).prod() / solid.volume()) + 1
         candidates = lower + generator.random((tries, 3)) * (upper - lower)
         points = np.concatenate([points, candidates[contains(mesh, candidates)]])
     return points[:count]

@@ -1,9 +1,9 @@
 """Voronoi fracture of a solid into shards, with the faces the shards share.
 
-The Voronoi cells of points in the solid are worked out for all points together (`core.voronoi`); the boolean engine
+The Voronoi cells of points in the solid are worked out for all points together (`voronoi`); the boolean engine
 then cuts each out of the solid. In a concave or holed solid a cell can come out in several pieces. The piece that holds
 the cell's own point is the shard; every other piece goes to the neighbour it shares most area with, the largest common
-area first, and is sewn on (`core.sewing`). So there are exactly as many shards as points, each is connected, and
+area first, and is sewn on (`seams`). So there are exactly as many shards as points, each is connected, and
 nothing is lost. Counting every piece as a shard of its own would not give the number asked for, and would give slivers.
 """
 
@@ -11,14 +11,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from manifold3d import Error, Manifold, Mesh64
-from trimesh import Trimesh
+from manifold3d import Manifold
 
+from ..arithmetic import cube_root, power
 from ..errors import GeometryError
-from ..geometry.mesh import Shard, triangle_areas_and_normals
+from ..geometry.mesh import TriangleMesh, joined_meshes, triangle_areas_and_normals, volumes_and_centres
 from ..geometry.proximity import ranges
 from ..geometry.seams import sewn
-from ..geometry.solids import arrays_of, bodies, contains, mesh_of, to_manifold, volumes_and_centres
+from ..geometry.solids import bodies, contains, from_manifold, to_manifold
 from .options import PLAIN, FractureOptions
 from .seeds import moved_points, random_points
 from .shared_faces import (
@@ -28,7 +28,7 @@ from .shared_faces import (
     shared_faces,
     touching_faces,
 )
-from .voronoi import ConvexCell, convex_cells
+from .voronoi import convex_cells
 
 __all__ = [
     "Fracture",
@@ -66,7 +66,7 @@ class Fracture:
 
     Attributes
     ----------
-    shards : n Shard
+    shards : n TriangleMesh
         Closed and connected.
     volumes : (n,) float
         In m³, all positive.
@@ -78,7 +78,7 @@ class Fracture:
         Where the shards were cut apart.
     """
 
-    shards: tuple[Shard, ...]
+    shards: tuple[TriangleMesh, ...]
     volumes: np.ndarray
     centres: np.ndarray
     points: np.ndarray
@@ -93,7 +93,7 @@ class _Piece:
     """A connected part of a cell within the solid; each triangle is `facing` (t,) another cell, or -1, the outside."""
 
     cell: int
-    shard: Shard
+    mesh: TriangleMesh
     facing: np.ndarray
 
 
@@ -114,19 +114,19 @@ class _Triangles:
         owner = np.repeat(np.arange(len(pieces)), [len(piece.facing) for piece in pieces])
         cell = np.array([piece.cell for piece in pieces])[owner]
         facing = np.concatenate([piece.facing for piece in pieces])
-        corners = np.concatenate([piece.shard.vertices[piece.shard.triangles] for piece in pieces])
+        corners = np.concatenate([piece.mesh.corners for piece in pieces])
         return cls(owner, cell, facing, corners, *triangle_areas_and_normals(corners))
 
 
-def fracture(solid: Trimesh, shard_count: int, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
+def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
     """The solid in exactly `shard_count` shards, around points drawn from its volume, evenly unless options say else.
 
     With recursion there are more, as some of that number are cut once more.
 
     Parameters
     ----------
-    solid : Trimesh
-        Closed, as `core.solids.checked_solid` returns it; convex or not, with holes or cavities.
+    solid : TriangleMesh
+        Closed, as `solids.checked_solid` returns it; convex or not, with holes or cavities.
     shard_count : int
         How many shards. Each separate body of the solid takes at least one.
     seed : int
@@ -151,13 +151,13 @@ def fracture(solid: Trimesh, shard_count: int, seed: int = 0, options: FractureO
     return _cut_with(solid, points, generator, options)
 
 
-def voronoi_cells(solid: Trimesh, points: np.ndarray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
+def voronoi_cells(solid: TriangleMesh, points: np.ndarray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
     """The solid in one shard per point: its part nearest to that point.
 
     Parameters
     ----------
-    solid : Trimesh
-        Closed, as `core.solids.checked_solid` returns it; convex or not, with holes or cavities.
+    solid : TriangleMesh
+        Closed, as `solids.checked_solid` returns it; convex or not, with holes or cavities.
     points : (n, 3) float
         Inside the solid, at least one in each of its separate bodies, no two alike.
     seed : int
@@ -196,10 +196,12 @@ def joined_fractures(parts: Sequence[Fracture]) -> Fracture:
     )
 
 
-def _cut_with(solid: Trimesh, points: np.ndarray, generator: np.random.Generator, options: FractureOptions) -> Fracture:
+def _cut_with(
+    solid: TriangleMesh, points: np.ndarray, generator: np.random.Generator, options: FractureOptions
+) -> Fracture:
     stretch = None if options.stretch == PLAIN.stretch else np.array(options.stretch, dtype=float)
     if options.noise > 0.0:
-        points = moved_points(solid, points, options.noise * np.cbrt(_volume(solid) / len(points)), generator)
+        points = moved_points(solid, points, options.noise * cube_root(solid.volume / len(points)), generator)
     result = _fractured(solid, points, stretch)
     return _cut_again(result, generator, options, stretch) if options.recursion else result
 
@@ -207,7 +209,7 @@ def _cut_with(solid: Trimesh, points: np.ndarray, generator: np.random.Generator
 def _cut_again(
     first: Fracture, generator: np.random.Generator, options: FractureOptions, stretch: np.ndarray | None
 ) -> Fracture:
-    """A fracture of which some shards are cut once more; faces between their shards are looked for anew."""
+    """A fracture of which some shards are cut once more; faces between their shards are found by where they touch."""
     recursion = options.recursion
     large = np.flatnonzero(first.volumes >= recursion.smallest_m3)
     chosen = set(generator.permutation(large)[: round(recursion.share * len(large))].tolist())
@@ -215,78 +217,56 @@ def _cut_again(
         return first
     parts = []
     for index, shard in enumerate(first.shards):
-        solid = mesh_of(shard.vertices, shard.triangles)
         if index in chosen:
-            parts.append(_fractured(solid, random_points(solid, recursion.shards, generator, options.density), stretch))
+            parts.append(_fractured(shard, random_points(shard, recursion.shards, generator, options.density), stretch))
         else:
             one = slice(index, index + 1)
             parts.append(Fracture((shard,), first.volumes[one], first.centres[one], first.points[one], _NO_FACES))
     return joined_fractures(parts)
 
 
-def _fractured(solid: Trimesh, points: np.ndarray, stretch: np.ndarray | None = None) -> Fracture:
+def _fractured(solid: TriangleMesh, points: np.ndarray, stretch: np.ndarray | None = None) -> Fracture:
     pieces = _pieces(solid, points, stretch)
     faces = _faces_between(pieces, len(points))
     shard_of_piece = _joined_to_neighbours(pieces, points, faces)
     shards = tuple(_sewn(parts, solid) for parts in _grouped(pieces, shard_of_piece, len(points)))
-    volumes, centres = volumes_and_centres([s.vertices for s in shards], [s.triangles for s in shards])
-    volume = _volume(solid)
+    volumes, centres = volumes_and_centres(shards)
+    volume = solid.volume
     if abs(volumes.sum() - volume) > VOLUME_TOLERANCE * volume:
         raise GeometryError(
             f"The {len(shards)} shards hold {volumes.sum():.12g} m³ of the solid's {volume:.12g} m³; it crosses "
             "itself or is too fine to be cut so often."
         )
-    smallest = SMALLEST_FACE * (volume / len(points)) ** (2 / 3)
+    smallest = SMALLEST_FACE * power(volume / len(points), 2 / 3)
     between_shards = shared_faces(shard_of_piece[faces.pairs], faces.areas, faces.centres, faces.normals, smallest)
     return Fracture(shards, volumes, centres, points, between_shards)
 
 
-def _pieces(solid: Trimesh, points: np.ndarray, stretch: np.ndarray | None) -> list[_Piece]:
+def _pieces(solid: TriangleMesh, points: np.ndarray, stretch: np.ndarray | None) -> list[_Piece]:
     """The connected parts of every cell within the solid, cell by cell.
 
     Stretched cells are those of a space that is squeezed by as much, in which all directions count the same.
     """
-    lower, upper = _extent(solid)
+    lower, upper = solid.bounds
     if stretch is not None:
         points, lower, upper = points / stretch, lower / stretch, upper / stretch
     margin = _BOX_MARGIN * np.max(upper - lower)
     whole = to_manifold(solid)
     cut = Manifold.reserve_ids(1)
-    crumb = SMALLEST_PIECE * _volume(solid)
+    smallest = SMALLEST_PIECE * solid.volume
     pieces = []
     for index, cell in enumerate(convex_cells(points, lower - margin, upper + margin)):
         if stretch is not None:
-            cell = replace(cell, vertices=cell.vertices * stretch)
-        parts = bodies(_manifold_of(cell, cut) ^ whole, smallest_volume=crumb)
+            cell = replace(cell, mesh=replace(cell.mesh, vertices=cell.mesh.vertices * stretch))
+        # Its triangles are known by the number `cut`, and by their neighbours, in what is left of it in the solid.
+        convex = to_manifold(cell.mesh, "A Voronoi cell", cut, cell.neighbours)
+        parts = bodies(convex ^ whole, smallest_volume=smallest)
         pieces += [_piece(index, shells, cut) for shells in parts]
     return pieces
 
 
-def _manifold_of(cell: ConvexCell, cut: int) -> Manifold:
-    """The cell in the boolean engine, its triangles marked as the original `cut` and numbered by neighbour."""
-    manifold = Manifold(
-        Mesh64(
-            np.ascontiguousarray(cell.vertices),
-            cell.triangles.astype(np.uint64),
-            run_index=np.array([0, cell.triangles.size], dtype=np.uint64),
-            run_original_id=np.array([cut], dtype=np.uint32),
-            face_id=cell.neighbours.astype(np.uint64),
-        )
-    )
-    if manifold.status() != Error.NoError:
-        raise GeometryError(
-            f"A Voronoi cell is not closed ({manifold.status().name}); its points lie too close together."
-        )
-    return manifold
-
-
 def _piece(cell: int, shells: Sequence[Manifold], cut: int) -> _Piece:
-    return _Piece(cell, _shard(shells), np.concatenate([_facing(shell, cut) for shell in shells]))
-
-
-def _shard(shells: Sequence[Manifold]) -> Shard:
-    vertices, triangles = arrays_of(*shells)
-    return Shard(vertices, triangles.astype(np.int32))
+    return _Piece(cell, from_manifold(*shells), np.concatenate([_facing(shell, cut) for shell in shells]))
 
 
 def _facing(shell: Manifold, cut: int) -> np.ndarray:
@@ -367,7 +347,7 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: np.ndarray, faces: S
 
 
 def _holds(piece: _Piece, point: np.ndarray) -> bool:
-    return bool(contains(mesh_of(piece.shard.vertices, piece.shard.triangles), point)[0])
+    return bool(contains(piece.mesh, point)[0])
 
 
 def _grouped(pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int) -> list[list[_Piece]]:
@@ -377,30 +357,17 @@ def _grouped(pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int) -
     return members
 
 
-def _sewn(pieces: Sequence[_Piece], solid: Trimesh) -> Shard:
+def _sewn(pieces: Sequence[_Piece], solid: TriangleMesh) -> TriangleMesh:
     """Pieces that touch, as one shard."""
     if len(pieces) == 1:
-        return pieces[0].shard
+        return pieces[0].mesh
     all_triangles = _Triangles.of(pieces)
     first, second, common, _ = _laid_over(all_triangles, np.arange(len(all_triangles.areas)))
     covered = np.bincount(np.concatenate([first, second]), np.tile(common, 2), minlength=len(all_triangles.areas))
     # Between two pieces a triangle is covered wholly or not at all; half is only the mark furthest from rounding.
     patch = covered > all_triangles.areas / 2
-    vertices = np.concatenate([piece.shard.vertices for piece in pieces])
-    firsts = np.cumsum([0] + [len(piece.shard.vertices) for piece in pieces[:-1]])
-    triangles = np.concatenate([piece.shard.triangles + first for piece, first in zip(pieces, firsts, strict=True)])
-    tolerance = RIM_TOLERANCE * float(np.max(np.subtract(*_extent(solid)[::-1])))
-    whole = to_manifold(mesh_of(*sewn(vertices, triangles, patch, tolerance)), "A shard sewn from pieces")
-    found = bodies(whole, smallest_volume=SMALLEST_PIECE * _volume(solid))
+    whole = sewn(joined_meshes([piece.mesh for piece in pieces]), patch, RIM_TOLERANCE * solid.longest_extent)
+    found = bodies(to_manifold(whole, "A shard sewn from pieces"), smallest_volume=SMALLEST_PIECE * solid.volume)
     if len(found) != 1:
         raise GeometryError("The pieces of a shard could not be joined; try another seed or number of shards.")
-    return _shard(found[0])
-
-
-def _extent(solid: Trimesh) -> tuple[np.ndarray, np.ndarray]:
-    vertices = np.asarray(solid.vertices, dtype=float)
-    return vertices.min(axis=0), vertices.max(axis=0)
-
-
-def _volume(solid: Trimesh) -> float:
-    return float(volumes_and_centres([np.asarray(solid.vertices)], [np.asarray(solid.faces)])[0][0])
+    return from_manifold(*found[0])

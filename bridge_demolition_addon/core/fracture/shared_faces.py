@@ -5,8 +5,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..geometry.mesh import Mesh, triangle_areas_and_normals
+from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.proximity import boxes_that_meet, ranges
+from ..geometry.vectors import cross_2d, dot, length, transformed, transformed_back, unit
 
 OPPOSITE_COSINE = -1 + 1e-6
 """Two faces look at each other when the cosine between their normals is below this: they lean by less than 0.08°."""
@@ -66,14 +67,14 @@ def shared_faces(
     total = np.bincount(row, weights=areas, minlength=len(unique))
     moment = _summed(areas[:, None] * centres, row, len(unique))
     area_vector = _summed(areas[:, None] * turned, row, len(unique))
-    length = np.linalg.norm(area_vector, axis=1)
+    sizes = length(area_vector)
     # A face bent back on itself has no direction; such a pair is as good as none.
-    kept = (total > smallest_area) & (length > 0)
+    kept = (total > smallest_area) & (sizes > 0)
     return SharedFaces(
         pairs=unique[kept].reshape(-1, 2),
         areas=total[kept],
         centres=moment[kept] / total[kept, None],
-        normals=area_vector[kept] / length[kept, None],
+        normals=unit(area_vector[kept]),
     )
 
 
@@ -84,7 +85,9 @@ def joined_faces(parts: Sequence[SharedFaces]) -> SharedFaces:
     return SharedFaces(*(column[order] for column in columns))
 
 
-def touching_faces(meshes: Sequence[Mesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None) -> SharedFaces:
+def touching_faces(
+    meshes: Sequence[TriangleMesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None
+) -> SharedFaces:
     """Where meshes stand on or against each other with plane faces that look at each other.
 
     Only faces in the same plane count: bodies that overlap in space or meet along an edge do not touch in this sense.
@@ -137,16 +140,16 @@ def overlaps(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndar
     every polygon with the same number of corners.
     """
     origin = first[:, 0]
-    along = _unit(first[:, 1] - origin)
-    across = np.cross(_unit(np.cross(along, first[:, 2] - origin)), along)
+    along = unit(first[:, 1] - origin)
+    across = np.cross(unit(np.cross(along, first[:, 2] - origin)), along)
     frame = np.stack([along, across], axis=2)
-    window = (first - origin[:, None]) @ frame
-    polygon = ((second - origin[:, None]) @ frame)[:, ::-1]
+    window = transformed_back(frame[:, None], first - origin[:, None])
+    polygon = transformed_back(frame[:, None], second - origin[:, None])[:, ::-1]
     for corner in range(3):
         edge = window[:, (corner + 1) % 3] - window[:, corner]
-        polygon = _left_of_line(polygon, window[:, corner], _unit(edge))
+        polygon = _left_of_line(polygon, window[:, corner], unit(edge))
     areas, centres = _polygon_areas_and_centres(polygon)
-    return areas, origin + np.einsum("ijk,ik->ij", frame, centres)
+    return areas, origin + transformed(frame, centres)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -161,8 +164,8 @@ class _Surface:
     bounds: np.ndarray
 
     @classmethod
-    def of(cls, meshes: Sequence[Mesh]) -> "_Surface":
-        parts = [mesh.vertices[mesh.triangles] for mesh in meshes]
+    def of(cls, meshes: Sequence[TriangleMesh]) -> "_Surface":
+        parts = [mesh.corners for mesh in meshes]
         corners = np.concatenate([np.zeros((0, 3, 3)), *parts])
         areas, normals = triangle_areas_and_normals(corners)
         bounds = np.cumsum([0] + [len(part) for part in parts])
@@ -175,7 +178,7 @@ def _touching_patches(
     """Pairs, areas, centres and normals of all common patches, triangle by triangle, of these pairs of meshes."""
     row, first, second = _facing_triangles(surface, pairs, lower, upper, tolerance)
     areas, centres = overlaps(surface.corners[first], surface.corners[second])
-    gap = np.einsum("ij,ij->i", centres - surface.corners[second, 0], surface.normals[second])
+    gap = dot(centres - surface.corners[second, 0], surface.normals[second])
     real = areas > SMALLEST_AREA * np.maximum(surface.areas[first], surface.areas[second])
     touch = real & (np.abs(gap) <= tolerance)
     return pairs[row[touch]], areas[touch], centres[touch], surface.normals[first[touch]]
@@ -201,7 +204,7 @@ def _facing_triangles(
             surface.lower[second, axis] <= surface.upper[first, axis] + tolerance
         )
         row, first, second = row[near], first[near], second[near]
-    facing = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second]) < OPPOSITE_COSINE
+    facing = dot(surface.normals[first], surface.normals[second]) < OPPOSITE_COSINE
     return row[facing], first[facing], second[facing]
 
 
@@ -217,7 +220,7 @@ def _triangles_in_box(
 def _left_of_line(polygons: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """Polygons (m, k, 2) cut to the left of a line each, with twice the corners, some of them doubled."""
     leftwards = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
-    heights = np.einsum("ijk,ik->ij", polygons - point[:, None], leftwards)
+    heights = dot(polygons - point[:, None], leftwards[:, None])
     next_heights, next_corners = np.roll(heights, -1, axis=1), np.roll(polygons, -1, axis=1)
     onto_line = polygons - np.minimum(heights, 0)[..., None] * leftwards[:, None]
     crosses = (heights < 0) != (next_heights < 0)
@@ -232,9 +235,9 @@ def _polygon_areas_and_centres(polygons: np.ndarray) -> tuple[np.ndarray, np.nda
     base = polygons[:, :1]
     here = polygons - base
     there = np.roll(here, -1, axis=1)
-    crossed = here[..., 0] * there[..., 1] - here[..., 1] * there[..., 0]
+    crossed = cross_2d(here, there)
     areas = crossed.sum(axis=1) / 2
-    moments = np.einsum("ij,ijk->ik", crossed, here + there) / 6
+    moments = (crossed[..., None] * (here + there)).sum(axis=1) / 6
     offsets = np.divide(moments, areas[:, None], out=np.zeros_like(moments), where=areas[:, None] > 0)
     return np.maximum(areas, 0), base[:, 0] + offsets
 
@@ -243,7 +246,3 @@ def _summed(rows: np.ndarray, group: np.ndarray, count: int) -> np.ndarray:
     """Sums (count, 3) of the rows (m, 3) of each group."""
     columns = [np.bincount(group, weights=column, minlength=count) for column in rows.T]
     return np.column_stack(columns)
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)

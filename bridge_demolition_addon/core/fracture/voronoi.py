@@ -13,6 +13,8 @@ from itertools import pairwise
 import numpy as np
 
 from ..errors import GeometryError
+from ..geometry.mesh import TriangleMesh
+from ..geometry.vectors import distance, dot, length, unit
 
 PLANE_TOLERANCE = 1e-12
 """Part of the box's largest coordinate that a corner must lie beyond a plane to be cut off. Above rounding, so that a
@@ -37,16 +39,13 @@ class ConvexCell:
 
     Attributes
     ----------
-    vertices : (v, 3) float
-        In m.
-    triangles : (t, 3) int
-        Counter-clockwise seen from outside.
+    mesh : TriangleMesh
+        Its surface.
     neighbours : (t,) int
         What each triangle faces: the index of another point or, from the number of points upwards, a side of the box.
     """
 
-    vertices: np.ndarray
-    triangles: np.ndarray
+    mesh: TriangleMesh
     neighbours: np.ndarray
 
 
@@ -92,7 +91,7 @@ def _clipped_by_nearest(cells: _Polyhedra, points: np.ndarray, members: np.ndarr
     own = points[members]
     tolerance = PLANE_TOLERANCE * scale
     # The neighbours still to come, by distance; infinitely far are those that are done with or cannot cut any more.
-    distances = _distances(own, points)
+    distances = distance(own[:, None], points)
     distances[np.arange(len(members)), members] = np.inf
     _check_apart(distances, members, COINCIDENCE_TOLERANCE * scale)
     while np.isfinite(distances).any():
@@ -114,20 +113,14 @@ def _drop_what_cannot_cut(
     bounds = np.searchsorted(corners.owner, np.arange(len(own) + 1))
     for cell, (first, last) in enumerate(pairwise(bounds)):
         arms = corners.corners[first:last] - own[cell]
-        reach = 2 * np.sqrt(np.einsum("ij,ij->i", arms, arms).max())
+        reach = 2 * length(arms).max()
         within = np.flatnonzero(distances[cell] < reach)
         towards = points[within] - own[cell]
-        heights = (towards @ arms.T).max(axis=1) / distances[cell, within] - distances[cell, within] / 2
+        heights = dot(towards[:, None], arms).max(axis=1) / distances[cell, within] - distances[cell, within] / 2
         cutting = within[heights > tolerance]
         still = distances[cell, cutting]
         distances[cell] = np.inf
         distances[cell, cutting] = still
-
-
-def _distances(from_points: np.ndarray, to_points: np.ndarray) -> np.ndarray:
-    """Distances (n, m), by differences: the quicker product form would lose those of close points in rounding."""
-    squares = sum((from_points[:, None, axis] - to_points[None, :, axis]) ** 2 for axis in range(3))
-    return np.sqrt(squares)
 
 
 def _check_apart(distances: np.ndarray, members: np.ndarray, tolerance: float) -> None:
@@ -159,15 +152,15 @@ def _boxes(lower: np.ndarray, upper: np.ndarray, count: int, first_label: int) -
 def _bisectors(points: np.ndarray, others: np.ndarray, usable: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Normals (n, 3) and offsets (n,) of the planes halfway to the others; infinitely far where not usable (n,)."""
     towards = np.where(usable[:, None], others - points, [1.0, 0.0, 0.0])
-    normals = towards / np.linalg.norm(towards, axis=1)[:, None]
-    return normals, np.where(usable, np.einsum("ij,ij->i", normals, (points + others) / 2), np.inf)
+    normals = unit(towards)
+    return normals, np.where(usable, dot(normals, (points + others) / 2), np.inf)
 
 
 def _clipped(
     cells: _Polyhedra, normals: np.ndarray, offsets: np.ndarray, labels: np.ndarray, tolerance: float
 ) -> _Polyhedra:
     """Each cell without what is beyond its plane of normal (n, 3) and offset (n,); the cut is labelled (n,)."""
-    heights = np.einsum("ij,ij->i", cells.corners, normals[cells.owner]) - offsets[cells.owner]
+    heights = dot(cells.corners, normals[cells.owner]) - offsets[cells.owner]
     removed = heights > tolerance
     if not removed.any():
         return cells
@@ -233,4 +226,4 @@ def _triangulated(cells: _Polyhedra, count: int) -> Iterator[ConvexCell]:
     for cell in range(count):
         corners = slice(*corner_bounds[cell : cell + 2])
         rows = slice(*triangle_bounds[cell : cell + 2])
-        yield ConvexCell(cells.corners[corners], triangles[rows] - corner_bounds[cell], label[rows])
+        yield ConvexCell(TriangleMesh(cells.corners[corners], triangles[rows] - corner_bounds[cell]), label[rows])

@@ -4,9 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from manifold3d import Manifold
 
 from ..errors import GeometryError
+from .mesh import TriangleMesh
+from .solids import from_manifold, hull
+from .vectors import dot, length
 
 THINNEST = 1e-9
 """Part of the cube of its longest extent that a body's hull must fill to be one."""
@@ -56,7 +58,7 @@ class ConvexHulls:
     @property
     def radii(self) -> np.ndarray:
         """(n,) distances of the farthest vertices from the centres of mass, m."""
-        distances = np.linalg.norm(self.vertices, axis=1)
+        distances = length(self.vertices)
         return np.maximum.reduceat(distances, self.vertex_starts[:-1]) if len(self) else np.zeros(0)
 
 
@@ -77,7 +79,7 @@ def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = Non
     """
     called = range(len(bodies)) if names is None else map(repr, names)
     meshes = [_hull(np.asarray(vertices, float), name) for name, vertices in zip(called, bodies, strict=True)]
-    faces = [_faces(vertices[triangles]) for vertices, triangles in meshes]
+    faces = [_faces(mesh.corners) for mesh in meshes]
     planes = np.concatenate([np.zeros((0, 4)), *(planes for planes, _ in faces)])
     areas = np.concatenate([np.zeros(0), *(areas for _, areas in faces)])
     return ConvexHulls(
@@ -86,30 +88,29 @@ def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = Non
         face_vectors=np.ascontiguousarray((planes[:, :3] * areas[:, None]).T),
         offsets=planes[:, 3],
         starts=np.cumsum([0, *(len(areas) for _, areas in faces)]),
-        vertices=np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in meshes)]),
-        vertex_starts=np.cumsum([0, *(len(vertices) for vertices, _ in meshes)]),
+        vertices=np.concatenate([np.zeros((0, 3)), *(mesh.vertices for mesh in meshes)]),
+        vertex_starts=np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)]),
     )
 
 
-def _hull(points: np.ndarray, name: int | str) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3) and triangles (t, 3) of the convex hull of points."""
+def _hull(points: np.ndarray, name: int | str) -> TriangleMesh:
+    """Convex hull of points (v, 3) that do not lie in one plane."""
     if len(points) >= 4 and np.isfinite(points).all():
-        hull = Manifold.hull_points(points)
+        around = hull(points)
         # Points in one plane come out as a mesh too, of no volume.
-        if hull.volume() > THINNEST * np.ptp(points, axis=0).max() ** 3:
-            mesh = hull.to_mesh64()
-            return mesh.vert_properties[:, :3], mesh.tri_verts
+        if around.volume() > THINNEST * np.ptp(points, axis=0).max() ** 3:
+            return from_manifold(around)
     raise GeometryError(f"body {name} has no volume: expected finite vertices that do not lie in one plane")
 
 
 def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Planes (f, 4), normal and offset, and areas (f,) of triangles (t, 3, 3), those in one plane as one face."""
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(doubled, axis=1)
+    lengths = length(doubled)
     # A sliver has no direction and adds no area.
     corners, doubled, lengths = (values[lengths > 0.0] for values in (corners, doubled, lengths))
     normals = doubled / lengths[:, None]
-    planes = np.column_stack((normals, np.einsum("fi,fi->f", normals, corners[:, 0])))
+    planes = np.column_stack((normals, dot(normals, corners[:, 0])))
     rounded = planes.round(_SAME_PLANE_DIGITS) + 0.0  # no -0
     _, first, face_of = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
     return planes[first], np.bincount(face_of.ravel(), lengths / 2.0)

@@ -1,31 +1,90 @@
 """The mesh of the project: arrays of vertices and triangles."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
+from .vectors import dot, length, unit
+
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Shard:
-    """A closed mesh: `vertices` (v, 3) float64 in m, `triangles` (t, 3) int32, counter-clockwise seen from outside."""
+class TriangleMesh:
+    """A surface of triangles.
+
+    Attributes
+    ----------
+    vertices : (v, 3) float
+        Places in m.
+    triangles : (t, 3) int
+        Vertices of each triangle, counter-clockwise seen from outside.
+    """
 
     vertices: np.ndarray
     triangles: np.ndarray
 
-
-class Mesh(Protocol):
-    """Anything with `vertices` (v, 3) in m and `triangles` (t, 3)."""
+    @property
+    def corners(self) -> np.ndarray:
+        """(t, 3, 3) corners of every triangle, m."""
+        return self.vertices[self.triangles]
 
     @property
-    def vertices(self) -> np.ndarray: ...
+    def bounds(self) -> np.ndarray:
+        """(2, 3) lowest and highest corner of the box around the surface, m."""
+        corners = self.corners.reshape(-1, 3)
+        return np.array((corners.min(axis=0), corners.max(axis=0)))
 
     @property
-    def triangles(self) -> np.ndarray: ...
+    def longest_extent(self) -> float:
+        """Longest side of the box around the surface, m."""
+        lower, upper = self.bounds
+        return float((upper - lower).max())
+
+    @property
+    def volume(self) -> float:
+        """Volume within the surface, m³; negative where it is inside out."""
+        return float(volumes_and_centres([self])[0][0])
+
+    def flipped(self) -> TriangleMesh:
+        """The surface seen from its other side."""
+        return TriangleMesh(self.vertices, self.triangles[:, ::-1])
+
+
+def joined_meshes(meshes: Sequence[TriangleMesh]) -> TriangleMesh:
+    """Meshes as one, one after the other."""
+    firsts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
+    triangles = [mesh.triangles + first for mesh, first in zip(meshes, firsts, strict=True)]
+    return TriangleMesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(triangles))
 
 
 def triangle_areas_and_normals(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Areas (t,) and unit normals (t, 3) of triangles (t, 3, 3); a zero normal where there is no area."""
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(doubled, axis=1)
-    return length / 2, np.divide(doubled, length[:, None], out=np.zeros_like(doubled), where=length[:, None] > 0)
+    return length(doubled) / 2.0, unit(doubled)
+
+
+def volumes_and_centres(meshes: Sequence[TriangleMesh]) -> tuple[np.ndarray, np.ndarray]:
+    """Volumes and centres of mass of closed meshes of uniform density, by Gauss's theorem.
+
+    Returns
+    -------
+    volumes : (n,) float
+        In m³; negative for a mesh that is inside out.
+    centres : (n, 3) float
+        In m; the mean of the vertices for a mesh without volume.
+    """
+    if not len(meshes):
+        return np.zeros(0), np.zeros((0, 3))
+    # About its own middle, because a small mesh far from the origin would lose its volume in rounding.
+    middles = np.array([mesh.vertices.mean(axis=0) for mesh in meshes])
+    corners = np.concatenate([mesh.corners - middle for mesh, middle in zip(meshes, middles, strict=True)])
+    starts = np.cumsum([0] + [len(mesh.triangles) for mesh in meshes[:-1]])
+    six_volumes = dot(corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+    moments = six_volumes[:, None] * corners.sum(axis=1) / 24.0
+    volumes = np.add.reduceat(six_volumes / 6.0, starts)
+    first_moments = np.add.reduceat(moments, starts)
+    has_volume = volumes != 0
+    offsets = np.divide(first_moments, volumes[:, None], out=np.zeros_like(middles), where=has_volume[:, None])
+    return volumes, middles + offsets

@@ -6,19 +6,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from manifold3d import Manifold, Mesh64, OpType
-from trimesh import Trimesh
+from manifold3d import Manifold, OpType
 
 from ..errors import GeometryError
-from .mesh import Mesh, Shard
+from .mesh import TriangleMesh
 from .proximity import boxes_that_meet
-from .solids import OVERLAP_TOLERANCE, arrays_of, bodies, from_manifold, to_manifold
+from .solids import OVERLAP_TOLERANCE, bodies, from_manifold, hull, to_manifold
 
 SHARD_OVERLAP_TOLERANCE = 1e-6
 """Part of the smaller of two shards' volumes that they may have in common at the start: too little to push them."""
 
-_CRUMB = 1e-9
-"""Part of a member's volume below which what a cut leaves loose is rounding."""
+_ROUNDING = 1e-9
+"""Part of a member's volume below which a loose piece that is left of it is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +31,13 @@ class Overlaps:
         return len(self.volumes)
 
 
-def overlaps(meshes: Sequence[Mesh], tolerance: float = SHARD_OVERLAP_TOLERANCE) -> Overlaps:
+def overlaps(meshes: Sequence[TriangleMesh], tolerance: float = SHARD_OVERLAP_TOLERANCE) -> Overlaps:
     """Which meshes overlap by more than a tolerance.
 
     Parameters
     ----------
     meshes : n meshes
-        Closed, with `vertices` (v, 3) in m and `triangles` (t, 3), for example shards.
+        Closed, for example shards.
     tolerance : float
         Part of the smaller volume of two meshes that they may have in common.
 
@@ -57,12 +56,12 @@ def overlaps(meshes: Sequence[Mesh], tolerance: float = SHARD_OVERLAP_TOLERANCE)
     return Overlaps(pairs[order], common[order] if len(order) else np.zeros(0))
 
 
-def hulls(shards: Sequence[Mesh]) -> list[Shard]:
+def hulls(shards: Sequence[TriangleMesh]) -> list[TriangleMesh]:
     """Convex hulls of shards, which Blender takes them for where they collide."""
-    return [_hull(shard) for shard in shards]
+    return [from_manifold(hull(shard.vertices)) for shard in shards]
 
 
-def cut_apart(solids: Sequence[Trimesh], names: Sequence[str]) -> tuple[list[Trimesh], np.ndarray]:
+def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], np.ndarray]:
     """Solids without what they have in common with those before them.
 
     Parameters
@@ -91,8 +90,8 @@ def cut_apart(solids: Sequence[Trimesh], names: Sequence[str]) -> tuple[list[Tri
         if not before:
             continue
         rest = Manifold.batch_boolean([solid, *before], OpType.Subtract)
-        shells = [shell for body in bodies(rest, _CRUMB * solid.volume(), names[index]) for shell in body]
-        if rest.volume() <= _CRUMB * solid.volume() or not shells:
+        shells = [shell for body in bodies(rest, _ROUNDING * solid.volume(), names[index]) for shell in body]
+        if rest.volume() <= _ROUNDING * solid.volume() or not shells:
             raise GeometryError(
                 f"{names[index]}: lies wholly inside members before it; leave it out, or name it first."
             )
@@ -102,15 +101,8 @@ def cut_apart(solids: Sequence[Trimesh], names: Sequence[str]) -> tuple[list[Tri
     return result, removed
 
 
-def _hull(shard: Mesh) -> Shard:
-    vertices, triangles = arrays_of(Manifold.hull_points(np.ascontiguousarray(shard.vertices, dtype=float)))
-    return Shard(vertices, triangles.astype(np.int32))
-
-
-def _manifold(mesh: Mesh, index: int) -> Manifold:
-    solid = Manifold(
-        Mesh64(np.ascontiguousarray(mesh.vertices, dtype=float), np.asarray(mesh.triangles).astype(np.uint64))
-    )
+def _manifold(mesh: TriangleMesh, index: int) -> Manifold:
+    solid = to_manifold(mesh, f"Mesh {index}")
     if solid.is_empty():
-        raise GeometryError(f"Mesh {index} is not closed or holds no volume; it cannot be looked at for overlap.")
+        raise GeometryError(f"Mesh {index} holds no volume; it cannot be looked at for overlap.")
     return solid

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .vectors import distance
+
 _MOST_CELLS = 2**20
 """Cells along an axis, at most: the number of a cell in three axes then fits into 64 bits."""
 
@@ -167,7 +169,7 @@ class _Grid:
         for part in blocks(counts.sum(axis=1)):
             row, place = ranges(starts[part].ravel(), counts[part].ravel())
             query, other = queries[part][row // len(self.steps)], self.order[place]
-            yield query, other, np.linalg.norm(self.points[query] - self.points[other], axis=1)
+            yield query, other, distance(self.points[query], self.points[other])
 
 
 def _boxes_in_cells(lower: np.ndarray, upper: np.ndarray) -> tuple:
@@ -194,7 +196,7 @@ def _boxes_in_cells(lower: np.ndarray, upper: np.ndarray) -> tuple:
 def _likely_radius(points: np.ndarray, count: int) -> float:
     """A radius in which some points have that many others; more than 0 unless all points are in one place."""
     sample = points[:: max(1, len(points) // _SAMPLE)]
-    distances = np.linalg.norm(sample[:, None] - points[None], axis=2)
+    distances = distance(sample[:, None], points)
     radius = float(np.partition(distances, count, axis=1)[:, count].min())
     return max(radius, float(np.ptp(points, axis=0).max()) / _MOST_CELLS)
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from manifold3d import triangulate
-from trimesh import Trimesh
 
 from ..errors import GeometryError
-from .seams import loops_of_open_edges, welded
+from .mesh import TriangleMesh
+from .seams import loops_of_open_edges, welded, without_slivers
 from .self_intersection import first_crossing
 from .solids import (
     OVERLAP_TOLERANCE,
@@ -19,11 +19,10 @@ from .solids import (
     checked_solid,
     contains,
     from_manifold,
-    mesh_of,
     to_manifold,
     union,
-    volumes_and_centres,
 )
+from .vectors import dot, length, unit
 
 WELDING_TOLERANCE = 1e-6
 """Part of the mesh's longest extent within which corners on open edges are one: single precision keeps seven digits."""
@@ -31,22 +30,25 @@ WELDING_TOLERANCE = 1e-6
 FLATNESS_TOLERANCE = 1e-3
 """Part of a hole's extent by which its rim may leave a plane and the hole still be closed by it."""
 
+_SLIT_TOLERANCE = 1e-12
+"""Part of the square of a hole's extent below which its area is rounding, and its rim lies along a line."""
+
 
 @dataclass(frozen=True, slots=True)
 class Repaired:
     """A solid that can be cut, and what was done to the mesh for it, in words; nothing for a sound mesh."""
 
-    solid: Trimesh
+    solid: TriangleMesh
     repairs: tuple[str, ...]
 
 
-def repaired_solid(mesh: Trimesh, name: str) -> Repaired:
+def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     """The mesh as a solid: corners merged, plane holes closed, faces turned outwards, overlapping bodies united.
 
     Parameters
     ----------
-    mesh : Trimesh
-        Of any origin. It is not changed.
+    mesh : TriangleMesh
+        Of any origin.
     name : str
         What the user calls it; the error messages begin with it.
 
@@ -56,20 +58,21 @@ def repaired_solid(mesh: Trimesh, name: str) -> Repaired:
         It encloses no volume, has a hole that is not plane, edges with more than two faces that cannot be told apart,
         or a body that crosses itself.
     """
-    vertices, triangles = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
-    if not len(triangles):
+    if not len(mesh.triangles):
         raise GeometryError(f"{name}: has no faces; give it a closed surface.")
-    if not np.isfinite(vertices).all():
+    if not np.isfinite(mesh.vertices).all():
         raise GeometryError(f"{name}: has vertices that are not finite numbers; delete or move them.")
     repairs: list[str] = []
-    vertices, triangles = _merged(vertices, triangles)
+    vertices, triangles = _merged(mesh)
     triangles = _without_doubles(triangles, repairs)
     triangles = _welded(vertices, triangles, repairs)
     triangles = _wound_alike(vertices, triangles, repairs)
     triangles = _closed(vertices, triangles, repairs, name)
-    _check_some_volume(vertices, triangles, name)
-    solid = _united(mesh_of(vertices, triangles), repairs, name)
-    crossing = first_crossing(np.asarray(solid.vertices)[np.asarray(solid.faces)])
+    whole = TriangleMesh(vertices, triangles)
+    if not len(triangles) or abs(whole.volume) <= SMALLEST_VOLUME * whole.longest_extent**3:
+        raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
+    solid = _united(whole, repairs, name)
+    crossing = first_crossing(solid.corners)
     if crossing is not None:
         place = ", ".join(f"{coordinate:.4g}" for coordinate in crossing)
         raise GeometryError(
@@ -79,15 +82,15 @@ def repaired_solid(mesh: Trimesh, name: str) -> Repaired:
     return Repaired(checked_solid(solid, name), tuple(repairs))
 
 
-def _merged(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _merged(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
     """Vertices at the very same place as one, which is no repair: STL has no shared vertices."""
-    unique, index = np.unique(vertices, axis=0, return_inverse=True)
-    return unique, index.ravel()[triangles]
+    unique, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    return unique, index.ravel()[mesh.triangles]
 
 
 def _without_doubles(triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
     """Without triangles that have a corner twice, and with one of each set of equal ones; opposite ones cancel."""
-    kept = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    kept = without_slivers(triangles)
     _, first, group = np.unique(np.sort(kept, axis=1), axis=0, return_index=True, return_inverse=True)
     net = np.bincount(group.ravel(), weights=_parity(kept))
     chosen = np.sort(first[net != 0])
@@ -110,8 +113,7 @@ def _welded(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]) -> 
     one = welded(vertices, rim, tolerance)
     if merged := int((one != np.arange(len(vertices))).sum()):
         repairs.append(f"merged {merged} doubled vertices")
-    triangles = one[triangles]
-    return triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    return without_slivers(one[triangles])
 
 
 def _edges_of_one_face(triangles: np.ndarray) -> np.ndarray:
@@ -128,22 +130,19 @@ def _wound_alike(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]
         return triangles
     result = np.where(flipped[:, None], triangles[:, ::-1], triangles)
     result[~np.isin(part, uneven)] = triangles[~np.isin(part, uneven)]
-    surfaces = {index: mesh_of(vertices, result[part == index]) for index in range(part.max() + 1)}
+    surfaces = {index: TriangleMesh(vertices, result[part == index]) for index in range(part.max() + 1)}
     for index in uneven:
-        surface = surfaces[index]
         corner = vertices[result[part == index][:1, 0]]
         depth = sum(_encloses(other, corner) for number, other in surfaces.items() if number != index)
-        volume = volumes_and_centres([np.asarray(surface.vertices)], [np.asarray(surface.faces)])[0][0]
-        if (volume < 0) != (depth % 2 == 1):
+        if (surfaces[index].volume < 0) != (depth % 2 == 1):
             result[part == index] = result[part == index][:, ::-1]
     turned = int((result != triangles).any(axis=1).sum())
     repairs.append(f"turned {turned} faces")
     return result
 
 
-def _encloses(surface: Trimesh, corner: np.ndarray) -> bool:
-    inverted = mesh_of(np.asarray(surface.vertices), np.asarray(surface.faces)[:, ::-1])
-    return bool(contains(surface, corner)[0] or contains(inverted, corner)[0])
+def _encloses(surface: TriangleMesh, corner: np.ndarray) -> bool:
+    return bool(contains(surface, corner)[0] or contains(surface.flipped(), corner)[0])
 
 
 def _agreement(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -187,34 +186,31 @@ def _lid(vertices: np.ndarray, rim: np.ndarray, name: str) -> np.ndarray:
     if len(rim) < 3:
         raise GeometryError(f"{name}: not closed, an edge has faces that do not belong together; rebuild it there.")
     corners = vertices[rim]
-    middle = corners.mean(axis=0)
-    _, _, axes = np.linalg.svd(corners - middle)
-    plane = (corners - middle) @ axes.T
-    if len(rim) > 3 and np.abs(plane[:, 2]).max() > FLATNESS_TOLERANCE * np.ptp(corners, axis=0).max():
+    middle, extent = corners.mean(axis=0), np.ptp(corners, axis=0).max()
+    normal = _normal(corners - middle, extent)
+    if len(rim) > 3 and np.abs(dot(corners - middle, normal)).max() > FLATNESS_TOLERANCE * extent:
         raise GeometryError(
             f"{name}: not closed, the hole with {len(rim)} edges around {np.round(middle, 3).tolist()} m is not plane; "
             "close it in the program that it was made with."
         )
-    # The lid walks the rim against the faces around it; the triangulation wants its polygons counter-clockwise.
-    backwards, flat = rim[::-1], plane[::-1, :2]
-    clockwise = np.sum(flat[:, 0] * np.roll(flat[:, 1], -1) - np.roll(flat[:, 0], -1) * flat[:, 1]) < 0
-    order = np.arange(len(rim))[::-1] if clockwise else np.arange(len(rim))
-    found = order[np.asarray(triangulate([flat[order]]), dtype=np.int64).reshape(-1, 3)]
-    return backwards[found[:, ::-1] if clockwise else found]
+    arms = corners - corners[0]
+    arms = arms - dot(arms, normal)[:, None] * normal
+    along = unit(arms[np.argmax(dot(arms, arms))])
+    flat = np.column_stack((dot(arms, along), dot(arms, np.cross(normal, along))))
+    # About its own normal the rim runs anticlockwise, as the triangulation wants it; the lid walks it the other way.
+    return rim[np.asarray(triangulate([flat]), dtype=np.int64).reshape(-1, 3)[:, ::-1]]
 
 
-def _check_some_volume(vertices: np.ndarray, triangles: np.ndarray, name: str) -> None:
-    extent = np.ptp(vertices, axis=0).max()
-    volume = volumes_and_centres([vertices], [triangles])[0][0] if len(triangles) else 0.0
-    if abs(volume) <= SMALLEST_VOLUME * extent**3:
-        raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
+def _normal(arms: np.ndarray, extent: float) -> np.ndarray:
+    """Unit normal (3,) of a closed loop of corners (r, 3), by Newell; 0 where it encloses no area."""
+    areas = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
+    return unit(areas) if length(areas) > _SLIT_TOLERANCE * extent**2 else np.zeros(3)
 
 
-def _united(mesh: Trimesh, repairs: list[str], name: str) -> Trimesh:
+def _united(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:
     """Bodies of the mesh as one solid without overlap; those that are inside out as a whole are turned."""
-    volume = volumes_and_centres([np.asarray(mesh.vertices)], [np.asarray(mesh.faces)])[0][0]
-    if volume < 0:
-        mesh = mesh_of(np.asarray(mesh.vertices), np.asarray(mesh.faces)[:, ::-1])
+    if mesh.volume < 0:
+        mesh = mesh.flipped()
     separate = [from_manifold(*shells) for shells in bodies(to_manifold(mesh, name), name=name)]
     if len(separate) < 2:
         return mesh

@@ -9,36 +9,37 @@ from itertools import pairwise
 
 import numpy as np
 
+from .mesh import TriangleMesh
+from .vectors import distance, dot, length
 
-def sewn(
-    vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarray, tolerance_m: float
-) -> tuple[np.ndarray, np.ndarray]:
+
+def sewn(mesh: TriangleMesh, patch: np.ndarray, tolerance_m: float) -> TriangleMesh:
     """Meshes without the patches they touch along, closed again across the rims.
 
     Parameters
     ----------
-    vertices : (v, 3) float
-        Of all meshes together.
-    triangles : (t, 3) int
-        Of all meshes together, closed.
+    mesh : TriangleMesh
+        All meshes together, each closed.
     patch : (t,) bool
         The triangles to take out. They come in two layers, one of either mesh, that cover each other.
     tolerance_m : float
-        Corners of the rims that are no further apart are one.
+        Corners of the rims that are no further apart are one, m.
 
     Returns
     -------
-    vertices : (v, 3) float
-        As they came; those of the patches are no longer used.
-    triangles : (s, 3) int
-        Closed. Where a corner of one rim lies on an edge of the other, a triangle without area joins them.
+    TriangleMesh
+        Closed, with the vertices as they came; those of the patches are no longer used. Where a corner of one rim lies
+        on an edge of the other, a triangle without area joins them.
     """
-    triangles = triangles[~patch]
-    rim = _open_edges(triangles)
-    triangles = welded(vertices, np.unique(rim), tolerance_m)[triangles]
-    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
-    loops = loops_of_open_edges(vertices, triangles)
-    return vertices, np.concatenate([triangles, *(_fan(loop) for loop in loops)])
+    rim = np.unique(_open_edges(mesh.triangles[~patch]))
+    triangles = without_slivers(welded(mesh.vertices, rim, tolerance_m)[mesh.triangles[~patch]])
+    loops = loops_of_open_edges(mesh.vertices, triangles)
+    return TriangleMesh(mesh.vertices, np.concatenate([triangles, *(_fan(loop) for loop in loops)]))
+
+
+def without_slivers(triangles: np.ndarray) -> np.ndarray:
+    """Those of the triangles (t, 3) that have no vertex twice."""
+    return triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
 
 
 def loops_of_open_edges(vertices: np.ndarray, triangles: np.ndarray) -> list[list[int]]:
@@ -60,7 +61,7 @@ def _open_edges(triangles: np.ndarray) -> np.ndarray:
 def welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.ndarray:
     """For every vertex (v,) the one that stands for it: of these corners that lie together the first, else itself."""
     representative = np.arange(len(vertices))
-    apart = np.linalg.norm(vertices[corners, None] - vertices[None, corners], axis=2)
+    apart = distance(vertices[corners, None], vertices[corners])
     representative[corners] = corners[np.argmax(apart <= tolerance, axis=1)]
     return representative
 
@@ -92,7 +93,7 @@ def _sharpest_turn(walk: list[int], choices: list[int], vertices: np.ndarray) ->
     if len(walk) == 1 or len(choices) == 1:
         return choices[0]
     ahead = vertices[choices] - vertices[walk[-1]]
-    cosines = ahead @ (vertices[walk[-1]] - vertices[walk[-2]]) / np.linalg.norm(ahead, axis=1)
+    cosines = dot(ahead, vertices[walk[-1]] - vertices[walk[-2]]) / length(ahead)
     return choices[int(np.argmin(cosines))]
 
 

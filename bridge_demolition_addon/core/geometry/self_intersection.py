@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from .proximity import ranges
+from .vectors import dot, length
+
 _STRICTLY_INSIDE = 1e-7
 """Part of a triangle or edge that a crossing has to keep from its ends: what only touches does not cross."""
 
@@ -35,10 +38,8 @@ def first_crossing(corners: np.ndarray) -> np.ndarray | None:
         counts = np.cumsum(last[begin:] - np.arange(begin, len(order)))
         end = begin + max(1, int(np.searchsorted(counts, _CANDIDATES_PER_BLOCK)))
         rows = np.arange(begin, end)
-        lengths = last[rows] - rows - 1
-        first = np.repeat(rows, lengths)
-        second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-        one, other = order[first], order[second]
+        row, second = ranges(rows + 1, last[rows] - rows - 1)
+        one, other = order[begin + row], order[second]
         meet = ((lower[one] <= upper[other]) & (lower[other] <= upper[one])).all(axis=1)
         place = _crossing(corners[one[meet]], corners[other[meet]])
         if place is not None:
@@ -63,14 +64,14 @@ def _pierced(triangles: np.ndarray, starts: np.ndarray, edges: np.ndarray) -> tu
     """Whether each edge goes through the inside of its triangle (m,), and where along the edge (m,)."""
     first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     across = np.cross(edges, second)
-    volume = np.einsum("ij,ij->i", first, across)
-    size = np.linalg.norm(np.cross(first, second), axis=1) * np.linalg.norm(edges, axis=1)
+    volume = dot(first, across)
+    size = length(np.cross(first, second)) * length(edges)
     leaning = np.abs(volume) > _STRICTLY_INSIDE * size
     scale = np.divide(1.0, volume, out=np.zeros_like(volume), where=leaning)
     offset = starts - triangles[:, 0]
     turned = np.cross(offset, first)
-    u = np.einsum("ij,ij->i", offset, across) * scale
-    v = np.einsum("ij,ij->i", edges, turned) * scale
-    along = np.einsum("ij,ij->i", second, turned) * scale
+    u = dot(offset, across) * scale
+    v = dot(edges, turned) * scale
+    along = dot(second, turned) * scale
     least = np.minimum.reduce([u, v, 1.0 - u - v, along, 1.0 - along])
     return leaning & (least > _STRICTLY_INSIDE), along

@@ -4,9 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
-from trimesh import Trimesh
 
+from ..arithmetic import arctangent
 from ..errors import GeometryError
+from .mesh import TriangleMesh, joined_meshes
+from .vectors import dot, length
 
 OVERLAP_TOLERANCE = 1e-9
 """Part of a solid's volume that its bodies may have in common before they count as overlapping."""
@@ -22,12 +24,7 @@ _BOX_QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [
 _BOX_TRIANGLES = _BOX_QUADS[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
-def mesh_of(vertices: np.ndarray, triangles: np.ndarray) -> Trimesh:
-    """A mesh of exactly these vertices (v, 3) in m and triangles (t, 3): nothing merged, dropped or reordered."""
-    return Trimesh(vertices=vertices, faces=triangles, process=False, validate=False)
-
-
-def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) -> Trimesh:
+def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) -> TriangleMesh:
     """An axis-parallel box.
 
     Parameters
@@ -47,10 +44,20 @@ def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) ->
         raise GeometryError(
             f"A box needs three positive edge lengths and a finite centre, not {size.tolist()} at {centre.tolist()}."
         )
-    return mesh_of(_BOX_CORNERS * size + centre, _BOX_TRIANGLES)
+    return TriangleMesh(_BOX_CORNERS * size + centre, _BOX_TRIANGLES)
 
 
-def union(solids: Sequence[Trimesh]) -> Trimesh:
+def sphere(radius_m: float, segments: int) -> TriangleMesh:
+    """A sphere around the origin, of triangles with corners on it; a great circle has that many, a multiple of 4."""
+    return from_manifold(Manifold.sphere(radius_m, segments))
+
+
+def cylinder(radius_m: float, height_m: float, sides: int) -> TriangleMesh:
+    """An upright prism with corners on a circle, which stands on the origin."""
+    return from_manifold(Manifold.cylinder(height_m, radius_m, radius_m, sides))
+
+
+def union(solids: Sequence[TriangleMesh]) -> TriangleMesh:
     """What is inside at least one of the solids, as one solid.
 
     Raises
@@ -64,7 +71,7 @@ def union(solids: Sequence[Trimesh]) -> Trimesh:
     return from_manifold(Manifold.batch_boolean(operands, OpType.Add))
 
 
-def difference(solid: Trimesh, others: Sequence[Trimesh]) -> Trimesh:
+def difference(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
     """What is inside the solid and inside none of the others; without faces where nothing is.
 
     Raises
@@ -76,21 +83,21 @@ def difference(solid: Trimesh, others: Sequence[Trimesh]) -> Trimesh:
     return from_manifold(Manifold.batch_boolean(operands, OpType.Subtract))
 
 
-def checked_solid(mesh: Trimesh, name: str) -> Trimesh:
+def checked_solid(mesh: TriangleMesh, name: str) -> TriangleMesh:
     """The mesh as a solid that can be cut, turned outside-out where all its faces look inwards.
 
     Surfaces that cross themselves within one body are not found: the boolean engine cannot tell them from sound ones.
 
     Parameters
     ----------
-    mesh : Trimesh
-        Of any origin. It is not changed.
+    mesh : TriangleMesh
+        Of any origin.
     name : str
         What the user calls it; the error messages begin with it.
 
     Returns
     -------
-    Trimesh
+    TriangleMesh
         Closed, consistently wound, of positive volume.
 
     Raises
@@ -99,29 +106,46 @@ def checked_solid(mesh: Trimesh, name: str) -> Trimesh:
         When it has no faces, is not finite, is not closed, is wound inconsistently or has no volume, or when its bodies
         overlap or are inside out.
     """
-    vertices, triangles = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
-    _check_surface(vertices, triangles, name)
-    volume = float(volumes_and_centres([vertices], [triangles])[0][0])
-    if volume < 0:
-        triangles, volume = triangles[:, ::-1].copy(), -volume
-    _check_volume(vertices, volume, name)
-    result = mesh_of(vertices, triangles)
-    _check_bodies(bodies(to_manifold(result, name), name=name), name)
-    return result
+    _check_surface(mesh, name)
+    if mesh.volume < 0.0:
+        mesh = mesh.flipped()
+    if mesh.volume <= SMALLEST_VOLUME * mesh.longest_extent**3:
+        raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
+    _check_bodies(bodies(to_manifold(mesh, name), name=name), name)
+    return mesh
 
 
-def to_manifold(mesh: Trimesh, name: str = "The solid") -> Manifold:
+def to_manifold(
+    mesh: TriangleMesh, name: str = "The solid", original: int | None = None, face_ids: np.ndarray | None = None
+) -> Manifold:
     """The mesh in the boolean engine, in double precision.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Closed.
+    name : str
+        What the error message begins with.
+    original : int, optional
+        Number, reserved in the engine, by which triangles that stem from this mesh can be known in what is made of it.
+    face_ids : (t,) int, optional
+        Numbers that its triangles keep with it.
 
     Raises
     ------
     GeometryError
         When the engine refuses it, which it does unless every edge has exactly two, oppositely wound, faces.
     """
-    vertices = np.array(mesh.vertices, dtype=np.float64, order="C")
-    triangles = np.array(mesh.faces, dtype=np.uint64, order="C")
+    marks = {}
+    if original is not None:
+        marks = {
+            "run_index": np.array([0, mesh.triangles.size], dtype=np.uint64),
+            "run_original_id": np.array([original], dtype=np.uint32),
+            "face_id": face_ids.astype(np.uint64),
+        }
     # Mesh64, because the engine's plain Mesh is single precision and loses volumes in the seventh digit.
-    manifold = Manifold(Mesh64(vertices, triangles))
+    vertices = np.array(mesh.vertices, dtype=np.float64, order="C")
+    manifold = Manifold(Mesh64(vertices, np.array(mesh.triangles, dtype=np.uint64, order="C"), **marks))
     if manifold.status() != Error.NoError:
         raise GeometryError(
             f"{name}: not a closed solid for the boolean engine ({manifold.status().name}); close its holes and give "
@@ -130,18 +154,17 @@ def to_manifold(mesh: Trimesh, name: str = "The solid") -> Manifold:
     return manifold
 
 
-def from_manifold(*shells: Manifold) -> Trimesh:
+def from_manifold(*shells: Manifold) -> TriangleMesh:
     """The engine's shells as one mesh."""
-    return mesh_of(*arrays_of(*shells))
-
-
-def arrays_of(*shells: Manifold) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3) and triangles (t, 3) of the engine's shells, one after the other."""
     meshes = [shell.to_mesh64() for shell in shells]
-    firsts = np.cumsum([0] + [len(mesh.vert_properties) for mesh in meshes[:-1]])
-    vertices = np.concatenate([mesh.vert_properties[:, :3] for mesh in meshes])
-    triangles = [mesh.tri_verts.astype(np.int64) + first for mesh, first in zip(meshes, firsts, strict=True)]
-    return vertices, np.concatenate(triangles)
+    return joined_meshes(
+        [TriangleMesh(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)) for mesh in meshes]
+    )
+
+
+def hull(points: np.ndarray) -> Manifold:
+    """Convex hull of points (n, 3); without volume where all lie in one plane."""
+    return Manifold.hull_points(np.ascontiguousarray(points, dtype=float))
 
 
 def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The solid") -> list[list[Manifold]]:
@@ -172,12 +195,12 @@ def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The so
     return found
 
 
-def contains(mesh: Trimesh, points: np.ndarray) -> np.ndarray:
+def contains(mesh: TriangleMesh, points: np.ndarray) -> np.ndarray:
     """Which points lie inside a closed mesh, by its winding number around each.
 
     Parameters
     ----------
-    mesh : Trimesh
+    mesh : TriangleMesh
         Closed; concave, holed and hollow are fine. A point on the surface may go either way.
     points : (n, 3) float
 
@@ -189,49 +212,18 @@ def contains(mesh: Trimesh, points: np.ndarray) -> np.ndarray:
     ----------
     A. van Oosterom, J. Strackee (1983), The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 125-126.
     """
-    corners = np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces)]
+    corners = mesh.corners
     points = np.asarray(points, dtype=float).reshape(-1, 3)
     rows = max(1, _PAIRS_PER_BLOCK // max(1, len(corners)))
     blocks = [_winding_numbers(corners, points[first : first + rows]) for first in range(0, len(points), rows)]
     return np.concatenate(blocks) > 0.5 if blocks else np.zeros(0, dtype=bool)
 
 
-def volumes_and_centres(
-    vertices: Sequence[np.ndarray], triangles: Sequence[np.ndarray]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Volumes and centres of mass of closed meshes of uniform density, by Gauss's theorem.
-
-    Parameters
-    ----------
-    vertices : n arrays (v, 3) float, m
-    triangles : n arrays (t, 3) int
-
-    Returns
-    -------
-    volumes : (n,) float, m³
-        Negative for a mesh that is inside out.
-    centres : (n, 3) float, m
-        The mean of the vertices for a mesh without volume.
-    """
-    if not len(vertices):
-        return np.zeros(0), np.zeros((0, 3))
-    # About its own middle, because a small mesh far from the origin would lose its volume in rounding.
-    middles = np.array([each.mean(axis=0) for each in vertices])
-    corners = np.concatenate([v[t] - m for v, t, m in zip(vertices, triangles, middles, strict=True)])
-    starts = np.cumsum([0] + [len(each) for each in triangles[:-1]])
-    six_volumes = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
-    moments = six_volumes[:, None] * corners.sum(axis=1) / 24
-    volumes = np.add.reduceat(six_volumes / 6, starts)
-    first_moments = np.add.reduceat(moments, starts)
-    has_volume = volumes != 0
-    offsets = np.divide(first_moments, volumes[:, None], out=np.zeros_like(middles), where=has_volume[:, None])
-    return volumes, middles + offsets
-
-
-def _check_surface(vertices: np.ndarray, triangles: np.ndarray, name: str) -> None:
+def _check_surface(mesh: TriangleMesh, name: str) -> None:
+    triangles = mesh.triangles
     if not len(triangles):
         raise GeometryError(f"{name}: has no faces; give it a closed surface.")
-    if not np.isfinite(vertices).all():
+    if not np.isfinite(mesh.vertices).all():
         raise GeometryError(f"{name}: has vertices that are not finite numbers; delete or move them.")
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     _, faces_of_edge = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
@@ -251,11 +243,6 @@ def _check_surface(vertices: np.ndarray, triangles: np.ndarray, name: str) -> No
         )
 
 
-def _check_volume(vertices: np.ndarray, volume: float, name: str) -> None:
-    if volume <= SMALLEST_VOLUME * np.ptp(vertices, axis=0).max() ** 3:
-        raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
-
-
 def _check_bodies(found: list[list[Manifold]], name: str) -> None:
     if len(found) < 2:
         return
@@ -265,7 +252,7 @@ def _check_bodies(found: list[list[Manifold]], name: str) -> None:
         raise GeometryError(f"{name}: its {len(found)} separate bodies overlap; unite them into one first.")
 
 
-def _enclosing(cavity: Manifold, outer_meshes: list[Trimesh], volumes: np.ndarray, name: str) -> int:
+def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: np.ndarray, name: str) -> int:
     """Index of the smallest of the meshes that the cavity lies in."""
     corner = cavity.to_mesh64().vert_properties[:1, :3]
     around = [index for index, mesh in enumerate(outer_meshes) if contains(mesh, corner)[0]]
@@ -277,12 +264,7 @@ def _enclosing(cavity: Manifold, outer_meshes: list[Trimesh], volumes: np.ndarra
 def _winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     """How often triangles (t, 3, 3) wind around each of the points (n, 3): 1 inside, 0 outside."""
     a, b, c = (corners[None, :, index] - points[:, None] for index in range(3))
-    length_a, length_b, length_c = (np.sqrt(np.einsum("ijk,ijk->ij", side, side)) for side in (a, b, c))
-    numerator = np.einsum("ijk,ijk->ij", a, np.cross(b, c))
-    denominator = (
-        length_a * length_b * length_c
-        + np.einsum("ijk,ijk->ij", a, b) * length_c
-        + np.einsum("ijk,ijk->ij", b, c) * length_a
-        + np.einsum("ijk,ijk->ij", c, a) * length_b
-    )
-    return np.arctan2(numerator, denominator).sum(axis=1) / (2 * np.pi)
+    length_a, length_b, length_c = length(a), length(b), length(c)
+    numerator = dot(a, np.cross(b, c))
+    denominator = length_a * length_b * length_c + dot(a, b) * length_c + dot(b, c) * length_a + dot(c, a) * length_b
+    return arctangent(numerator, denominator).sum(axis=1) / (2.0 * np.pi)

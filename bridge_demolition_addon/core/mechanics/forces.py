@@ -66,20 +66,3 @@ def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, cent
     return torques - np.column_stack(
         (y * c - z * b, z * a - x * c, x * b - y * a)
     )  # np.cross takes three times as long
-
-
-def carried_points(
-    local_points: np.ndarray, bodies: np.ndarray, centres: np.ndarray, rotations: np.ndarray
-) -> np.ndarray:
-    """Where points fixed to moving bodies are, (m, 3) in m.
-
-    Parameters
-    ----------
-    local_points
-        (m, 3) in the axes of their bodies, from the bodies' centres.
-    bodies
-        (m,) the body of each point.
-    centres, rotations
-        (n, 3) and (n, 3, 3) of all bodies.
-    """
-    return centres[bodies] + np.einsum("mij,mj->mi", rotations.take(bodies, axis=0), local_points)

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.vectors import length
+
 _HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamma(9.0 / 10.0)
 """2 ∫ dx / √(1 - x^(5/2)) from 0 to 1: contact time by time to cross the largest compression at full speed, 2.943."""
 
@@ -66,7 +68,7 @@ class Hit:
     @property
     def impulse_magnitude_ns(self) -> float:
         """Magnitude of the impulse."""
-        return float(np.linalg.norm(self.impulse_ns))
+        return float(length(self.impulse_ns))
 
 
 def hits(impulses_ns: np.ndarray, steps_s: np.ndarray, start_s: float = 0.0, resting_force_n: float = 0.0) -> list[Hit]:
@@ -90,7 +92,7 @@ def hits(impulses_ns: np.ndarray, steps_s: np.ndarray, start_s: float = 0.0, res
         In order of time. Steps in which no time passes, or whose impulse is nan, belong to no hit.
     """
     impulses_ns, steps_s = np.asarray(impulses_ns, dtype=float), np.asarray(steps_s, dtype=float)
-    magnitudes = np.linalg.norm(impulses_ns, axis=1)
+    magnitudes = length(impulses_ns)
     ends_s = start_s + np.cumsum(steps_s)
     hit = (magnitudes > resting_force_n * steps_s) & (steps_s > 0.0)
     changes = np.flatnonzero(np.diff(hit, prepend=False, append=False))

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.vectors import dot, length, unit
+
 _ANSWER = 0.5
 _GROWTH = 0.5
 """Parts of the impulse that would stop the parting at once. With these the error shrinks to 0.71 of itself in a step:
@@ -34,11 +36,9 @@ def parting(
         (t,) distance in m, (t,) its rate in m/s, (t, 3) unit vector from the first point to the second.
     """
     gaps, speeds = second_points - first_points, second_velocities - first_velocities
-    distances = np.linalg.norm(gaps, axis=1)
-    along = np.where((distances > _SMALLEST_GAP_M)[:, None], gaps, speeds)
-    lengths = np.linalg.norm(along, axis=1)[:, None]
-    directions = np.divide(along, lengths, out=np.zeros_like(along), where=lengths > 0.0)
-    return distances, np.einsum("ti,ti->t", speeds, directions), directions
+    distances = length(gaps)
+    directions = unit(np.where((distances > _SMALLEST_GAP_M)[:, None], gaps, speeds))
+    return distances, dot(speeds, directions), directions
 
 
 def effective_masses(masses_kg: np.ndarray, pairs: np.ndarray) -> np.ndarray:

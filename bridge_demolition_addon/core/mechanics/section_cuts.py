@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry.proximity import ranges
+from ..geometry.vectors import dot, transformed_back
 from .section_forces import SectionForces, section_forces
 
 SAME_WAY = 0.3
@@ -61,7 +62,7 @@ class Cuts:
         first_of_body = np.cumsum(per_body) - per_body
         cut, place = ranges(first_of_body[body], per_body[body])
         half = order[place]
-        cosines = np.einsum("ei,ei->e", outwards[cut], outwards[half])
+        cosines = dot(outwards[cut], outwards[half])
         own = cut == half
         together = own | (is_shard[body[cut]] & (cosines > SAME_WAY) & (areas[half % count] > 0.0))
         cut, half, cosines = cut[together], half[together], cosines[together]
@@ -114,7 +115,7 @@ class Cuts:
         pulls = self.signs[entries, None] * forces[faces]
         turns = self.signs[entries, None] * moments[faces] + np.cross(levers, pulls)
         axes = np.concatenate((axes, axes))
-        across = np.einsum("eji,ej->ei", axes[owners], levers)[:, 1:]
+        across = transformed_back(axes[owners], levers)[:, 1:]
         own = second_moments[faces] * cosines[:, None, None]
         cut_moments = total.of(own + shares[:, None, None] * _moved_axes(across))
         return section_forces(axes, total.of(pulls), total.of(turns)), cut_areas, cut_moments

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.vectors import length, transformed_back, unit
+
 _LEVEL_CUT = 1e-6
 """A normal is vertical when its horizontal part is below this: what rounding leaves of the direction of a level cut."""
 
@@ -54,51 +56,10 @@ def section_axes(normals: np.ndarray) -> np.ndarray:
         (m, 3, 3) rotations: x, y and z of each section are its columns.
     """
     x = np.asarray(normals, dtype=float)
-    level = np.hypot(x[:, 0], x[:, 1]) < _LEVEL_CUT
+    level = length(x[:, :2]) < _LEVEL_CUT
     steepest = np.where(level[:, None], (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-    y = np.cross(steepest, x)
-    y /= np.linalg.norm(y, axis=1)[:, None]
+    y = unit(np.cross(steepest, x))
     return np.stack((x, y, np.cross(x, y)), axis=2)
-
-
-def axes_in_bodies(axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-    """Axes of sections as seen from the bodies they are fixed to, to be carried along with `carried_axes`.
-
-    Parameters
-    ----------
-    axes
-        (m, 3, 3) in the axes of the world.
-    bodies
-        (m,) the body that the axes of each section turn with.
-    rotations
-        (n, 3, 3) of all bodies at that time.
-
-    Returns
-    -------
-    numpy.ndarray
-        (m, 3, 3)
-    """
-    return np.swapaxes(rotations[bodies], 1, 2) @ axes
-
-
-def carried_axes(local_axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-    """Where the axes of sections (m, 3, 3), fixed to their bodies (m,), point in the world under the bodies' rotations.
-
-    Parameters
-    ----------
-    local_axes
-        (m, 3, 3) from `axes_in_bodies`.
-    bodies
-        (m,) the body that the axes of each section turn with.
-    rotations
-        (n, 3, 3) of all bodies.
-
-    Returns
-    -------
-    numpy.ndarray
-        (m, 3, 3) in the axes of the world.
-    """
-    return rotations[bodies] @ local_axes
 
 
 def section_forces(axes: np.ndarray, forces: np.ndarray, moments: np.ndarray) -> SectionForces:
@@ -107,10 +68,10 @@ def section_forces(axes: np.ndarray, forces: np.ndarray, moments: np.ndarray) ->
     Parameters
     ----------
     axes
-        (m, 3, 3) from `section_axes` or `carried_axes`.
+        (m, 3, 3) from `section_axes` or `rotations.carried_axes`.
     forces, moments
         (m, 3) on the first body of each connection, about the connection's own point, in the axes of the world, N and
         N·m.
     """
-    force, moment = (np.einsum("mji,mj->mi", axes, each) for each in (forces, moments))
+    force, moment = (transformed_back(axes, each) for each in (forces, moments))
     return SectionForces(force[:, 0], force[:, 1:], moment[:, 0], moment[:, 1:])

@@ -12,6 +12,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..errors import ScenarioError
+from ..geometry.vectors import length, symmetric_eigenvectors_2d, transformed_back
 from .section_forces import SectionForces
 
 NEWTON_PER_SQUARE_MILLIMETRE = 1e6
@@ -156,9 +157,9 @@ def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Secti
     Materials, part I, 3rd edition, section 62).
     """
     areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
-    moments, directions = np.linalg.eigh(second_moments)
+    moments, directions = symmetric_eigenvectors_2d(second_moments)
     sides = np.sqrt(12.0 * moments / areas[:, None])
-    short, long = sides.T  # eigh sorts them
+    short, long = sides.T
     torsion_moduli = areas * short / (3.0 + 1.8 * short / long)
     return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
 
@@ -198,10 +199,10 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
         (m,) nan where the section has no area, or the forces are nan.
     """
     axial = forces.axial_n / sections.areas_m2
-    moments = np.einsum("mji,mj->mi", sections.directions, forces.bending_nm)
+    moments = transformed_back(sections.directions, forces.bending_nm)
     bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
-    shear = np.hypot(*forces.shear_n.T) / sections.areas_m2 / strength.shear_pa
+    shear = length(forces.shear_n) / sections.areas_m2 / strength.shear_pa
     shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3 / strength.torsion_pa
     stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
     pressed = (bending - axial) / strength.compression_pa
-    return np.hypot(np.maximum(stretched, pressed), shear)
+    return length(np.stack((np.maximum(stretched, pressed), shear), axis=-1))

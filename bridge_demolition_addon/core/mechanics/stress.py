@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.vectors import outer, symmetric_eigenvalues
+
 
 def average_stress(
     bodies: np.ndarray, forces: np.ndarray, points: np.ndarray, centres: np.ndarray, volumes: np.ndarray
@@ -86,20 +88,20 @@ def von_mises(stresses: np.ndarray) -> np.ndarray:
     """Equivalent stress (n,) of tensors (n, 3, 3), Pa: √(3/2 s:s) with the deviator s (R. von Mises, 1913)."""
     mean = np.trace(stresses, axis1=-2, axis2=-1) / 3.0
     deviators = stresses - mean[..., None, None] * np.eye(3)
-    return np.sqrt(1.5 * np.einsum("...ij,...ij->...", deviators, deviators))
+    return np.sqrt(1.5 * (deviators**2).sum(axis=(-2, -1)))
 
 
 def principal_stresses(stresses: np.ndarray) -> np.ndarray:
     """Largest and smallest principal stress (n, 2) of symmetric tensors (n, 3, 3), Pa; nan for tensors with a nan."""
     known = np.isfinite(stresses).all(axis=(-2, -1))
-    values = np.linalg.eigvalsh(np.where(known[..., None, None], stresses, 0.0))
+    values = symmetric_eigenvalues(np.where(known[..., None, None], stresses, 0.0))
     return np.where(known[..., None], values[..., [2, 0]], np.nan)
 
 
 def _averaged(bodies: np.ndarray, first: np.ndarray, second: np.ndarray, volumes: np.ndarray) -> np.ndarray:
     """Symmetric part of Σ first ⊗ second (k, 3) over the loads of each body, divided by its volume, (n, 3, 3)."""
     count = len(volumes)
-    dyads = np.einsum("ki,kj->kij", first, second).reshape(-1, 9)
+    dyads = outer(first, second).reshape(-1, 9)
     entries = 9 * np.asarray(bodies)[:, None] + np.arange(9)
     sums = np.bincount(entries.ravel(), dyads.ravel(), 9 * count).reshape(count, 3, 3)
     solid = np.where(np.asarray(volumes) > 0.0, volumes, np.nan)

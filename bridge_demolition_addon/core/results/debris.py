@@ -9,8 +9,10 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ..geometry.hulls import convex_hulls
+from ..geometry.plan_areas import distances_outside
+from ..geometry.vectors import dot, transformed
 from .arrays import Results
-from .footprint import corners_at, distances_outside, footprint
+from .footprint import corners_at, footprint
 from .motion import throw, travel
 
 MOVED_M = 0.1
@@ -123,8 +125,8 @@ def height_map(results: Results, bodies: np.ndarray, step: int = -1, cells: int 
     hulls = convex_hulls([results.inventory.vertices_of(body) for body in solid])
     for number, (body, corners) in enumerate(zip(solid, all_corners, strict=True)):
         faces = slice(hulls.starts[number], hulls.starts[number + 1])
-        normals = hulls.normals[faces] @ results.frames.rotations[step, body].T
-        offsets = hulls.offsets[faces] + normals @ results.frames.positions_m[step, body]
+        normals = transformed(results.frames.rotations[step, body], hulls.normals[faces])
+        offsets = hulls.offsets[faces] + dot(normals, results.frames.positions_m[step, body])
         columns = slice(*np.searchsorted(xs, [corners[:, 0].min(), corners[:, 0].max()]))
         rows = slice(*np.searchsorted(ys, [corners[:, 1].min(), corners[:, 1].max()]))
         upper = _upper_side(normals, offsets, xs[columns], ys[rows])

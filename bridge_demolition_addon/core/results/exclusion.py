@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection, JoinType
 
+from ..geometry.plan_areas import distances_outside, outlines, united
 from ..scenario import Exclusion
 from .arrays import Results
-from .footprint import distances_outside, footprint, outlines, swept_footprint, united
+from .footprint import footprint, swept_footprint
 
 _CIRCLE_SEGMENTS = 64
 """Corners of a full circle around a corner; they lie on the circle, so that its sides cut 0.1 % of the radius."""

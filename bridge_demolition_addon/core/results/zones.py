@@ -9,10 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
+from ..arithmetic import cosine
+from ..geometry.plan_areas import signed_area
+from ..geometry.rotations import rotated, rotation_vectors
+from ..geometry.solids import hull
+from ..geometry.vectors import length, transformed
 from ..scenario import Zone
 from .arrays import Results
 from .footprint import corners_at
-from .motion import turn, turned
 
 TIME_TOLERANCE_S = 1e-3
 """How well an entry is placed in time between two recorded steps."""
@@ -91,8 +95,7 @@ class _Prism:
         corners = np.array(zone.corners_m)
         bottom = -_FAR_M if zone.bottom_m is None else zone.bottom_m
         top = _FAR_M if zone.top_m is None else zone.top_m
-        ends = np.roll(corners, -1, axis=0)
-        if np.sum(corners[:, 0] * ends[:, 1] - ends[:, 0] * corners[:, 1]) < 0.0:
+        if signed_area(corners) < 0.0:
             corners = corners[::-1]
         solid = Manifold.extrude(CrossSection([corners]), top - bottom).translate((0.0, 0.0, bottom))
         return cls(solid, np.append(corners.min(axis=0), bottom), np.append(corners.max(axis=0), top))
@@ -105,13 +108,13 @@ class _Prism:
         """Whether the convex hull of corners (v, 3) reaches into the prism."""
         if not self.may_meet(corners.min(axis=0), corners.max(axis=0)):
             return False
-        return (Manifold.hull_points(corners) ^ self.solid).volume() > 0.0
+        return (hull(corners) ^ self.solid).volume() > 0.0
 
 
 def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:
     """When a body that is outside at first reaches into a zone, s."""
     corners = results.inventory.vertices_of(body)
-    radius = float(np.linalg.norm(corners, axis=1).max(initial=0.0))
+    radius = float(length(corners).max(initial=0.0))
     places = results.frames.positions_m[:, body]
     low = np.minimum(places[:-1], places[1:]) - radius
     high = np.maximum(places[:-1], places[1:]) + radius
@@ -136,21 +139,19 @@ class _Motion:
 
     @classmethod
     def of(cls, results: Results, step: int, body: int, corners: np.ndarray) -> _Motion:
-        places, rotations = (
-            results.frames.positions_m[step : step + 2, body],
-            results.frames.rotations[step : step + 2, body],
-        )
-        times = results.frames.time_s[step : step + 2]
-        rotating = turn(rotations[0], rotations[1])
-        return cls(corners, places[0], places[1] - places[0], rotations[0], rotating, times[0], times[1] - times[0])
+        steps = slice(step, step + 2)
+        places, rotations = results.frames.positions_m[steps, body], results.frames.rotations[steps, body]
+        times = results.frames.time_s[steps]
+        turn = rotation_vectors(rotations[0], rotations[1])
+        return cls(corners, places[0], places[1] - places[0], rotations[0], turn, times[0], times[1] - times[0])
 
     def at(self, share: float) -> np.ndarray:
-        return self.corners @ turned(self.rotation, share * self.turn).T + self.place + share * self.shift
+        return transformed(rotated(self.rotation, share * self.turn), self.corners) + self.place + share * self.shift
 
     def bulge_m(self, share: float) -> float:
         """How far a corner's path between two positions so many shares apart leaves the straight line, at most."""
-        angle = share * float(np.linalg.norm(self.turn))
-        return float(np.linalg.norm(self.corners, axis=1).max()) * (1.0 - math.cos(min(angle, math.pi) / 2.0))
+        angle = min(share * float(length(self.turn)), math.pi)
+        return float(length(self.corners).max()) * (1.0 - cosine(angle / 2.0))
 
 
 def _entry_between(motion: _Motion, prism: _Prism, first: float, last: float) -> float | None:

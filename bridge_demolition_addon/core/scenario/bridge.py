@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..arithmetic import cosine, sine
 from ..errors import ScenarioError
 from ..schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
@@ -68,7 +69,8 @@ class Bridge(Table):
     @property
     def shift_across(self) -> float:
         """How far along the road a skewed axis moves for each metre across it."""
-        return math.tan(math.radians(self.skew_deg))
+        skew = math.radians(self.skew_deg)
+        return float(sine(skew) / cosine(skew))
 
     @property
     def girder_spacing_m(self) -> float:
@@ -138,7 +140,7 @@ class Bridge(Table):
     @property
     def _column_turn(self) -> float:
         """What a column's length along the road is, as part of the room it takes there once it is turned."""
-        return math.cos(math.radians(self.skew_deg)) if self.piers.kind == "columns" else 1.0
+        return float(cosine(math.radians(self.skew_deg))) if self.piers.kind == "columns" else 1.0
 
     def _check_room_along(self) -> None:
         shortest = min(self.span_lengths_m)

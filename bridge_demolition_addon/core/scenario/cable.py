@@ -6,6 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..arithmetic import cosine, sine
 from ..schema import SHORTEST_LENGTH_M, Table, key
 from ..units import STANDARD_GRAVITY_M_S2
 
@@ -33,9 +34,9 @@ class BallCable(Table):
     def start_m(self) -> tuple[float, float, float]:
         """Middle of the ball before it is let go, m."""
         angle, azimuth = math.radians(self.angle_degrees), math.radians(self.azimuth_degrees)
-        aside = self.length_m * math.sin(angle)
-        x, y, z = self.crane_point_m
-        return x + aside * math.cos(azimuth), y + aside * math.sin(azimuth), z - self.length_m * math.cos(angle)
+        aside = self.length_m * sine(angle)
+        offset = (aside * cosine(azimuth), aside * sine(azimuth), -self.length_m * cosine(angle))
+        return tuple((np.array(self.crane_point_m) + offset).tolist())
 
     @property
     def lowest_point_m(self) -> tuple[float, float, float]:
@@ -60,7 +61,7 @@ class BallCable(Table):
         C. G. Carvalhaes, P. Suppes (2008), American Journal of Physics 76, 1150-1154: T = T₀ / agm(1, cos θ/2).
         """
         arm_m = self.length_m + 0.1 * diameter_m**2 / self.length_m
-        mean, other = 1.0, math.cos(math.radians(self.angle_degrees) / 2.0)
+        mean, other = 1.0, float(cosine(math.radians(self.angle_degrees) / 2.0))
         while mean - other > np.finfo(float).eps * 4.0:
             mean, other = (mean + other) / 2.0, math.sqrt(mean * other)
         return 2.0 * math.pi * math.sqrt(arm_m / STANDARD_GRAVITY_M_S2) / mean

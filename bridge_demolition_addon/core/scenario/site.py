@@ -6,6 +6,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..errors import ScenarioError
+from ..geometry.plan_areas import signed_area
+from ..geometry.vectors import cross_2d
 from ..schema import Table, key
 
 ZONE_KINDS = ("road", "railway", "power line", "pipeline", "building", "water", "other")
@@ -88,8 +90,7 @@ class Neighbour(Table):
 def _sides_cross(corners: np.ndarray) -> bool:
     """Whether any two sides of a polygon (k, 2) that are not neighbours meet, or the polygon has no area."""
     ends = np.roll(corners, -1, axis=0)
-    area = np.sum(corners[:, 0] * ends[:, 1] - ends[:, 0] * corners[:, 1]) / 2.0
-    if abs(area) <= 1e-12 * max(1.0, float(np.ptp(corners, axis=0).max()) ** 2):
+    if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.ptp(corners, axis=0).max()) ** 2):
         return True
     count = len(corners)
     return any(
@@ -104,7 +105,7 @@ def _meet(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> bool:
     """Whether the segments from a to b and from c to d have a point in common; all (2,)."""
 
     def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> float:
-        return float(np.sign((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])))
+        return float(np.sign(cross_2d(q - p, r - p)))
 
     def within(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> bool:
         return bool(((np.minimum(p, q) <= r) & (r <= np.maximum(p, q))).all())

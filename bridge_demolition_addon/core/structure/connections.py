@@ -8,8 +8,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..fracture.shards import SharedFaces
-from ..geometry.mesh import Shard
+from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.proximity import blocks, boxes_that_meet, nearest_points, points_within, ranges
+from ..geometry.vectors import dot, unit
 
 GROUND = -1
 """Stands for the ground where a connection names its second body."""
@@ -106,7 +107,7 @@ def neighbours_by_count(centres: np.ndarray, count: int) -> tuple[np.ndarray, np
     return pairs, distances.ravel()[rows]
 
 
-def neighbours_by_vertex(shards: Sequence[Shard], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+def neighbours_by_vertex(shards: Sequence[TriangleMesh], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (k, 2) of shards whose nearest vertices lie within a radius, and their distances (k,) in m."""
     corners = _Corners.of(shards)
     candidates = boxes_that_meet(corners.lower, corners.upper, radius_m)
@@ -136,7 +137,7 @@ def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shar
     return pairs[kept]
 
 
-def foundations(shards: Sequence[Shard]) -> Connections:
+def foundations(shards: Sequence[TriangleMesh]) -> Connections:
     """Connections to the ground of all shards that stand on it, in the middle of the face they stand on."""
     standing = [(index, *_standing_face(shard)) for index, shard in enumerate(shards)]
     standing = [(index, area, centre) for index, area, centre in standing if area > 0.0]
@@ -154,13 +155,13 @@ def joined(parts: Sequence[Connections]) -> Connections:
     return Connections(*(np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(Connections)))
 
 
-def _standing_face(shard: Shard) -> tuple[float, np.ndarray]:
+def _standing_face(shard: TriangleMesh) -> tuple[float, np.ndarray]:
     """Area and centre of what of a shard lies flat on the ground."""
-    corners = shard.vertices[shard.triangles]
+    corners = shard.corners
     flat = corners[(abs(corners[:, :, 2]) <= _LEVEL_TOLERANCE_M).all(axis=1)]
-    areas = np.linalg.norm(np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]), axis=1) / 2.0
+    areas, _ = triangle_areas_and_normals(flat)
     total = float(areas.sum())
-    centre = areas @ flat.mean(axis=1) / total if total > 0.0 else np.zeros(3)
+    centre = (areas[:, None] * flat.mean(axis=1)).sum(axis=0) / total if total > 0.0 else np.zeros(3)
     return total, centre
 
 
@@ -174,7 +175,7 @@ class _Corners:
     upper: np.ndarray
 
     @classmethod
-    def of(cls, shards: Sequence[Shard]) -> _Corners:
+    def of(cls, shards: Sequence[TriangleMesh]) -> _Corners:
         return cls(
             vertices=np.concatenate([np.zeros((0, 3)), *(shard.vertices for shard in shards)]),
             bounds=np.cumsum([0] + [len(shard.vertices) for shard in shards]),
@@ -191,7 +192,7 @@ class _Corners:
         row = row[of_first]
         difference = self.vertices[first[of_first]] - self.vertices[second[place]]
         squares = np.full(len(pairs), np.inf)
-        np.minimum.at(squares, row, np.einsum("ij,ij->i", difference, difference))
+        np.minimum.at(squares, row, dot(difference, difference))
         return np.sqrt(squares)
 
     def _near_box(self, shards: np.ndarray, others: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
@@ -212,5 +213,5 @@ def _matching_rows(pairs: np.ndarray, face_pairs: np.ndarray, count: int) -> tup
 
 def _directions(vectors: np.ndarray) -> np.ndarray:
     """Unit vectors (k, 3) along vectors (k, 3); upwards where one has no length."""
-    lengths = np.linalg.norm(vectors, axis=1)[:, None]
-    return np.divide(vectors, lengths, out=np.tile([0.0, 0.0, 1.0], (len(vectors), 1)), where=lengths > 0.0)
+    directions = unit(vectors)
+    return np.where(directions.any(axis=1)[:, None], directions, (0.0, 0.0, 1.0))

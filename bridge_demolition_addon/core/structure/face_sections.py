@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..geometry.mesh import Shard
+from ..geometry.mesh import TriangleMesh
+from ..geometry.plan_areas import signed_area
+from ..geometry.vectors import dot, outer, transformed_back
 from ..mechanics.section_forces import section_axes
 
 _SAME_PLANE_M = 1e-6
@@ -17,7 +19,7 @@ _SAME_AREA = 1e-3
 
 
 def second_moments(
-    shards: Sequence[Shard], first: np.ndarray, areas: np.ndarray, centres: np.ndarray, normals: np.ndarray
+    shards: Sequence[TriangleMesh], first: np.ndarray, areas: np.ndarray, centres: np.ndarray, normals: np.ndarray
 ) -> np.ndarray:
     """Second moments of area of faces about their own centres.
 
@@ -50,19 +52,21 @@ def second_moments(
     )
 
 
-def _of_face(shard: Shard, centre: np.ndarray, normal: np.ndarray, axes: np.ndarray, area: float) -> np.ndarray | None:
+def _of_face(
+    shard: TriangleMesh, centre: np.ndarray, normal: np.ndarray, axes: np.ndarray, area: float
+) -> np.ndarray | None:
     """Second moments (2, 2) of the face of a shard, None where the mesh does not show it alone."""
     if area == 0.0:
         return None
-    is_near = abs((shard.vertices - centre) @ normal) <= _SAME_PLANE_M
-    corners = shard.vertices[shard.triangles[is_near[shard.triangles].all(axis=1)]] @ axes
-    sides = corners[:, 1:] - corners[:, :1]
-    triangle_areas = (sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / 2.0
+    is_near = abs(dot(shard.vertices - centre, normal)) <= _SAME_PLANE_M
+    triangles = shard.triangles[is_near[shard.triangles].all(axis=1)]
+    corners = transformed_back(axes, shard.vertices[triangles] - centre)
+    triangle_areas = signed_area(corners)
     if abs(triangle_areas.sum() - area) > _SAME_AREA * area:
         return None
-    corners = corners - np.einsum("t,tci->i", triangle_areas, corners) / 3.0 / triangle_areas.sum()
+    corners = corners - (triangle_areas[:, None] * corners.mean(axis=1)).sum(axis=0) / triangle_areas.sum()
     # ∫ u v dA over a triangle is A/12 (Σ u v + Σ u Σ v), sums over its corners.
     sums = corners.sum(axis=1)
-    products = np.einsum("tci,tcj->tij", corners, corners) + np.einsum("ti,tj->tij", sums, sums)
-    (yy, yz), (_, zz) = np.einsum("t,tij->ij", triangle_areas, products) / 12.0
+    products = outer(corners, corners).sum(axis=1) + outer(sums, sums)
+    (yy, yz), (_, zz) = (triangle_areas[:, None, None] * products).sum(axis=0) / 12.0
     return np.array(((zz, -yz), (-yz, yy)))

@@ -12,7 +12,7 @@ from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..fracture.members import cut_members, shards_with_gaps
 from ..fracture.shards import SharedFaces
-from ..geometry.mesh import Shard
+from ..geometry.mesh import TriangleMesh
 from ..scenario import ConnectionSettings, Scenario
 from . import connections as connecting
 from .connection_rules import rules_of_pairs
@@ -48,7 +48,7 @@ class Model:
     """
 
     members: tuple[Member, ...]
-    shards: tuple[Shard, ...]
+    shards: tuple[TriangleMesh, ...]
     member_of_shard: np.ndarray
     masses_kg: np.ndarray
     centres_m: np.ndarray
@@ -106,7 +106,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
 
 def _connections(
     settings: ConnectionSettings,
-    shards: tuple[Shard, ...],
+    shards: tuple[TriangleMesh, ...],
     centres: np.ndarray,
     faces: SharedFaces,
     allowed: Callable[[np.ndarray], np.ndarray],

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from trimesh import Trimesh
 
 from ..bridge.member import Member
 from ..errors import GeometryError, ScenarioError
-from ..geometry.mesh import Shard, triangle_areas_and_normals
+from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ..geometry.vectors import dot
 from ..scenario.supports import Support
 
 DIRECTIONS = {
@@ -29,7 +29,7 @@ _SAME_LEANING = 1e-6
 
 
 def held_shards(
-    supports: Sequence[Support], members: Sequence[Member], shards: Sequence[Shard], member_of_shard: np.ndarray
+    supports: Sequence[Support], members: Sequence[Member], shards: Sequence[TriangleMesh], member_of_shard: np.ndarray
 ) -> np.ndarray:
     """Whether each shard is held, (n,) bool.
 
@@ -70,24 +70,23 @@ def held_shards(
     return held
 
 
-def on_outermost_face(solid: Trimesh, shards: Sequence[Shard], direction: np.ndarray) -> np.ndarray:
+def on_outermost_face(solid: TriangleMesh, shards: Sequence[TriangleMesh], direction: np.ndarray) -> np.ndarray:
     """Which of a solid's shards (n,) are part of its outermost face that looks most in a direction (3,)."""
-    vertices = np.asarray(solid.vertices, dtype=float)
-    corners = vertices[np.asarray(solid.faces)]
+    corners = solid.corners
     areas, normals = triangle_areas_and_normals(corners)
-    heights = np.einsum("tk,tk->t", normals, corners[:, 0])
-    tolerance = _SAME_PLANE * float(np.ptp(vertices, axis=0).max())
-    outermost = (vertices @ normals.T <= heights + tolerance).all(axis=0) & (areas > 0.0)
-    leaning = np.where(outermost, normals @ direction, -np.inf)
+    heights = dot(normals, corners[:, 0])
+    tolerance = _SAME_PLANE * solid.longest_extent
+    outermost = (dot(solid.vertices[:, None], normals) <= heights + tolerance).all(axis=0) & (areas > 0.0)
+    leaning = np.where(outermost, dot(normals, direction), -np.inf)
     faces = np.flatnonzero(leaning > leaning.max() - _SAME_LEANING)
     planes = np.unique(np.column_stack([normals[faces], heights[faces]]).round(9), axis=0)
     return np.array([_has_face_in(shard, planes, tolerance) for shard in shards], dtype=bool)
 
 
-def _has_face_in(shard: Shard, planes: np.ndarray, tolerance: float) -> bool:
+def _has_face_in(shard: TriangleMesh, planes: np.ndarray, tolerance: float) -> bool:
     """Whether a triangle with an area lies in one of the planes (p, 4), given by their normals and heights."""
-    corners = shard.vertices[shard.triangles]
+    corners = shard.corners
     areas, normals = triangle_areas_and_normals(corners)
-    lies = np.abs(np.einsum("tck,pk->tcp", corners, planes[:, :3]) - planes[:, 3]).max(axis=1) <= tolerance
-    looks = normals @ planes[:, :3].T > 1.0 - _SAME_LEANING
+    lies = np.abs(dot(corners[:, :, None], planes[:, :3]) - planes[:, 3]).max(axis=1) <= tolerance
+    looks = dot(normals[:, None], planes[:, :3]) > 1.0 - _SAME_LEANING
     return bool((lies & looks & (areas > tolerance**2)[:, None]).any())

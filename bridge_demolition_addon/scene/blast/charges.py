@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from numbers import Real
 
 import bpy
-import trimesh
 from mathutils import Matrix
 
 from ...core.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
 from ...core.errors import BlastError, DemolitionError
+from ...core.geometry.solids import sphere
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 
@@ -19,6 +19,7 @@ MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "
 
 _ROLE = "Charges"
 _SYMBOL_SIZE_M = 0.3
+_SYMBOL_SEGMENTS = 16
 _SYMBOL_MARK = "bda_charge_symbol"
 _RED = (0.8, 0.05, 0.02, 1.0)
 
@@ -87,7 +88,7 @@ def _symbol() -> bpy.types.Collection:
     found = next((each for each in bpy.data.collections if each.get(_SYMBOL_MARK) and not each.library), None)
     if found:
         return found
-    solid = trimesh.creation.icosphere(subdivisions=2, radius=_SYMBOL_SIZE_M)
+    solid = sphere(_SYMBOL_SIZE_M, _SYMBOL_SEGMENTS)
     ball = bpy.data.objects.new("Charge symbol", mesh_of("Charge symbol", solid))
     collection = bpy.data.collections.new("Charge symbol")
     collection[_SYMBOL_MARK] = True

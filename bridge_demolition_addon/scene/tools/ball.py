@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import bpy
 import numpy as np
-import trimesh
 from mathutils import Matrix
 
+from ...core.geometry.solids import sphere
 from ...core.scenario import Ball
 from ...core.scenario.kept import values_from_text, values_text
 from ...core.sequence.lifting import lift_path
@@ -18,7 +18,7 @@ from ..world import START_FRAME
 from .keyframes import key_values
 
 _LIFTS = "bda_lifts"
-_BALL_SEGMENTS = (32, 64)
+_BALL_SEGMENTS = 88
 _STEEL = (0.08, 0.09, 0.10, 1.0)
 
 
@@ -30,8 +30,7 @@ def create_ball(
     In the release frame it is free for the first time, so that it falls in the step towards that frame.
     """
     radius = settings.diameter_m / 2.0
-    solid = trimesh.creation.uv_sphere(radius, count=_BALL_SEGMENTS)
-    ball = create_body(world, mesh_of("Wrecking ball", solid), Kind.BALL, "SPHERE")
+    ball = create_body(world, mesh_of("Wrecking ball", sphere(radius, _BALL_SEGMENTS)), Kind.BALL, "SPHERE")
     ball.location = settings.start_m(deck_top_m)
     ball.color = _STEEL
     rigid = ball.rigid_body

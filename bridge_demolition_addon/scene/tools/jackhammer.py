@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-import trimesh
 
+from ...core.geometry.solids import cylinder
 from ...core.scenario import Jackhammer
 from ...core.sequence.hammering import tip_places
 from ...core.timing.timeline import Timeline
@@ -30,8 +30,7 @@ def create_jackhammer(
     timeline : Timeline
         The frames from there on. Blender moves a body in a straight line over the sub-steps between two frames.
     """
-    solid = trimesh.creation.cylinder(settings.diameter_m / 2.0, settings.length_m, sections=_SIDES)
-    solid.apply_translation((0.0, 0.0, settings.length_m / 2.0))
+    solid = cylinder(settings.diameter_m / 2.0, settings.length_m, _SIDES)
     chisel = create_body(world, mesh_of("Jackhammer", solid), Kind.TOOL, "CONVEX_HULL")
     chisel.color = _STEEL
     chisel.rigid_body.type = "PASSIVE"

@@ -20,7 +20,7 @@ from ...scene.blast.charges import charges_of
 from ...scene.blast.field_reach import Reaches, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
 from ...scene.blast.settings import blast_of
-from ...scene.bodies import hull_points
+from ...scene.bodies import scaled_mesh
 
 
 class FieldBlast:
@@ -185,7 +185,7 @@ class Blast:
         pushed = [bodies[row] for row in self._rows]
         explosion = Explosion(
             self.charges,
-            convex_hulls([hull_points(body) for body in pushed], [body.name for body in pushed]),
+            convex_hulls([scaled_mesh(body).vertices for body in pushed], [body.name for body in pushed]),
             settings,
         )
         self._fields: FieldBlast | None = None

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
 from ...core.mechanics import forces
 from ...core.mechanics.frame_loads import SubstepLoads
-from ...core.mechanics.section_forces import axes_in_bodies, carried_axes, section_axes
+from ...core.mechanics.section_forces import section_axes
 
 
 class LoadReader:
@@ -52,7 +53,7 @@ class LoadReader:
         """Loads of the last sub-step, whose length is given in s."""
         centres, rotations = self._world.places()
         force, torque = self._world.joint_feedback(self._feedback_rows)
-        points = forces.carried_points(self._local_points, self._bodies, centres, rotations)
+        points = carried_points(self._local_points, self._bodies, centres, rotations)
         moment = forces.moments_at(points, force, torque, centres[self._bodies])
         contacts = self._world.contacts()
         return SubstepLoads(

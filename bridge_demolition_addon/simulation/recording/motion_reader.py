@@ -8,11 +8,11 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...core.mechanics.forces import lengths
+from ...core.geometry.rotations import rotation_vectors
+from ...core.geometry.vectors import length
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator
 from ...core.results.frames import Frame
 from ...core.results.inventory import Inventory
-from ...core.results.motion import turn
 from ...scene.time_scale import time_step_at
 
 READING = "change of momentum between frames"
@@ -42,7 +42,7 @@ class MomentumReader:
         """Return the frame just evaluated, one on from the last; of a blast it has nothing yet."""
         matrices = np.array([body.evaluated_get(depsgraph).matrix_world for body in self._bodies])
         positions, axes = matrices[:, :3, 3], matrices[:, :3, :3]
-        rotations = axes / np.sqrt((axes * axes).sum(axis=1))[:, None]
+        rotations = axes / length(np.swapaxes(axes, 1, 2))[:, None]
         last, step = self._last, time_step_at(self._scene, self._scene.frame_current)
         time_s, substep_s, loads = 0.0, 0.0, self._no_loads
         velocities = spins = np.zeros_like(positions)
@@ -51,7 +51,7 @@ class MomentumReader:
         if last and step.frame_s > 0.0:
             time_s, substep_s = time_s + step.frame_s, step.substep_s
             velocities = (positions - last.positions_m) / step.frame_s
-            spins = turn(last.rotations, rotations) / step.frame_s
+            spins = rotation_vectors(last.rotations, rotations) / step.frame_s
             loads = self._loads((velocities - last.velocities_m_s) / step.frame_s)
         self._last = Frame(
             number=self._scene.frame_current,
@@ -71,4 +71,4 @@ class MomentumReader:
     def _loads(self, accelerations: np.ndarray) -> FrameLoads:
         """Net forces under accelerations (n, 3); everything else is unknown."""
         forces = self._masses_kg[:, None] * (accelerations - np.array(self._scene.gravity))
-        return replace(self._no_loads, body_forces_n=forces, body_peaks_n=lengths(forces))
+        return replace(self._no_loads, body_forces_n=forces, body_peaks_n=length(forces))

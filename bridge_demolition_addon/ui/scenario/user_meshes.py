@@ -11,6 +11,7 @@ from pathlib import Path
 import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
+from ...core.bridge.mesh_files import exported
 from ...core.errors import DemolitionError, GeometryError, OutputError
 from ...core.fracture.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
@@ -52,7 +53,7 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
             done = {each.name: solid_of_object(each) for each in selected}
             files = _new_files(absolute(self.directory), list(done), {absolute(each.file) for each in tables})
             for name, path in files.items():
-                _write(path, done[name].solid.export(file_type=_MESH_SUFFIX[1:]))
+                _write(path, exported(done[name].solid, _MESH_SUFFIX))
         except DemolitionError as error:
             return refused(self, error)
         for name, path in files.items():

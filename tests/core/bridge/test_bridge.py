@@ -14,6 +14,7 @@ from bridge_demolition_addon.core.bridge import (
 )
 from bridge_demolition_addon.core.geometry.solids import bodies, to_manifold, union
 from bridge_demolition_addon.core.scenario import Bridge, Deck, PierCaps, Piers
+from tests.meshes import is_closed
 
 DECK = Deck(width_m=8.5, thickness_m=0.25, overhang_m=0.5)
 PIERS = Piers(columns=2, column_length_m=0.7, column_width_m=0.6, height_m=4.9)
@@ -55,7 +56,7 @@ def test_members_and_their_volumes():
     ]
     volumes = [14 * 8.5 * 0.25] + 2 * [0.8 * 8 * 0.4, 0.7 * 0.6 * 4.9, 0.7 * 0.6 * 4.9]
     assert [member.volume_m3 for member in members] == pytest.approx(volumes, rel=1e-12)
-    assert all(member.solid.is_watertight for member in members)
+    assert all(is_closed(member.solid) for member in members)
 
 
 def test_places_of_the_members():

@@ -15,10 +15,12 @@ from bridge_demolition_addon.core.bridge.member import Member
 from bridge_demolition_addon.core.bridge.mesh_files import geometry_members, placed_mesh
 from bridge_demolition_addon.core.bridge.preparation import prepared_members
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from bridge_demolition_addon.core.geometry.solids import box, from_manifold, union
 from bridge_demolition_addon.core.scenario import Ball, Geometry, Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
+from tests.meshes import as_trimesh, turned
 
 # Files keep single precision of some metres.
 SINGLE_M = 1e-6
@@ -31,7 +33,7 @@ L_SHAPE = union([box([4, 1, 1], [0, 0, 0.5]), box([1, 1, 4], [-1.5, 0, 2])])
 def file_of(tmp_path):
     def write(solid=L_SHAPE, name="part.stl"):
         path = tmp_path / name
-        solid.export(path)
+        as_trimesh(solid).export(path)
         return str(path)
 
     return write
@@ -52,8 +54,7 @@ def test_formats_give_the_same_member(file_of, suffix):
 
 def test_a_glb_file_has_y_up_and_transforms_of_its_own(tmp_path):
     scene = trimesh.Scene()
-    standing = L_SHAPE.copy()
-    standing.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, [1, 0, 0]))  # z up to y up
+    standing = as_trimesh(turned(L_SHAPE, -np.pi / 2, [1, 0, 0]))  # z up to y up
     scene.add_geometry(standing, transform=trimesh.transformations.translation_matrix([10, 0, 0]))
     path = tmp_path / "part.GLB"
     path.write_bytes(scene.export(file_type="glb"))
@@ -83,7 +84,8 @@ def test_files_of_the_same_name_become_one_solid(file_of):
 
 
 def test_a_broken_file_is_repaired_and_that_is_said(file_of):
-    opened = trimesh.Trimesh(L_SHAPE.vertices, L_SHAPE.faces[L_SHAPE.face_normals[:, 2] < 0.9], process=False)
+    _, normals = triangle_areas_and_normals(L_SHAPE.corners)
+    opened = TriangleMesh(L_SHAPE.vertices, L_SHAPE.triangles[normals[:, 2] < 0.9])
     (member,), notes = geometry_members([member_of(file_of(opened))])
     assert member.volume_m3 == pytest.approx(7, rel=SINGLE_M)
     assert notes == ("part: closed 2 holes",)

@@ -10,7 +10,7 @@ from bridge_demolition_addon.core.bridge.preparation import prepared_members
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.core.fracture.members import cut_members
 from bridge_demolition_addon.core.fracture.point_files import points_from_file
-from bridge_demolition_addon.core.geometry.solids import volumes_and_centres
+from bridge_demolition_addon.core.geometry.mesh import volumes_and_centres
 from bridge_demolition_addon.core.scenario import Finer, FracturePoint, FractureSettings, MemberFracture
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
@@ -170,10 +170,7 @@ def test_gaps_leave_masses_and_connections_as_they_were():
     np.testing.assert_array_equal(model.masses_kg, without.masses_kg)
     np.testing.assert_array_equal(model.connections.areas, without.connections.areas)
     np.testing.assert_array_equal(model.second_moments_m4, without.second_moments_m4)
-    volumes = [
-        volumes_and_centres([s.vertices for s in each.shards], [s.triangles for s in each.shards])[0]
-        for each in (without, model)
-    ]
+    volumes = [volumes_and_centres(each.shards)[0] for each in (without, model)]
     assert (volumes[1] < volumes[0]).all()
 
 

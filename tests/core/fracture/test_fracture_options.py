@@ -11,17 +11,17 @@ from bridge_demolition_addon.core.fracture.gaps import with_gaps
 from bridge_demolition_addon.core.fracture.options import FractureOptions, Recursion
 from bridge_demolition_addon.core.fracture.seeds import random_points
 from bridge_demolition_addon.core.fracture.shards import fracture, voronoi_cells
+from bridge_demolition_addon.core.geometry.mesh import volumes_and_centres
 from bridge_demolition_addon.core.geometry.overlap import overlaps
 from bridge_demolition_addon.core.geometry.solids import (
     bodies,
     box,
     contains,
     from_manifold,
-    mesh_of,
     to_manifold,
     union,
-    volumes_and_centres,
 )
+from tests.meshes import as_trimesh
 
 # What the project promises for sums of volumes.
 VOLUME = 1e-9
@@ -41,7 +41,7 @@ OPTIONS = {
 
 
 def volumes_of(shards):
-    return volumes_and_centres([shard.vertices for shard in shards], [shard.triangles for shard in shards])[0]
+    return volumes_and_centres(shards)[0]
 
 
 @pytest.mark.parametrize("option", OPTIONS)
@@ -52,10 +52,10 @@ def test_volumes_are_exact_with_every_option(name, option):
     assert (result.volumes > 0).all()
     assert len(overlaps(result.shards)) == 0
     for shard in result.shards:
-        assert len(bodies(to_manifold(mesh_of(shard.vertices, shard.triangles)))) == 1
+        assert len(bodies(to_manifold(shard))) == 1
     # The surface of all shards is the solid's and both sides of all common faces, but for the smallest.
-    surface = sum(trimesh.triangles.area(shard.vertices[shard.triangles]).sum() for shard in result.shards)
-    assert surface == pytest.approx(SOLIDS[name].area + 2 * result.faces.areas.sum(), rel=1e-7)
+    surface = sum(trimesh.triangles.area(shard.corners).sum() for shard in result.shards)
+    assert surface == pytest.approx(as_trimesh(SOLIDS[name]).area + 2 * result.faces.areas.sum(), rel=1e-7)
     assert (result.faces.pairs[:, 0] < result.faces.pairs[:, 1]).all()
     assert np.array_equal(result.faces.pairs, np.unique(result.faces.pairs, axis=0))
 
@@ -175,7 +175,7 @@ def test_gaps_are_as_wide_as_asked_and_the_surface_stays(name):
     vertices = np.concatenate([shard.vertices for shard in apart])
     np.testing.assert_allclose([vertices.min(axis=0), vertices.max(axis=0)], SOLIDS[name].bounds, atol=1e-9)
     for first, second in whole.faces.pairs:
-        one, other = (to_manifold(mesh_of(apart[each].vertices, apart[each].triangles)) for each in (first, second))
+        one, other = (to_manifold(apart[each]) for each in (first, second))
         # Coordinates of some metres; what is left over after a cut is rounded to 1e-9.
         assert one.min_gap(other, 1.0) >= gap - 1e-7
 

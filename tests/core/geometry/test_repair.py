@@ -6,9 +6,11 @@ import trimesh
 from manifold3d import Manifold
 
 from bridge_demolition_addon.core.errors import GeometryError
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.core.geometry.repair import repaired_solid
 from bridge_demolition_addon.core.geometry.self_intersection import first_crossing
-from bridge_demolition_addon.core.geometry.solids import bodies, box, from_manifold, mesh_of, to_manifold, union
+from bridge_demolition_addon.core.geometry.solids import bodies, box, from_manifold, to_manifold, union
+from tests.meshes import mesh, moved, of_trimesh, together, turned
 
 # Volumes of some m³ from coordinates in double precision.
 ROUNDING = 1e-12
@@ -18,21 +20,17 @@ HOLLOW = from_manifold(Manifold.cube([4, 4, 2], True) - Manifold.cube([3, 3, 1],
 
 
 def without_faces(mesh, lost):
-    return mesh_of(mesh.vertices, mesh.faces[~lost])
+    return TriangleMesh(mesh.vertices, mesh.triangles[~lost])
 
 
 def on_plane(mesh, axis, place):
     """Which faces of a mesh lie in the plane at a place along an axis."""
-    return (abs(mesh.triangles[:, :, axis] - place) < 1e-9).all(axis=1)
+    return (abs(mesh.corners[:, :, axis] - place) < 1e-9).all(axis=1)
 
 
 def as_soup(mesh):
     """Every triangle with corners of its own, as in an STL file."""
-    return mesh_of(mesh.triangles.reshape(-1, 3), np.arange(3 * len(mesh.faces)).reshape(-1, 3))
-
-
-def both(*meshes):
-    return trimesh.util.concatenate(meshes)
+    return TriangleMesh(mesh.corners.reshape(-1, 3), np.arange(3 * len(mesh.triangles)).reshape(-1, 3))
 
 
 @pytest.mark.parametrize("mesh", [L_SHAPE, HOLLOW, as_soup(L_SHAPE)], ids=["L", "hollow", "soup"])
@@ -43,26 +41,26 @@ def test_a_sound_mesh_needs_no_repair(mesh):
 
 
 def test_a_mesh_inside_out_is_turned():
-    assert repaired_solid(mesh_of(L_SHAPE.vertices, L_SHAPE.faces[:, ::-1]), "it").solid.volume == pytest.approx(7)
+    assert repaired_solid(L_SHAPE.flipped(), "it").solid.volume == pytest.approx(7)
 
 
 @pytest.mark.parametrize("turned", [[0], [3, 4, 7], [0, 1, 2, 3, 4, 5]])
 def test_faces_that_look_the_wrong_way_are_turned(turned):
-    faces = L_SHAPE.faces.copy()
+    faces = L_SHAPE.triangles.copy()
     faces[turned] = faces[turned][:, ::-1]
-    done = repaired_solid(mesh_of(L_SHAPE.vertices, faces), "it")
+    done = repaired_solid(TriangleMesh(L_SHAPE.vertices, faces), "it")
     assert done.repairs == (f"turned {len(turned)} faces",)
     assert done.solid.volume == pytest.approx(7, rel=ROUNDING)
 
 
 def test_cavities_stay_cavities_when_faces_are_turned():
-    faces = HOLLOW.faces.copy()
-    inner = (abs(HOLLOW.triangles).max(axis=(1, 2)) < 1.6).nonzero()[0]
+    faces = HOLLOW.triangles.copy()
+    inner = (abs(HOLLOW.corners).max(axis=(1, 2)) < 1.6).nonzero()[0]
     assert len(inner) == 12
-    for turned in ([inner[0]], [*inner[:3], (set(range(len(faces))) - set(inner)).pop()]):
+    for chosen in ([inner[0]], [*inner[:3], (set(range(len(faces))) - set(inner)).pop()]):
         broken = faces.copy()
-        broken[turned] = broken[turned][:, ::-1]
-        done = repaired_solid(mesh_of(HOLLOW.vertices, broken), "it")
+        broken[chosen] = broken[chosen][:, ::-1]
+        done = repaired_solid(TriangleMesh(HOLLOW.vertices, broken), "it")
         assert done.solid.volume == pytest.approx(4 * 4 * 2 - 3 * 3 * 1, rel=ROUNDING)
 
 
@@ -71,9 +69,7 @@ def test_cavities_stay_cavities_when_faces_are_turned():
 def test_plane_holes_are_closed_even_where_they_are_concave(axis, place, turn):
     # The side at y = 0.5 is the L itself.
     lost = on_plane(L_SHAPE, axis, place)
-    mesh = without_faces(L_SHAPE, lost)
-    mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, [1, 2, 3]))
-    done = repaired_solid(mesh, "it")
+    done = repaired_solid(turned(without_faces(L_SHAPE, lost), turn, [1, 2, 3]), "it")
     assert done.repairs == ("closed 1 hole",)
     assert done.solid.volume == pytest.approx(7, rel=ROUNDING)
 
@@ -88,29 +84,28 @@ def test_two_holes_are_closed():
 def test_corners_that_nearly_coincide_are_merged():
     # As if rounded to single precision, each face by itself.
     soup = as_soup(L_SHAPE)
-    soup.vertices = soup.vertices + np.random.default_rng(1).uniform(-2e-7, 2e-7, soup.vertices.shape)
-    done = repaired_solid(soup, "it")
+    done = repaired_solid(moved(soup, np.random.default_rng(1).uniform(-2e-7, 2e-7, soup.vertices.shape)), "it")
     assert len(done.repairs) == 1 and done.repairs[0].startswith("merged")
     # Corners moved by 2e-7 of some metres.
     assert done.solid.volume == pytest.approx(7, rel=1e-6)
 
 
 def test_doubled_faces_are_dropped():
-    doubled = mesh_of(L_SHAPE.vertices, np.concatenate([L_SHAPE.faces, L_SHAPE.faces[2:4]]))
+    doubled = TriangleMesh(L_SHAPE.vertices, np.concatenate([L_SHAPE.triangles, L_SHAPE.triangles[2:4]]))
     done = repaired_solid(doubled, "it")
     assert done.repairs == ("dropped 2 doubled faces",)
     assert done.solid.volume == pytest.approx(7, rel=ROUNDING)
 
 
 def test_overlapping_bodies_are_united():
-    done = repaired_solid(both(box([4, 1, 1]), box([1, 1, 4], [-1.25, 0.2, 1.5])), "it")
+    done = repaired_solid(together(box([4, 1, 1]), box([1, 1, 4], [-1.25, 0.2, 1.5])), "it")
     assert done.repairs == ("united 2 overlapping bodies",)
     # The second is 1 x 0.8 x 1 m deep in the first.
     assert done.solid.volume == pytest.approx(4 + 4 - 0.8, rel=ROUNDING)
 
 
 def test_bodies_apart_stay_apart():
-    done = repaired_solid(both(box([1, 1, 1]), box([1, 1, 1], [5, 0, 0])), "it")
+    done = repaired_solid(together(box([1, 1, 1]), box([1, 1, 1], [5, 0, 0])), "it")
     assert done.repairs == ()
     assert len(bodies(to_manifold(done.solid))) == 2
 
@@ -122,25 +117,25 @@ def twisted():
     vertices = np.array(bar.vertices)
     vertices[end, 1:] *= -1
     vertices[end, 1] *= 0.5
-    return mesh_of(vertices, bar.faces)
+    return TriangleMesh(vertices, bar.triangles)
 
 
 def bowl():
     """Half a sphere without lid, whose rim leaves its plane."""
-    ball = trimesh.creation.icosphere(2)
-    upper = without_faces(ball, (ball.triangles[:, :, 2] > 0.3).any(axis=1))
+    ball = of_trimesh(trimesh.creation.icosphere(2))
+    upper = without_faces(ball, (ball.corners[:, :, 2] > 0.3).any(axis=1))
     wavy = np.array(upper.vertices)
     wavy[:, 2] += 0.3 * wavy[:, 0] ** 2 * (wavy[:, 2] > -0.2)
-    return mesh_of(wavy, upper.faces)
+    return TriangleMesh(wavy, upper.triangles)
 
 
 @pytest.mark.parametrize(
     "mesh, reason",
     [
-        (mesh_of(np.zeros((3, 3)), np.zeros((0, 3), int)), "has no faces"),
-        (mesh_of([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]], [[0, 1, 2]]), "not finite"),
-        (mesh_of([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "encloses no volume"),
-        (mesh_of(box([2, 2, 1]).vertices * (1, 1, 0), box([2, 2, 1]).faces), "encloses no volume"),
+        (mesh(np.zeros((3, 3)), []), "has no faces"),
+        (mesh([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]], [[0, 1, 2]]), "not finite"),
+        (mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "encloses no volume"),
+        (mesh(box([2, 2, 1]).vertices * (1, 1, 0), box([2, 2, 1]).triangles), "encloses no volume"),
         (twisted(), "its surface crosses itself near"),
         (bowl(), "is not plane"),
     ],
@@ -162,6 +157,8 @@ def test_crossings_of_triangles_worked_out_by_hand():
         assert first_crossing(np.stack([flat, other])) is None
 
 
-@pytest.mark.parametrize("solid", [L_SHAPE, HOLLOW, trimesh.creation.icosphere(3)], ids=["L", "hollow", "ball"])
+@pytest.mark.parametrize(
+    "solid", [L_SHAPE, HOLLOW, of_trimesh(trimesh.creation.icosphere(3))], ids=["L", "hollow", "ball"]
+)
 def test_sound_surfaces_do_not_cross_themselves(solid):
-    assert first_crossing(np.asarray(solid.triangles)) is None
+    assert first_crossing(solid.corners) is None

@@ -6,34 +6,30 @@ import trimesh
 from manifold3d import Manifold
 
 from bridge_demolition_addon.core.errors import GeometryError
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh, volumes_and_centres
 from bridge_demolition_addon.core.geometry.solids import (
     bodies,
     box,
     checked_solid,
     contains,
     from_manifold,
-    mesh_of,
     to_manifold,
     union,
-    volumes_and_centres,
 )
+from tests.meshes import is_closed, of_trimesh
 
 # A few hundred roundings of 2e-16 each, on numbers of the size of one.
 ROUNDING = 1e-13
 
 
-def hollow_box() -> trimesh.Trimesh:
+def hollow_box() -> TriangleMesh:
     return from_manifold(Manifold.cube([4, 4, 2], True) - Manifold.cube([3, 3, 1], True))
-
-
-def volume_of(mesh: trimesh.Trimesh) -> float:
-    return float(volumes_and_centres([mesh.vertices], [mesh.faces])[0][0])
 
 
 def test_a_box_has_its_size_its_place_and_looks_outwards() -> None:
     mesh = box([30.0, 12.0, 1.0], [5.0, 0.0, 7.5])
     assert np.allclose(mesh.bounds, [[-10, -6, 7], [20, 6, 8]], rtol=0, atol=0)
-    assert mesh.is_watertight and mesh.is_winding_consistent
+    assert is_closed(mesh)
     assert mesh.volume == pytest.approx(360.0, rel=ROUNDING)
 
 
@@ -46,7 +42,7 @@ def test_a_box_without_extent_is_refused(size: list[float]) -> None:
 def test_volumes_and_centres_agree_with_trimesh() -> None:
     meshes = [trimesh.creation.icosphere(3), trimesh.creation.cone(1.0, 2.0), trimesh.creation.torus(3.0, 1.0)]
     meshes[1].apply_translation([1000.0, -500.0, 20.0])
-    volumes, centres = volumes_and_centres([mesh.vertices for mesh in meshes], [mesh.faces for mesh in meshes])
+    volumes, centres = volumes_and_centres([of_trimesh(mesh) for mesh in meshes])
     # trimesh integrates about the origin and loses some digits 1 km away from it: 1e3^3 * 2e-16.
     assert np.allclose(volumes, [mesh.volume for mesh in meshes], rtol=1e-6)
     assert np.allclose(centres, [mesh.center_mass for mesh in meshes], rtol=0, atol=1e-5)
@@ -54,18 +50,18 @@ def test_volumes_and_centres_agree_with_trimesh() -> None:
 
 def test_the_volume_of_a_small_solid_far_away_keeps_its_digits() -> None:
     # The corners themselves are rounded to 1e4 * 1e-16 = 1e-12 m, on edges of 0.1 m.
-    assert volume_of(box([0.1, 0.1, 0.1], [1e4, 1e4, 1e4])) == pytest.approx(1e-3, rel=1e-10)
+    assert box([0.1, 0.1, 0.1], [1e4, 1e4, 1e4]).volume == pytest.approx(1e-3, rel=1e-10)
 
 
 def test_volumes_of_no_meshes_are_empty() -> None:
-    volumes, centres = volumes_and_centres([], [])
+    volumes, centres = volumes_and_centres([])
     assert volumes.shape == (0,) and centres.shape == (0, 3)
 
 
 def test_a_union_counts_what_overlaps_once() -> None:
     # 4 + 4 - 1: an L of two bars that share a unit cube.
     corner = union([box([4, 1, 1]), box([1, 1, 4], [-1.5, 0, 1.5])])
-    assert corner.is_watertight
+    assert is_closed(corner)
     assert corner.volume == pytest.approx(7.0, rel=ROUNDING)
 
 
@@ -87,38 +83,41 @@ def test_a_union_keeps_double_precision() -> None:
 
 
 def test_an_inside_out_solid_is_turned() -> None:
-    mesh = mesh_of(box([1, 2, 3]).vertices, box([1, 2, 3]).faces[:, ::-1])
-    assert volume_of(mesh) < 0
-    assert volume_of(checked_solid(mesh, "pier")) == pytest.approx(6.0, rel=ROUNDING)
+    mesh = box([1, 2, 3]).flipped()
+    assert mesh.volume < 0
+    assert checked_solid(mesh, "pier").volume == pytest.approx(6.0, rel=ROUNDING)
 
 
 def test_a_sound_solid_passes_unchanged() -> None:
     mesh = hollow_box()
     checked = checked_solid(mesh, "box girder")
-    assert np.array_equal(checked.vertices, mesh.vertices) and np.array_equal(checked.faces, mesh.faces)
+    assert np.array_equal(checked.vertices, mesh.vertices) and np.array_equal(checked.triangles, mesh.triangles)
 
 
-def broken_solids() -> dict[str, tuple[trimesh.Trimesh, str]]:
+def broken_solids() -> dict[str, tuple[TriangleMesh, str]]:
     sound = box([1, 1, 1])
     infinite = sound.vertices.copy()
     infinite[0, 0] = np.inf
-    one_turned = sound.faces.copy()
+    one_turned = sound.triangles.copy()
     one_turned[0] = one_turned[0, ::-1]
     flat = sound.vertices * [1, 1, 0]
     two = [Manifold.cube([1, 1, 1], True), Manifold.cube([1, 1, 1], True).translate([0.5, 0.5, 0.5])]
     apart = [two[0], two[0].translate([3, 0, 0])]
-    small_turned = from_manifold(*apart).faces.copy()
+    small_turned = from_manifold(*apart).triangles.copy()
     small_turned[12:] = small_turned[12:, ::-1]
     shrunk = from_manifold(apart[0], apart[1].scale([0.5, 0.5, 0.5]))
     return {
-        "no faces": (mesh_of(sound.vertices, np.zeros((0, 3), dtype=int)), "no faces"),
-        "infinite": (mesh_of(infinite, sound.faces), "not finite"),
-        "open": (mesh_of(sound.vertices, sound.faces[1:]), "not closed, 3 edges"),
-        "one face doubled": (mesh_of(sound.vertices, np.vstack([sound.faces, sound.faces[:1]])), "odd number"),
-        "one face turned": (mesh_of(sound.vertices, one_turned), "some faces look inwards"),
-        "flat": (mesh_of(flat, sound.faces), "no volume"),
+        "no faces": (TriangleMesh(sound.vertices, np.zeros((0, 3), dtype=int)), "no faces"),
+        "infinite": (TriangleMesh(infinite, sound.triangles), "not finite"),
+        "open": (TriangleMesh(sound.vertices, sound.triangles[1:]), "not closed, 3 edges"),
+        "one face doubled": (
+            TriangleMesh(sound.vertices, np.vstack([sound.triangles, sound.triangles[:1]])),
+            "odd number",
+        ),
+        "one face turned": (TriangleMesh(sound.vertices, one_turned), "some faces look inwards"),
+        "flat": (TriangleMesh(flat, sound.triangles), "no volume"),
         "bodies overlap": (from_manifold(*two), "2 separate bodies overlap"),
-        "one body inside out": (mesh_of(shrunk.vertices, small_turned), "inside out"),
+        "one body inside out": (TriangleMesh(shrunk.vertices, small_turned), "inside out"),
     }
 
 
@@ -132,7 +131,7 @@ def test_what_cannot_be_cut_is_refused_with_its_name_and_reason(name: str) -> No
 def test_the_boolean_engine_refuses_an_open_mesh() -> None:
     sound = box([1, 1, 1])
     with pytest.raises(GeometryError, match="pier: not a closed solid"):
-        to_manifold(mesh_of(sound.vertices, sound.faces[1:]), "pier")
+        to_manifold(TriangleMesh(sound.vertices, sound.triangles[1:]), "pier")
 
 
 def test_there_and_back_through_the_boolean_engine_keeps_every_digit() -> None:
@@ -151,7 +150,7 @@ def test_a_cavity_belongs_to_the_body_around_it() -> None:
 
 
 def test_contains_knows_holes_and_cavities() -> None:
-    torus = trimesh.creation.torus(3.0, 1.0)
+    torus = of_trimesh(trimesh.creation.torus(3.0, 1.0))
     points = np.random.default_rng(0).uniform(-4, 4, (2_000, 3))
     distance = np.hypot(np.hypot(points[:, 0], points[:, 1]) - 3.0, points[:, 2])
     # trimesh's torus of 32 x 32 sides lies inside the round one, by at most (1 - cos(π/32)) * 4 m = 0.02 m.

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.mechanics.forces import carried_points, magnitude_sums, moments_at, resultants
+from bridge_demolition_addon.core.geometry.rotations import carried_points
+from bridge_demolition_addon.core.mechanics.forces import magnitude_sums, moments_at, resultants
 
 NO_PAIRS, NO_VECTORS = np.zeros((0, 2), int), np.zeros((0, 3))
 

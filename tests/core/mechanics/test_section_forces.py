@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.core.geometry.rotations import axes_in_bodies, carried_axes
 from bridge_demolition_addon.core.mechanics.section_forces import (
-    axes_in_bodies,
-    carried_axes,
     section_axes,
     section_forces,
 )

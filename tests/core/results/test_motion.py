@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.results.motion import first_hit, throw, travel, turn, turned
+from bridge_demolition_addon.core.geometry.rotations import rotated, rotation_vectors
+from bridge_demolition_addon.core.results.motion import first_hit, throw, travel
 
 GRAVITY = np.array([0.0, 0.0, -9.80665])
 
@@ -60,16 +61,16 @@ def about(axis, degrees):
 @pytest.mark.parametrize("degrees", [0.0, 1e-7, 30.0, 90.0, 179.0, -120.0])
 @pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, -3)])
 def test_turns_are_found_again(axis, degrees):
-    start = turned(np.eye(3)[None], about((3, 1, 2), 70.0)[None])
-    end = turned(start, about(axis, degrees)[None])
+    start = rotated(np.eye(3)[None], about((3, 1, 2), 70.0)[None])
+    end = rotated(start, about(axis, degrees)[None])
     np.testing.assert_allclose(end @ np.swapaxes(end, 1, 2), np.eye(3)[None], atol=1e-14)
-    np.testing.assert_allclose(turn(start, end), about(axis, degrees)[None], atol=1e-12)
+    np.testing.assert_allclose(rotation_vectors(start, end), about(axis, degrees)[None], atol=1e-12)
 
 
 def test_a_quarter_turn_about_z_takes_x_to_y():
-    np.testing.assert_allclose(turned(np.eye(3), about((0, 0, 1), 90.0)) @ (1, 0, 0), (0, 1, 0), atol=1e-15)
+    np.testing.assert_allclose(rotated(np.eye(3), about((0, 0, 1), 90.0)) @ (1, 0, 0), (0, 1, 0), atol=1e-15)
 
 
 def test_more_than_half_a_turn_seems_to_go_back():
-    end = turned(np.eye(3)[None], about((0, 0, 1), 200.0)[None])
-    np.testing.assert_allclose(turn(np.eye(3)[None], end), about((0, 0, 1), -160.0)[None], atol=1e-12)
+    end = rotated(np.eye(3)[None], about((0, 0, 1), 200.0)[None])
+    np.testing.assert_allclose(rotation_vectors(np.eye(3)[None], end), about((0, 0, 1), -160.0)[None], atol=1e-12)

@@ -4,10 +4,8 @@ from itertools import product
 
 import numpy as np
 import pytest
-import trimesh
 
 from bridge_demolition_addon.core.fracture.shards import touching_faces
-from bridge_demolition_addon.core.geometry.mesh import Shard
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.structure.connections import (
     GROUND,
@@ -21,6 +19,7 @@ from bridge_demolition_addon.core.structure.connections import (
     neighbours_by_face,
     neighbours_by_vertex,
 )
+from tests.meshes import moved, together, turned
 
 # Coordinates of a few metres in double precision.
 ROUNDING = 1e-12
@@ -29,12 +28,8 @@ GRID = np.array(list(product(range(3), repeat=3)), float)
 """Centres of 27 unit cubes: 3 x 2 x 9 = 54 pairs share a face, 3 x 24 = 72 only an edge, 4 x 8 = 32 only a corner."""
 
 
-def shard(mesh):
-    return Shard(np.array(mesh.vertices), np.array(mesh.faces, np.int32))
-
-
 def cubes(centres):
-    return [shard(box((1.0, 1.0, 1.0), centre)) for centre in centres]
+    return [box((1.0, 1.0, 1.0), centre) for centre in centres]
 
 
 def line(count):
@@ -69,7 +64,7 @@ def test_neighbours_by_centre_of_more_shards_than_one_block_takes():
 def test_neighbours_by_vertex_are_those_of_comparing_all_vertices(radius):
     generator = np.random.default_rng(5)
     sizes, places = generator.uniform(0.05, 0.4, (150, 3)), generator.uniform(-1.0, 1.0, (150, 3))
-    shards = [shard(box(size, place)) for size, place in zip(sizes, places, strict=True)]
+    shards = [box(size, place) for size, place in zip(sizes, places, strict=True)]
     corners = np.array([each.vertices for each in shards])
     differences = corners[:, None, :, None] - corners[None, :, None, :]
     apart = np.linalg.norm(differences, axis=4).min(axis=(2, 3))
@@ -98,8 +93,8 @@ def test_neighbours_by_count_of_few_shards_are_all(count):
 
 def test_shards_with_their_centres_in_one_place_are_connected_upwards():
     # A cube in the hollow of a larger one: no face is shared where there is a gap all around.
-    hollow = trimesh.util.concatenate([box((3.0, 3.0, 3.0)), box((2.0, 2.0, 2.0))])
-    shards, centres = [shard(hollow), shard(box((1.0, 1.0, 1.0)))], np.zeros((2, 3))
+    hollow = together(box((3.0, 3.0, 3.0)), box((2.0, 2.0, 2.0)))
+    shards, centres = [hollow, box((1.0, 1.0, 1.0))], np.zeros((2, 3))
     connections = connect(centres, touching_faces(shards), *neighbours_by_centre(centres, 0.1), 5)
     assert connections.pairs.tolist() == [[0, 1]]
     assert connections.areas.tolist() == [0.0]
@@ -124,7 +119,7 @@ def test_neighbours_by_vertex_in_a_line(radius, apart):
 
 def test_boxes_that_come_near_while_their_vertices_do_not():
     # A small cube on the middle of a large slab: 0 m between the boxes, sqrt(4.5² + 4.5² + 0) between vertices.
-    slab, cube = shard(box((10.0, 10.0, 1.0), (0.0, 0.0, -0.5))), shard(box((1.0, 1.0, 1.0), (0.0, 0.0, 0.5)))
+    slab, cube = box((10.0, 10.0, 1.0), (0.0, 0.0, -0.5)), box((1.0, 1.0, 1.0), (0.0, 0.0, 0.5))
     assert len(neighbours_by_vertex([slab, cube], 6.3)[0]) == 0
     pairs, distances = neighbours_by_vertex([slab, cube], 6.4)
     assert pairs.tolist() == [[0, 1]]
@@ -143,7 +138,7 @@ def test_connections_by_face_in_a_grid():
 
 def test_a_connection_sits_in_the_middle_of_the_shared_face():
     # The cube stands on the slab's corner, so that the face lies far from half-way between the centres.
-    slab, cube = shard(box((4.0, 4.0, 1.0), (0.0, 0.0, -0.5))), shard(box((1.0, 2.0, 3.0), (1.5, 1.0, 1.5)))
+    slab, cube = box((4.0, 4.0, 1.0), (0.0, 0.0, -0.5)), box((1.0, 2.0, 3.0), (1.5, 1.0, 1.5))
     connections = connected_by_face([slab, cube], np.array([[0.0, 0.0, -0.5], [1.5, 1.0, 1.5]]))
     assert connections.pairs.tolist() == [[0, 1]]
     assert connections.areas == pytest.approx([2.0], abs=ROUNDING)
@@ -198,21 +193,19 @@ def test_foundations_of_cubes_on_and_above_the_ground():
 def test_foundation_of_a_shard_on_two_feet_is_between_them():
     # Feet of 1 and 3 m² at x = 0 and 4 m: the centre of the standing area is 3/4 of the way.
     feet = [box((1.0, 1.0, 2.0), (0.0, 0.0, 1.0)), box((1.0, 3.0, 2.0), (4.0, 0.0, 1.0))]
-    standing = foundations([shard(trimesh.util.concatenate(feet))])
+    standing = foundations([together(*feet)])
     assert standing.areas == pytest.approx([4.0], abs=ROUNDING)
     np.testing.assert_allclose(standing.points, [[3.0, 0.0, 0.0]], atol=ROUNDING)
 
 
 @pytest.mark.parametrize("height, count", [(0.0, 1), (1e-7, 1), (1e-5, 0)])
 def test_a_shard_stands_only_on_the_ground_itself(height, count):
-    assert len(foundations([shard(box((1.0, 1.0, 1.0), (0.0, 0.0, 0.5 + height)))])) == count
+    assert len(foundations([box((1.0, 1.0, 1.0), (0.0, 0.0, 0.5 + height))])) == count
 
 
 def test_a_shard_on_its_edge_does_not_stand():
-    tilted = box((1.0, 1.0, 1.0))
-    tilted.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 4, (1, 0, 0)))
-    tilted.apply_translation((0.0, 0.0, -tilted.bounds[0, 2]))
-    assert len(foundations([shard(tilted)])) == 0
+    tilted = turned(box((1.0, 1.0, 1.0)), np.pi / 4, (1, 0, 0))
+    assert len(foundations([moved(tilted, (0.0, 0.0, -tilted.bounds[0, 2]))])) == 0
 
 
 def shapes(connections):

@@ -24,7 +24,7 @@ def objects(extension, settings):
         ("east wall", (0.5, 4.0, 4.0), (9.5, 0.0, 2.0)),
     ):
         mesh, solid = extension.data.meshes.new(name), box(size)
-        mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
+        mesh.from_pydata(solid.vertices, [], solid.triangles.tolist())
         made.append(extension.data.objects.new(name, mesh))
         extension.context.scene.collection.objects.link(made[-1])
         made[-1].location = place

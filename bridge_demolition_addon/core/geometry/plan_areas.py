@@ -1,0 +1,63 @@
+"""Areas in plan: united, outlined, and how far points are outside them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from manifold3d import CrossSection, OpType
+
+from ..arithmetic import arctangent
+from .vectors import cross_2d, distance, dot
+
+
+def signed_area(corners: np.ndarray) -> np.ndarray:
+    """Areas (...) within polygons (..., k, 2), negative where the corners run clockwise (Gauss's shoelace formula)."""
+    # From the first corner, because a small polygon far from the origin would lose its area in rounding.
+    arms = corners - corners[..., :1, :]
+    return cross_2d(arms, np.roll(arms, -1, axis=-2)).sum(axis=-1) / 2.0
+
+
+def united(areas: Iterable[CrossSection]) -> CrossSection:
+    """What at least one of the areas covers."""
+    areas = list(areas)
+    return CrossSection.batch_boolean(areas, OpType.Add) if areas else CrossSection()
+
+
+def outlines(area: CrossSection) -> list[np.ndarray]:
+    """Closed outlines of an area, each (k, 2) in m: outer ones run anticlockwise, those of holes clockwise."""
+    return [np.asarray(each, float) for each in area.to_polygons()]
+
+
+def distances_outside(area: CrossSection, points: np.ndarray) -> np.ndarray:
+    """How far points (p, 2) are outside an area, m (p,); 0 within it.
+
+    Raises
+    ------
+    ValueError
+        The area is empty.
+    """
+    if not area.num_contour():
+        raise ValueError("an empty area has no distance to anything")
+    distances = np.full(len(points), np.inf)
+    windings = np.zeros(len(points))
+    for starts in outlines(area):
+        ends = np.roll(starts, -1, axis=0)
+        distances = np.minimum(distances, _distances_to_sides(points, starts, ends).min(axis=1))
+        windings += _windings(points, starts, ends)
+    return np.where(windings > 0.5, 0.0, distances)
+
+
+def _distances_to_sides(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """Distances (p, s) of points from sides."""
+    sides = ends - starts
+    lengths_squared = np.maximum(dot(sides, sides), np.finfo(float).tiny)
+    along = dot(points[:, None] - starts, sides) / lengths_squared
+    nearest = starts + np.clip(along, 0.0, 1.0)[..., None] * sides
+    return distance(points[:, None], nearest)
+
+
+def _windings(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """How often an outline winds around each of the points (p,)."""
+    first, second = starts - points[:, None], ends - points[:, None]
+    return arctangent(cross_2d(first, second), dot(first, second)).sum(axis=1) / (2.0 * np.pi)

@@ -1,0 +1,93 @@
+"""Rotations of bodies: what turns one into another, and what they carry along."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arithmetic import arctangent, cosine, sine
+from .vectors import length, product, transformed
+
+_SMALLEST_SINE = 1e-9
+"""Below it an angle and its sine are one."""
+
+
+def rotation_about_z(angle_rad: float) -> np.ndarray:
+    """Matrix (2, 2) that turns plane vectors by an angle, anticlockwise."""
+    return np.array([[cosine(angle_rad), -sine(angle_rad)], [sine(angle_rad), cosine(angle_rad)]])
+
+
+def rotation_vectors(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Rotation vectors (..., 3) in rad that turn rotations (..., 3, 3) into others, in the world's axes.
+
+    The shorter way round: a body that turns by more than half a turn between the two seems to turn backwards. Of a turn
+    by exactly half, the axis is not defined, and 0 is given.
+    """
+    change = product(after, np.swapaxes(before, -1, -2))
+    # The skew part of a rotation by θ about a is sin θ a, and its trace 1 + 2 cos θ.
+    doubled = np.stack([change[..., 2, 1], change[..., 0, 2], change[..., 1, 0]], axis=-1)
+    doubled -= np.stack([change[..., 1, 2], change[..., 2, 0], change[..., 0, 1]], axis=-1)
+    sines = length(doubled) / 2.0
+    angles = arctangent(sines, (np.trace(change, axis1=-2, axis2=-1) - 1.0) / 2.0)
+    factors = np.divide(angles, 2.0 * sines, out=np.full_like(sines, 0.5), where=sines > _SMALLEST_SINE)
+    return factors[..., None] * doubled
+
+
+def rotated(rotations: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Rotations (..., 3, 3) turned further by rotation vectors (..., 3) in rad, by Rodrigues' formula."""
+    angles = length(vectors)[..., None, None]
+    cross = np.zeros(rotations.shape)
+    cross[..., 2, 1], cross[..., 0, 2], cross[..., 1, 0] = np.moveaxis(vectors, -1, 0)
+    cross -= np.swapaxes(cross, -1, -2)
+    by_sine, by_cosine = _sine_by_angle(angles), _sine_by_angle(angles / 2.0) ** 2 / 2.0
+    return rotations + product(by_sine * cross + by_cosine * product(cross, cross), rotations)
+
+
+def carried_points(
+    local_points: np.ndarray, bodies: np.ndarray, centres: np.ndarray, rotations: np.ndarray
+) -> np.ndarray:
+    """Where points fixed to moving bodies are, (m, 3) in m.
+
+    Parameters
+    ----------
+    local_points : (m, 3) float
+        In the axes of their bodies, from the bodies' centres, m.
+    bodies : (m,) int
+        The body of each point.
+    centres, rotations : (n, 3), (n, 3, 3) float
+        Of all bodies.
+    """
+    return centres[bodies] + transformed(rotations.take(bodies, axis=0), local_points)
+
+
+def axes_in_bodies(axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Axes (m, 3, 3) as seen from the bodies that they are fixed to, to be carried along with `carried_axes`.
+
+    Parameters
+    ----------
+    axes : (m, 3, 3) float
+        In the axes of the world, as columns.
+    bodies : (m,) int
+        The body that each set of axes turns with.
+    rotations : (n, 3, 3) float
+        Of all bodies at that time.
+    """
+    return product(np.swapaxes(rotations[bodies], 1, 2), axes)
+
+
+def carried_axes(local_axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Where axes (m, 3, 3) that are fixed to bodies point in the world.
+
+    Parameters
+    ----------
+    local_axes : (m, 3, 3) float
+        From `axes_in_bodies`.
+    bodies : (m,) int
+        The body that each set of axes turns with.
+    rotations : (n, 3, 3) float
+        Of all bodies.
+    """
+    return product(rotations[bodies], local_axes)
+
+
+def _sine_by_angle(angles: np.ndarray) -> np.ndarray:
+    return np.divide(sine(angles), angles, out=np.ones(angles.shape), where=angles != 0.0)

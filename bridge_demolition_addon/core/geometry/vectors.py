@@ -1,0 +1,118 @@
+"""Arithmetic on many vectors and small matrices at once, with the same bits on every processor.
+
+Sums run in a fixed order, component by component. Products by numpy's `@`, `dot`, `einsum` or `linalg` go through
+libraries that choose another order by processor, and one bit is enough for another fracture and another collapse.
+
+Leading axes of all arguments are broadcast against each other.
+"""
+
+import numpy as np
+
+_SWEEPS = 8
+"""Sweeps of Jacobi's method, which squares what is left beside the diagonal in each: double precision needs five."""
+
+
+def dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Dot products (...) of vectors (..., k)."""
+    total = first[..., 0] * second[..., 0]
+    for axis in range(1, first.shape[-1]):
+        total = total + first[..., axis] * second[..., axis]
+    return total
+
+
+def length(vectors: np.ndarray) -> np.ndarray:
+    """Lengths (...) of vectors (..., k)."""
+    return np.sqrt(dot(vectors, vectors))
+
+
+def distance(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Distances (...) between points (..., k), without an array of all their differences."""
+    squares = (first[..., 0] - second[..., 0]) ** 2
+    for axis in range(1, first.shape[-1]):
+        squares = squares + (first[..., axis] - second[..., axis]) ** 2
+    return np.sqrt(squares)
+
+
+def unit(vectors: np.ndarray) -> np.ndarray:
+    """Vectors (..., k) of length 1 in the same directions; 0 where there is no length."""
+    lengths = length(vectors)[..., None]
+    return np.divide(vectors, lengths, out=np.zeros(np.shape(vectors)), where=lengths > 0.0)
+
+
+def cross_2d(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Cross products (...) of plane vectors (..., 2), positive where the second lies to the left of the first."""
+    return first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
+
+
+def transformed(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Products (..., i) of matrices (..., i, j) with vectors (..., j)."""
+    total = matrices[..., 0] * vectors[..., 0, None]
+    for column in range(1, matrices.shape[-1]):
+        total = total + matrices[..., column] * vectors[..., column, None]
+    return total
+
+
+def transformed_back(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Products (..., j) of transposed matrices (..., i, j) with vectors (..., i): rotations undone."""
+    return transformed(np.swapaxes(matrices, -1, -2), vectors)
+
+
+def product(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Products (..., i, k) of matrices (..., i, j) and (..., j, k)."""
+    total = first[..., :, 0, None] * second[..., None, 0, :]
+    for middle in range(1, first.shape[-1]):
+        total = total + first[..., :, middle, None] * second[..., None, middle, :]
+    return total
+
+
+def outer(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Matrices (..., i, j) of the products of components of vectors (..., i) and (..., j)."""
+    return first[..., :, None] * second[..., None, :]
+
+
+def symmetric_eigenvalues(matrices: np.ndarray) -> np.ndarray:
+    """Eigenvalues (..., 3), in ascending order, of symmetric matrices (..., 3, 3), by Jacobi's method.
+
+    References
+    ----------
+    G. H. Golub, C. F. Van Loan (1996), Matrix Computations, 3rd edition, section 8.4.
+    """
+    rest = np.array(matrices, float)
+    for _ in range(_SWEEPS):
+        for p, q in ((0, 1), (0, 2), (1, 2)):
+            cosine, sine = _jacobi_rotation(rest[..., p, p], rest[..., q, q], rest[..., p, q])
+            _turn(rest, p, q, cosine, sine)
+            _turn(np.swapaxes(rest, -1, -2), p, q, cosine, sine)
+    return np.sort(np.stack([rest[..., axis, axis] for axis in range(3)], axis=-1), axis=-1)
+
+
+def symmetric_eigenvectors_2d(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues (..., 2), in ascending order, of symmetric matrices (..., 2, 2), and eigenvectors as columns."""
+    first, second, beside = matrices[..., 0, 0], matrices[..., 1, 1], matrices[..., 0, 1]
+    cosine, sine = _jacobi_rotation(first, second, beside)
+    slope = np.divide(sine, cosine)
+    values = np.stack((first - slope * beside, second + slope * beside), axis=-1)
+    vectors = np.stack((np.stack((cosine, -sine), axis=-1), np.stack((sine, cosine), axis=-1)), axis=-1)
+    falling = values[..., 0] > values[..., 1]
+    return (
+        np.where(falling[..., None], values[..., ::-1], values),
+        np.where(falling[..., None, None], vectors[..., ::-1], vectors),
+    )
+
+
+def _jacobi_rotation(first: np.ndarray, second: np.ndarray, beside: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cosine and sine of the smaller rotation that makes [[first, beside], [beside, second]] diagonal."""
+    needed = beside != 0.0
+    with np.errstate(over="ignore"):
+        ratio = np.divide(second - first, 2.0 * beside, out=np.zeros(beside.shape), where=needed)
+        tangent = np.where(ratio >= 0.0, 1.0, -1.0) / (np.abs(ratio) + np.sqrt(ratio * ratio + 1.0))
+    tangent = np.where(needed, tangent, 0.0)
+    cosine = 1.0 / np.sqrt(tangent * tangent + 1.0)
+    return cosine, tangent * cosine
+
+
+def _turn(matrices: np.ndarray, p: int, q: int, cosine: np.ndarray, sine: np.ndarray) -> None:
+    """Rotate rows p and q of matrices (..., 3, 3), in place."""
+    first, second = matrices[..., p, :].copy(), matrices[..., q, :].copy()
+    matrices[..., p, :] = cosine[..., None] * first - sine[..., None] * second
+    matrices[..., q, :] = sine[..., None] * first + cosine[..., None] * second
