@@ -218,7 +218,7 @@ def test_the_faces_of_each_shard_close_it(name: str) -> None:
         area_vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
         # Of a convex solid, the shard's triangles in the surface are those that lie in a plane of the solid.
         height = np.einsum("tij,fj->tif", corners - middle, as_trimesh(solid).face_normals)
-        plane = np.einsum("fj,fj->f", solid.triangles[:, 0] - middle, as_trimesh(solid).face_normals)
+        plane = np.einsum("fj,fj->f", solid.corners[:, 0] - middle, as_trimesh(solid).face_normals)
         # Cut corners lie in the surface to within rounding; shards are some decimetres thick.
         in_surface = (np.abs(height - plane) < 1e-9).all(axis=1).any(axis=1)
         # Faces below the least area, some 1e-10 m², are left out of the sum.
