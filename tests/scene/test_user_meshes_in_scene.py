@@ -112,7 +112,7 @@ def test_what_is_no_solid_is_refused_by_name(add, blender):
 
 def test_paint_becomes_density(blender):
     mesh, solid = blender.data.meshes.new("deck"), box([4, 2, 1])
-    mesh.from_pydata(solid.vertices, [], solid.faces.tolist())
+    mesh.from_pydata(solid.vertices, [], solid.triangles.tolist())
     body = blender.data.objects.new("deck", mesh)
     blender.context.scene.collection.objects.link(body)
     body.location, body.scale = (10, 0, 0), (2, 1, 1)
