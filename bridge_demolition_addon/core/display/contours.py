@@ -10,7 +10,7 @@ from enum import StrEnum
 import numpy as np
 
 from ..errors import ContourError
-from ..mechanics.forces import lengths
+from ..geometry.vectors import length
 from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.stress import principal_stresses
 from ..results.arrays import Results
@@ -271,7 +271,7 @@ def _means(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
         case Quantity.SIGNED_2019:
             return loads.body_signed_2019_n
         case Quantity.RESULTANT:
-            return lengths(loads.body_forces_n)
+            return length(loads.body_forces_n)
         case Quantity.SUM:
             return loads.body_sums_n
         case Quantity.VON_MISES:

@@ -5,12 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 
-def lengths(vectors: np.ndarray) -> np.ndarray:
-    """Lengths (k,) of vectors (k, 3)."""
-    x, y, z = vectors.T
-    return np.sqrt(x * x + y * y + z * z)
-
-
 def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
     """Vector sum of the connection forces on every body.
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .forces import lengths, magnitude_sums, resultants
+from ..geometry.vectors import length
+from .forces import magnitude_sums, resultants
 from .stress import average_stress, average_stress_of_moments, von_mises
 
 
@@ -137,8 +138,8 @@ class LoadAccumulator:
         count, substep_s = len(self._volumes), loads.substep_s
         by_contacts = resultants(loads.contact_pairs, loads.contact_impulses_ns, count)
         resultant = resultants(self._pairs, loads.connection_forces_n, count) + by_contacts / substep_s
-        magnitudes = lengths(loads.connection_forces_n)
-        of_contacts = magnitude_sums(loads.contact_pairs, lengths(loads.contact_impulses_ns), count) / substep_s
+        magnitudes = length(loads.connection_forces_n)
+        of_contacts = magnitude_sums(loads.contact_pairs, length(loads.contact_impulses_ns), count) / substep_s
         sums = magnitude_sums(self._pairs, magnitudes, count) + of_contacts
         self._note_peaks(loads, magnitudes, resultant, sums)
         self._connection_impulses += substep_s * loads.connection_forces_n
@@ -185,7 +186,7 @@ class LoadAccumulator:
         self._connection_peak_moments[higher] = loads.connection_moments_nm[higher]
         for peaks, values in (
             (self._connection_peaks, magnitudes),
-            (self._body_peaks, lengths(resultant)),
+            (self._body_peaks, length(resultant)),
             (self._body_peak_sums, sums),
         ):
             np.maximum(peaks, values, out=peaks)
