@@ -10,11 +10,27 @@ from ..units import STANDARD_GRAVITY_M_S2
 from .cable import BallCable
 
 
+class _Drop(Table):
+    """Base of the tables of a ball that falls from a height above the deck."""
+
+    __slots__ = ()
+
+    @property
+    def fall_time_s(self) -> float:
+        """Return the time from release to the deck in free fall, s."""
+        return math.sqrt(2.0 * self.drop_height_m / STANDARD_GRAVITY_M_S2)
+
+    @property
+    def impact_speed_m_s(self) -> float:
+        """Return the speed at the deck after free fall, m/s."""
+        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.drop_height_m)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BallHit(Table):
+class BallHit(_Drop):
     """A further hit of the ball, in order of time. Animation lifts it from where it lies: straight up to the height of
-    its next drop, and from there level to above the target, at no more than 1.5 times the mean speed. Then it is held
-    until it is let go.
+    its next drop, and from there level to above the target, at no more than 1.5 times the mean speed. Then it stays
+    there until it is let go.
     """
 
     table: ClassVar[str] = "ball.hits"
@@ -33,22 +49,12 @@ class BallHit(Table):
 
     @property
     def lift_end_s(self) -> float:
-        """When the ball is up, s."""
+        """Return when the ball is up, s."""
         return self.lift_time_s + self.lift_duration_s
-
-    @property
-    def fall_time_s(self) -> float:
-        """Time from release to the deck in free fall, s."""
-        return fall_time_s(self.drop_height_m)
-
-    @property
-    def impact_speed_m_s(self) -> float:
-        """Speed at the deck after free fall, m/s."""
-        return fall_speed_m_s(self.drop_height_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ball(Table):
+class Ball(_Drop):
     """A wrecking ball that is let go above the deck. Without this table there is none."""
 
     table: ClassVar[str] = "ball"
@@ -90,35 +96,25 @@ class Ball(Table):
 
     @property
     def drops(self) -> tuple["Ball | BallHit", ...]:
-        """The first hit, which is the ball's own, and all further ones; none of a ball that swings."""
+        """Return the first hit, which is the ball's own, and all further ones; none of a ball that swings."""
         return () if self.cable else (self, *self.hits)
 
     def start_m(self, deck_top_m: float) -> tuple[float, float, float]:
-        """Middle of the ball before it is let go, above a deck of a height, m."""
+        """Return the middle of the ball before it is let go, above a deck of a height, m."""
         if self.cable:
             return self.cable.start_m
         return (*self.target_m, deck_top_m + self.drop_height_m + self.diameter_m / 2.0)
 
     def largest_height_m(self, deck_top_m: float) -> float:
-        """Largest height that the ball is let go from above the ground, over a deck of a height, m."""
+        """Return the largest height above the ground that the ball is let go from, over a deck of a height, m."""
         if self.cable:
             return self.cable.start_m[2]
         return deck_top_m + max(drop.drop_height_m for drop in self.drops)
 
     @property
     def density_kg_m3(self) -> float:
-        """Mass over the volume of the sphere, kg/m³."""
+        """Return the mass over the volume of the sphere, kg/m³."""
         return self.mass_kg / (math.pi / 6.0 * self.diameter_m**3)
-
-    @property
-    def fall_time_s(self) -> float:
-        """Time from release to the deck in free fall, s."""
-        return fall_time_s(self.drop_height_m)
-
-    @property
-    def impact_speed_m_s(self) -> float:
-        """Speed at the deck after free fall, m/s."""
-        return fall_speed_m_s(self.drop_height_m)
 
     def _check_together(self) -> None:
         if self.cable:
@@ -145,13 +141,3 @@ class Ball(Table):
                 f"ball.cable.length_m is {cable.length_m}: expected a ball that swings above the ground, "
                 f"its lowest point is at {lowest_m:.6g} (m)"
             )
-
-
-def fall_time_s(height_m: float) -> float:
-    """Time of a free fall from a height, s."""
-    return math.sqrt(2.0 * height_m / STANDARD_GRAVITY_M_S2)
-
-
-def fall_speed_m_s(height_m: float) -> float:
-    """Speed after a free fall from a height, m/s."""
-    return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * height_m)

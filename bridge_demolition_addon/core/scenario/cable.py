@@ -32,7 +32,7 @@ class BallCable(Table):
 
     @property
     def start_m(self) -> tuple[float, float, float]:
-        """Middle of the ball before it is let go, m."""
+        """Return the middle of the ball before it is let go, m."""
         angle, azimuth = math.radians(self.angle_degrees), math.radians(self.azimuth_degrees)
         aside = self.length_m * sine(angle)
         offset = (aside * cosine(azimuth), aside * sine(azimuth), -self.length_m * cosine(angle))
@@ -40,18 +40,18 @@ class BallCable(Table):
 
     @property
     def lowest_point_m(self) -> tuple[float, float, float]:
-        """Middle of the ball at its lowest, m."""
+        """Return the middle of the ball at its lowest, m."""
         x, y, z = self.crane_point_m
         return x, y, z - self.length_m
 
     @property
     def largest_speed_m_s(self) -> float:
-        """Speed at the lowest point, m/s."""
+        """Return the speed at the lowest point, m/s."""
         height_m = self.start_m[2] - self.lowest_point_m[2]
         return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * height_m)
 
     def period_s(self, diameter_m: float) -> float:
-        """Time of one swing to and fro of a ball of a diameter, s.
+        """Return the time of one swing to and fro of a ball of a diameter, s.
 
         The ball turns with the cable, as one solid with the moment of inertia m L² + 2/5 m r². For amplitude, the
         complete elliptic integral by the arithmetic-geometric mean.

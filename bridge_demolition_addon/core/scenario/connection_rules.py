@@ -1,4 +1,4 @@
-"""Connections between certain members that are others than the rest."""
+"""Connections between certain members that differ from the others."""
 
 from dataclasses import dataclass, fields
 from typing import ClassVar
@@ -41,12 +41,12 @@ class ConnectionBetween(JointSettings):
 
     @property
     def changes_joint(self) -> bool:
-        """Whether the type, what is free or the springs are given; then those of `[connections]` do not count."""
+        """Return whether type, freedom or springs are given; then those of `[connections]` do not count."""
         return any(getattr(self, name) is not None for name in _JOINT)
 
     @property
     def breaking_force_newton(self) -> float | None:
-        """Force that breaks it, N, whichever unit it was given in; None where none was given."""
+        """Return the force that breaks it, N; None where none was given."""
         if self.breaking_force_kgf is not None:
             return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
         return self.breaking_force_n

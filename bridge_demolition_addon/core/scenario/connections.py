@@ -94,7 +94,7 @@ class ConnectionSettings(JointSettings):
 
     @property
     def breaking_force_newton(self) -> float | None:
-        """Force that breaks a connection, N, whichever unit it was given in; None for a material."""
+        """Return the force that breaks a connection, N; None for a material."""
         if self.material is not None:
             return None
         if self.breaking_force_n is not None:
@@ -103,7 +103,7 @@ class ConnectionSettings(JointSettings):
 
     @property
     def joints(self) -> tuple[Joint, ...]:
-        """What connections have in common: those that follow no rule, and those between the members of each rule."""
+        """Return the joint of connections that follow no rule, then that of each rule."""
         own = Joint(self.type, self.free or (), self.springs, self.breaking_force_newton, _strength(self.material))
         return (own, *(_joint_between(own, rule) for rule in self.between))
 
@@ -133,7 +133,7 @@ class ConnectionSettings(JointSettings):
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
 
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
-        """See that a key is given for the methods that need it, and for no others."""
+        """Check that a key is given for the methods that need it, and for no others."""
         value = getattr(self, name)
         if self.method in methods and value is None:
             raise ScenarioError(f'connections.{name} is missing: expected {wanted} with method "{self.method}"')

@@ -27,7 +27,7 @@ from .scenario import Scenario
 from .variant import take_based_on, varied
 
 LIKENESS = 0.68
-"""How much alike an unknown name and a suggestion are at least: radius_m is search_radius_m, but title is not time."""
+"""Least likeness of an unknown name and a suggestion: radius_m means search_radius_m, but title does not mean time."""
 
 PATHS = (("geometry", "file"), ("fracture", "points_file"), ("fracture", "painted_file"))
 """Table and key of every path of another file."""
@@ -40,7 +40,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
 
     Parameters
     ----------
-    path
+    path : str or path
         A TOML file; `scenario_text` makes one, and the reference of all keys is ``docs/scenario.md``.
 
     Raises
@@ -102,7 +102,7 @@ def _document(text: str) -> dict[str, Any]:
 
 
 def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
-    """What a file says with all that it is based on; of those it is a variant for, it must not be one itself."""
+    """Return what a file says with all that it is based on; it must not be one of its own variants."""
     document = _document(_file_text(path))
     _make_paths_absolute(path.parent, document)
     name, without = take_based_on(document)
@@ -120,7 +120,7 @@ def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, 
 
 
 def _make_paths_absolute(folder: Path, document: dict[str, Any]) -> None:
-    """Paths of other files are given from the folder of the file that they stand in."""
+    """Make the paths of other files absolute: they are given from the folder of this file."""
     for table, key in PATHS:
         tables = document.get(table)
         for each in tables if isinstance(tables, list) else [tables]:
@@ -133,7 +133,7 @@ def _absolute(folder: Path, path: str) -> str:
 
 
 def _scenario(document: dict[str, Any]) -> Scenario:
-    """The scenario in a document, where the table ``[scenario]`` stands beside the tables it is made of."""
+    """Return the scenario in a document, where the table ``[scenario]`` stands beside the tables it is made of."""
     names = [Scenario.table, *(item.name for item in subtable_fields(Scenario))]
     _refuse_unknown("", document, names)
     heading = document.get(Scenario.table, {})
@@ -185,7 +185,7 @@ def _refuse_unknown(table: str, values: dict[str, Any], known: Iterable[str]) ->
 
 
 def _suggestion(table: str, name: str, known: list[str]) -> str:
-    """What was meant by an unknown name: one like it in its table, the same elsewhere, or any of its table."""
+    """Return what an unknown name may mean: one like it in its table, the same elsewhere, or any of its table."""
     alike = [_dotted(table, match) for match in get_close_matches(name, known, n=1, cutoff=LIKENESS)]
     elsewhere = [full for full in _full_names(Scenario) if full.rpartition(".")[2] == name]
     if alike or elsewhere:
@@ -206,7 +206,7 @@ def _dotted(table: str, name: str) -> str:
 
 
 def _table_lines(table: Table, heading: str = "[{}]") -> Iterator[str]:
-    """Lines of a table and of the tables in it; a value or table that is not there has no line."""
+    """Return the lines of a table and of the tables in it; what is not given has no line."""
     yield heading.format(table.table)
     for item in key_fields(type(table)):
         value = getattr(table, item.name)

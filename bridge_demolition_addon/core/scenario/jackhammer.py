@@ -9,7 +9,7 @@ from ..schema import SHORTEST_LENGTH_M, Table, key
 from .time import TimeSettings
 
 FRAMES_PER_BLOW = 4
-"""Animation knows places at frames only: with this many for a blow, each reaches at least 85 % of its stroke."""
+"""Animation gives a place at each frame only: with this many a blow, each reaches at least 85 % of its stroke."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +39,7 @@ class Jackhammer(Table):
 
     @property
     def largest_speed_m_s(self) -> float:
-        """Largest speed of the chisel up and down, m/s."""
+        """Return the largest speed of the chisel up and down, m/s."""
         return math.pi * self.blows_per_second * self.stroke_m
 
     def _check_together(self) -> None:
@@ -55,7 +55,7 @@ class Jackhammer(Table):
             )
 
     def check_time(self, time: TimeSettings) -> None:
-        """See that it ends before the run does, and that frames are short enough for its blows.
+        """Check that it ends before the run does, and that frames are short enough for its blows.
 
         Raises
         ------

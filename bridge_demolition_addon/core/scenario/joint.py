@@ -1,4 +1,4 @@
-"""What a connection holds, which all connections and those between certain members say in the same way."""
+"""Type, freedom and springs of connections, with the same keys for all connections and for those of a rule."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What a run takes down and shows."""
+"""What is recorded in a run, and its pictures."""
 
 from dataclasses import dataclass
 from typing import ClassVar

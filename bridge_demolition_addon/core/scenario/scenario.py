@@ -59,14 +59,14 @@ class Scenario(Table):
 
     @property
     def timeline(self) -> Timeline:
-        """The frames of the run, shorter ones around detonations where that is asked for."""
+        """Return the frames of the run, shorter around detonations where that is asked for."""
         frame_s = self.time.step.frame_s
         slow_motions = self.blast.slow_motions(self.charges, frame_s)
         return Timeline.of(frame_s, self.time.duration_s, slow_motions)
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """All removals, saw cuts and weakenings."""
+        """Return all removals, saw cuts and weakenings."""
         return (*self.removals, *self.saw_cuts, *self.weakenings)
 
     def _check_together(self) -> None:
@@ -115,9 +115,9 @@ class Scenario(Table):
 
     def _check_lift(self, hit: BallHit) -> None:
         timeline = self.timeline
-        held = timeline.frames_until(hit.lift_end_s) + 1  # still for a frame, so that it falls from rest
-        if timeline.frames_until(hit.release_time_s) < held:
-            earliest_s = timeline.ends_s[held - 1] if held <= len(timeline) else hit.lift_end_s
+        earliest = timeline.frames_until(hit.lift_end_s) + 1  # still for a frame, so that it falls from rest
+        if timeline.frames_until(hit.release_time_s) < earliest:
+            earliest_s = timeline.ends_s[earliest - 1] if earliest <= len(timeline) else hit.lift_end_s
             raise ScenarioError(
                 f"ball.hits.release_time_s is {hit.release_time_s}: expected at least {earliest_s:.6g} (s), "
                 "a frame after the ball was lifted"
@@ -125,7 +125,7 @@ class Scenario(Table):
 
     def _check_on_deck(self, name: str, point: tuple[float, float]) -> None:
         if self.geometry:
-            return  # what lies there is found when the members are there
+            return  # what lies there is only known once the members are read
         along, across = point
         overhang, half_width = self.bridge.deck.overhang_m, self.bridge.deck.width_m / 2.0
         skewed_by = across * self.bridge.shift_across

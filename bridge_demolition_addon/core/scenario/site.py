@@ -1,4 +1,4 @@
-"""The site around the bridge: what debris must not reach, who is near, and where on earth it all lies."""
+"""The site around the bridge: zones, exclusion zone, neighbours, and where on earth it lies."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -88,7 +88,7 @@ class Neighbour(Table):
 
 
 def _sides_cross(corners: np.ndarray) -> bool:
-    """Whether any two sides of a polygon (k, 2) that are not neighbours meet, or the polygon has no area."""
+    """Return whether two sides of a polygon (k, 2) that are not neighbours meet, or it has no area."""
     ends = np.roll(corners, -1, axis=0)
     if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.ptp(corners, axis=0).max()) ** 2):
         return True
@@ -102,7 +102,7 @@ def _sides_cross(corners: np.ndarray) -> bool:
 
 
 def _meet(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> bool:
-    """Whether the segments from a to b and from c to d have a point in common; all (2,)."""
+    """Return whether the segments from a to b and from c to d have a point in common; all (2,) float."""
 
     def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> float:
         return float(np.sign(cross_2d(q - p, r - p)))

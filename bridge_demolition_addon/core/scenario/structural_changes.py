@@ -1,4 +1,4 @@
-"""What is done to the bridge in the course of time, besides hitting it: removals, saw cuts and weakenings."""
+"""Changes to the structure at given times: removals, saw cuts and weakenings."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -89,7 +89,7 @@ class Weakening(Change):
 
 
 def check_times(changes: tuple[Change, ...], latest_s: float, settled_s: float) -> None:
-    """See that all changes fall between the end of the settling and the end of the run.
+    """Check that all changes fall between the end of the settling and the end of the run.
 
     Raises
     ------

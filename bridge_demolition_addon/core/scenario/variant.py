@@ -1,4 +1,4 @@
-"""Variants: scenario files that say only in what they differ from the file that they are based on."""
+"""Variants: scenario files that only say how they differ from the file that they are based on."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -15,11 +15,11 @@ WITHOUT = "without"
 
 
 def take_based_on(document: dict[str, Any]) -> tuple[str | None, list[str]]:
-    """Take out of a document what it is based on, and what it does without.
+    """Remove from a document what it is based on and what it does without, and return both.
 
     Parameters
     ----------
-    document
+    document : dict
         As read from TOML. The two keys are removed from it.
 
     Raises
@@ -45,9 +45,9 @@ def varied(base: dict[str, Any], changes: dict[str, Any], without: Iterable[str]
 
     Parameters
     ----------
-    base, changes
+    base, changes : dict
         Documents as read from TOML; both stay as they are.
-    without
+    without : iterable of str
         Names such as ``ball`` or ``bridge.pier_caps`` of what is left out of the base.
 
     Raises
