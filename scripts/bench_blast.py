@@ -113,7 +113,7 @@ def _bare(count: int) -> float:
 
 
 def _with_blast(count: int, apply: Apply, every: int) -> float:
-    """What blast adds to a bare step: loads are taken down in neither."""
+    """What blast adds to a bare step: loads are recorded in neither."""
     SteadyLoads.every = every
     scene = _scene(count, apply)
     handlers.start(recording := _Unrecorded(scene, Path()))

@@ -66,7 +66,7 @@ def _deck_scene() -> bpy.types.Scene:
 
 
 def _make_world(scene: bpy.types.Scene) -> None:
-    """Play the two frames in which Blender makes its world anew."""
+    """Play the two frames in which Blender makes a new world."""
     scene.rigidbody_world.time_scale = scene.rigidbody_world.time_scale  # makes Blender forget the frames it played
     for frame in (START_FRAME, START_FRAME + 1):
         scene.frame_set(frame)

@@ -98,7 +98,7 @@ class Piers(Table):
     table: ClassVar[str] = "bridge.piers"
 
     kind: str = key(
-        "Columns, or one wall across the road, which a column's keys give the size of.",
+        "Columns, or one wall across the road. The keys of a column give the size of the wall.",
         default="columns",
         choices=("columns", "wall"),
     )
@@ -139,8 +139,8 @@ class Abutments(Table):
     )
     width_m: float = key("Size across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
     height_m: float | None = key(
-        "Height above the ground. Needed where there are no piers, that is with one span; elsewhere it follows from "
-        "the piers and is not taken.",
+        "Height above the ground. Needed where there are no piers, that is with one span. Elsewhere it follows from "
+        "the piers: leave it out.",
         default=None,
         unit="m",
         at_least=SHORTEST_LENGTH_M,

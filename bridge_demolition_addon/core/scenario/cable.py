@@ -14,14 +14,14 @@ from ..units import STANDARD_GRAVITY_M_S2
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BallCable(Table):
     """A cable from the tip of a crane that the ball swings on, drawn aside and let go at `ball.release_time_s`. It
-    stays taut, neither breaks nor stretches, and what swings on it collides with everything, but the cable does not.
-    With it, `ball.target_m`, `ball.drop_height_m` and `ball.hits` are not given.
+    stays taut, and neither breaks nor stretches. The ball on it collides with everything, the cable with nothing. With
+    it, leave out `ball.target_m`, `ball.drop_height_m` and `ball.hits`.
     """
 
     table: ClassVar[str] = "ball.cable"
 
     crane_point_m: tuple[float, float, float] = key("The tip of the crane.", unit="m")
-    length_m: float = key("From there to the middle of the ball.", unit="m", at_least=SHORTEST_LENGTH_M)
+    length_m: float = key("Length from there to the middle of the ball.", unit="m", at_least=SHORTEST_LENGTH_M)
     angle_degrees: float = key("Angle from the vertical at which it is let go.", above=0, at_most=90)
     azimuth_degrees: float = key(
         "To which side it is drawn: 0 along the road, 90 across it, towards positive y. It swings to the other side.",

@@ -17,17 +17,17 @@ _JOINT = tuple(item.name for item in fields(JointSettings))
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectionBetween(JointSettings):
     """Connections between two members, or two kinds of members, that differ from the others: bearings, joints, gaps.
-    What is not given is as in `[connections]`, but for `free` and the springs where any of
-    these or `type` is given. The first of these tables that names both members counts.
+    Keys that are left out are as in `[connections]`, with one exception: once `type`, `free` or a spring is given here,
+    `free` and the springs of `[connections]` do not count. The first of these tables that names both members counts.
     """
 
     table: ClassVar[str] = "connections.between"
 
     members: tuple[str, str] = key(
-        'The two, each by the name that `bda check` lists or by kind, or `"ground"` for the foundations: '
-        '`["deck", "pier cap"]`. Twice the same for connections within a member.'
+        'The two members, each by the name that `bda check` lists or by kind, or `"ground"` for the foundations: '
+        '`["deck", "pier cap"]`. Give the same twice for connections within a member.'
     )
-    none: bool = key("Whether there are no connections between them at all; then nothing else is given.", default=False)
+    none: bool = key("Whether there are no connections between them at all; then give nothing else.", default=False)
     breaking_force_n: float | None = key("Force that breaks it.", default=None, unit="N", above=0)
     breaking_force_kgf: float | None = key(
         "Force that breaks it, 1 kgf = 9.80665 N.", default=None, unit="kgf", above=0

@@ -32,14 +32,14 @@ class ConnectionSettings(JointSettings):
         choices=("vertex", "centre", "face", "nearest"),
     )
     search_radius_m: float | None = key(
-        "Distance up to which shards are connected. Needed for `vertex` and `centre`, not taken for the others.",
+        "Distance up to which shards are connected. Needed for `vertex` and `centre`, and only for them.",
         default=None,
         unit="m",
         above=0,
     )
     neighbours: int | None = key(
         "How many of its nearest each shard is connected with; a shard may be among the nearest of more. Needed for "
-        "`nearest`, not taken for the others.",
+        "`nearest`, and only for it.",
         default=None,
         at_least=1,
         at_most=LARGEST_INTEGER,
@@ -70,7 +70,7 @@ class ConnectionSettings(JointSettings):
         at_most=1,
     )
     ductile_elongation_m: float | None = key(
-        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share`, not taken without.",
+        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share`, and only then.",
         default=None,
         unit="m",
         above=0,

@@ -53,7 +53,7 @@ class MemberFracture(Table):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FracturePoint(Table):
     """A point that a shard is cut around: the part of its member nearest to it. A member that holds such points is cut
-    around them alone, and has as many shards."""
+    around them alone, and has one shard for each."""
 
     table: ClassVar[str] = "fracture.points"
 
