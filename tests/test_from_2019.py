@@ -159,6 +159,16 @@ def test_every_operator_is_one(extension):
     assert named - set(dir(extension.ops.bda)) == set()
 
 
+def test_every_operator_and_panel_is_in_the_file_beside_it():
+    found = rows(section("### Operators and panels"))
+    assert len(found) > 8
+    for _, now in found:
+        files = re.findall(r"\]\(\.\./([^)]+)\)", now)
+        code = "".join((ROOT / file).read_text(encoding="utf-8") for file in files)
+        assert [name for name in re.findall(r"\bbda\.([a-z_]+)", now) if f"class BDA_OT_{name}(" not in code] == []
+        assert [name for name in re.findall(r"\*([^*]+)\*", now) if f'bl_label = "{name}"' not in code] == []
+
+
 def test_every_name_in_italics_is_in_the_sidebar(extension):
     body = re.sub(r"\*\*[^*]+\*\*", "", TEXT.partition("## What comes out differently")[2])
     named = set(re.findall(r"\*([^*\n]+)\*", body))
