@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arithmetic import logarithm
 from .time_step import FRAME_NOISE, frames_over
 
 SLOWING = 0.8
@@ -88,8 +89,8 @@ class Timeline:
 
 def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float) -> np.ndarray:
     """Frames that together are exactly a duration, at first of one length, at last shorter and shorter."""
-    steps = max(0, math.ceil(math.log(slow_frame_s / frame_s, SLOWING)) - 1)
-    slowing = frame_s * SLOWING ** np.arange(1, steps + 1)
+    steps = max(0, math.ceil(logarithm(slow_frame_s / frame_s) / logarithm(SLOWING)) - 1)
+    slowing = frame_s * np.cumprod(np.full(steps, SLOWING))
     slowing = slowing[np.cumsum(slowing[::-1])[::-1] <= duration_s]  # as many as there is time for
     room_s = duration_s - slowing.sum()
     count = max(0, frames_over(frame_s, room_s))

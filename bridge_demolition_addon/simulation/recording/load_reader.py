@@ -6,6 +6,7 @@ import numpy as np
 
 from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
+from ...core.geometry.vectors import transformed, transformed_back
 from ...core.mechanics import forces
 from ...core.mechanics.frame_loads import SubstepLoads
 from ...core.mechanics.section_forces import section_axes
@@ -38,7 +39,7 @@ class LoadReader:
         self._bodies = pairs[rows, side]
         centres, rotations = world.places()
         bodies = self._bodies
-        self._local_points = np.einsum("mji,mj->mi", rotations[bodies], points_m - centres[bodies])
+        self._local_points = transformed_back(rotations[bodies], points_m - centres[bodies])
         self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
 
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -47,7 +48,7 @@ class LoadReader:
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
         """Unit normals (m, 3) of the connections, turned with their bodies."""
-        return np.einsum("mij,mj->mi", rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
+        return transformed(rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
 
     def read(self, substep_s: float) -> SubstepLoads:
         """Loads of the last sub-step, whose length is given in s."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...core.geometry.vectors import transformed, transformed_back
 from ...core.mechanics.reinforcement import effective_masses, parting, tie_forces
 from ...core.mechanics.strength import Ductility
 from ...core.results.inventory import Inventory
@@ -48,7 +49,7 @@ class Ties:
         places, rotations = self._world.places()
         pairs = self._inventory.pairs[rows]
         levers = points_m[:, None] - places[pairs]
-        anchors = np.einsum("rsji,rsj->rsi", rotations[pairs], levers)
+        anchors = transformed_back(rotations[pairs], levers)
         self._rows = np.concatenate((self._rows, rows))
         self._anchors = np.concatenate((self._anchors, anchors))
         self._held_n = np.concatenate((self._held_n, np.zeros(len(rows))))
@@ -60,7 +61,7 @@ class Ties:
             return
         pairs = self._inventory.pairs[self._rows]
         places, rotations = self._world.places()
-        levers = np.einsum("tsij,tsj->tsi", rotations[pairs], self._anchors)
+        levers = transformed(rotations[pairs], self._anchors)
         points = places[pairs] + levers
         speeds = self._world.velocities()[pairs] + np.cross(self._world.spins()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
