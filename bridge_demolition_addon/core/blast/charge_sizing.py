@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 
+from ..arithmetic import cube_root, power
 from ..errors import BlastError
 from .models import BlastModel, blast_wave
 from .wave import SMALLEST_SCALED_DISTANCE, Burst, checked
@@ -45,8 +46,8 @@ def stand_off_for_overpressure(
         A number is out of its range, or no TNT gives this overpressure at any distance.
     """
     _check(overpressure_pa, "overpressure", "Pa")
-    cube_root = float(np.cbrt(checked(tnt_kg, "charge", "kg of TNT")))
-    return cube_root * _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))
+    size = float(cube_root(checked(tnt_kg, "charge", "kg of TNT")))
+    return size * _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))
 
 
 def smallest_charge_for_overpressure(
@@ -61,7 +62,8 @@ def smallest_charge_for_overpressure(
     """
     _check(overpressure_pa, "overpressure", "Pa")
     _check(stand_off_m, "stand-off", "m")
-    return (stand_off_m / _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))) ** 3
+    z = _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))
+    return _charge_at(stand_off_m, z)
 
 
 def smallest_charge_for_impulse(
@@ -87,7 +89,13 @@ def smallest_charge_for_impulse(
     if z is None:
         most = _on_grid(_impulse_over_distance, burst, model).max() * stand_off_m
         raise BlastError(f"impulse is {impulse_pa_s:g}: expected up to {most:.4g} (Pa·s) at {stand_off_m:g} m")
-    return (stand_off_m / z) ** 3
+    return _charge_at(stand_off_m, z)
+
+
+def _charge_at(stand_off_m: float, scaled_distance: float) -> float:
+    """Return the charge of which a stand-off has a scaled distance, kg of TNT."""
+    size = stand_off_m / scaled_distance
+    return size * size * size
 
 
 def _distance_of_overpressure(overpressure_pa: float, burst: Burst, model: BlastModel) -> float:
@@ -126,7 +134,8 @@ def _farthest(wanted: float, load: Callable[..., np.ndarray], burst: Burst, mode
 
 @cache
 def _distances() -> np.ndarray:
-    return np.geomspace(SMALLEST_SCALED_DISTANCE, _FARTHEST_SCALED_DISTANCE, _GRID_POINTS)
+    span = _FARTHEST_SCALED_DISTANCE / SMALLEST_SCALED_DISTANCE
+    return SMALLEST_SCALED_DISTANCE * power(span, np.linspace(0.0, 1.0, _GRID_POINTS))
 
 
 @cache

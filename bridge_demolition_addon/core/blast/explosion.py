@@ -103,10 +103,10 @@ class Explosion:
         if not len(bodies):
             return no_loads()
         active = np.flatnonzero(during.any(axis=0))
-        pairs = bodies, np.searchsorted(active, charges)
-        areas = projected_areas(self._hulls, rotations, self._directions[:, active])[pairs]
-        areas = areas * self._shares[bodies, charges]
-        pressure_impulses = impulse_between(pulses.take(active), start_s, end_s)[pairs]
+        shown = projected_areas(self._hulls, rotations, self._directions[:, active])
+        areas = shown[bodies, np.searchsorted(active, charges)] * self._shares[bodies, charges]
+        taken = pulses.take(bodies, charges)
+        pressure_impulses = impulse_between(taken, start_s, end_s)
         return StepLoads(
             bodies=bodies,
             charges=charges,
@@ -114,7 +114,7 @@ class Explosion:
             scaled_distances=scaled_distance(self._stand_offs[bodies, charges], self._tnt_kg[charges]),
             areas_m2=areas,
             directions=self._directions[bodies, charges],
-            peaks_pa=pulses.peaks_pa[bodies, charges],
+            peaks_pa=taken.peaks_pa,
             pressure_impulses_pa_s=pressure_impulses,
             impulses_ns=pressure_impulses * areas,
         )

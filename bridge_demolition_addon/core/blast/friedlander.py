@@ -8,6 +8,8 @@ from math import factorial
 
 import numpy as np
 
+from ..arithmetic import exponential
+
 LARGEST_SHARE = 0.5
 """Share of p₀ t_d that the impulse of a pulse without decay has, a triangle; no decay gives more."""
 
@@ -30,7 +32,7 @@ def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np
     """
     part = _part_of_phase(time, duration)
     passed = np.clip(part, 0.0, 1.0)
-    return np.where(part >= 0.0, peak * (1.0 - passed) * np.exp(-decay * passed), 0.0)
+    return np.where(part >= 0.0, peak * (1.0 - passed) * exponential(-decay * passed), 0.0)
 
 
 def impulse_between(
@@ -44,8 +46,9 @@ def impulse_between(
     first = np.clip(_part_of_phase(start, duration), 0.0, 1.0)
     length = np.clip(_part_of_phase(end, duration), 0.0, 1.0) - first
     exponent = decay * length
-    mean = (1.0 - first) * _moment(0, exponent) - length * _moment(1, exponent)
-    return peak * duration * np.exp(-decay * first) * length * mean
+    whole, centre = _moments(exponent, 2)
+    mean = (1.0 - first) * whole - length * centre
+    return peak * duration * exponential(-decay * first) * length * mean
 
 
 def whole_impulse(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray) -> np.ndarray:
@@ -82,7 +85,8 @@ def decay_of(share: np.ndarray) -> np.ndarray:
     share = np.asarray(share, float)
     decay = np.maximum(1.0 / share - 2.0, 0.0)
     for _ in range(_MOST_STEPS):
-        step = (_share(decay) - share) / (_moment(1, decay) - _moment(2, decay))
+        whole, first, second = _moments(decay, 3)
+        step = (whole - first - share) / (first - second)
         decay = np.maximum(decay + step, 0.0)
         if (abs(step) <= 1e-13 * (1.0 + decay)).all():
             break
@@ -90,20 +94,24 @@ def decay_of(share: np.ndarray) -> np.ndarray:
 
 
 def _share(decay: np.ndarray) -> np.ndarray:
-    return _moment(0, decay) - _moment(1, decay)
+    mean, first = _moments(decay, 2)
+    return mean - first
 
 
-def _moment(order: int, exponent: np.ndarray) -> np.ndarray:
-    """∫₀¹ uⁿ e^(-y u) du for n = 0, 1, 2 and y ≥ 0; a series where the closed form would lose its digits."""
-    large = np.maximum(exponent, _SERIES_BELOW)
-    closed = -np.expm1(-large) / large
-    for n in range(1, order + 1):
-        closed = (n * closed - np.exp(-large)) / large
-    small = np.minimum(exponent, _SERIES_BELOW)
-    series = np.zeros_like(small)
-    for term in reversed(range(_SERIES_TERMS)):
-        series = 1.0 / (factorial(term) * (term + order + 1)) - small * series
-    return np.where(exponent < _SERIES_BELOW, series, closed)
+def _moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
+    """Return ∫₀¹ uⁿ e^(-y u) du for y ≥ 0 and n from 0 on; a series where the closed form would lose its digits."""
+    large, small = np.maximum(exponent, _SERIES_BELOW), np.minimum(exponent, _SERIES_BELOW)
+    left = exponential(-large)
+    closed = (1.0 - left) / large
+    moments = []
+    for order in range(count):
+        if order:
+            closed = (order * closed - left) / large
+        series = np.zeros_like(small)
+        for term in reversed(range(_SERIES_TERMS)):
+            series = 1.0 / (factorial(term) * (term + order + 1)) - small * series
+        moments.append(np.where(exponent < _SERIES_BELOW, series, closed))
+    return moments
 
 
 def _part_of_phase(time: np.ndarray, duration: np.ndarray) -> np.ndarray:

@@ -22,6 +22,7 @@ from importlib import resources
 import numpy as np
 from numpy.polynomial import polynomial
 
+from ..arithmetic import exponential, logarithm, power
 from .air import SOUND_SPEED_M_S
 from .wave import Burst, Wave
 
@@ -47,6 +48,9 @@ _FALLING_AS_SOUND = {
     Quantity.INCIDENT_IMPULSE,
     Quantity.REFLECTED_IMPULSE,
 }
+
+
+_LN_10 = 2.302585092994045684
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,13 +116,13 @@ def _read(name: str, value_of: Callable) -> Mapping[Quantity, list[_Piece]]:
 def _power_of_ten(row: Mapping[str, str], unit: float) -> Callable[[np.ndarray], np.ndarray]:
     """10^(Σ cᵢ Uⁱ) with U = u₀ + u₁ log₁₀ Z."""
     coefficients, u0, u1 = _coefficients(row), float(row["u0"]), float(row["u1"])
-    return lambda z: unit * 10.0 ** polynomial.polyval(u0 + u1 * np.log10(z), coefficients)
+    return lambda z: unit * power(10.0, polynomial.polyval(u0 + u1 * (logarithm(z) / _LN_10), coefficients))
 
 
 def _power_of_e(row: Mapping[str, str], unit: float) -> Callable[[np.ndarray], np.ndarray]:
     """e^(Σ cᵢ (ln Z)ⁱ)."""
     coefficients = _coefficients(row)
-    return lambda z: unit * np.exp(polynomial.polyval(np.log(z), coefficients))
+    return lambda z: unit * exponential(polynomial.polyval(logarithm(z), coefficients))
 
 
 def _coefficients(row: Mapping[str, str]) -> list[float]:

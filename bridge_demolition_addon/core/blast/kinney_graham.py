@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 
+from ..arithmetic import cube_root, power
 from .air import AMBIENT_PRESSURE_PA, SOUND_SPEED_M_S, reflected_overpressure, shock_speed
 from .wave import SMALLEST_SCALED_DISTANCE, Burst, Wave
 
@@ -19,8 +20,9 @@ SHORTEST_DURATION_DISTANCE = 0.5095
 """Scaled distance, m/kg^(1/3), of the least duration. Nearer than it equation 4 rises again, up to a second for 1 kg,
 which no wave does that has the peak and the impulse of the other formulas; a wave keeps its least duration there."""
 
-_FARTHEST_IN_TABLE = 1.0e4
-"""Scaled distance up to which arrival times are integrated; the front has long been a sound wave there."""
+_TABLE_DECADES = (-3.0, 4.0)
+"""Powers of ten of the scaled distances between which arrival times are integrated: at the end the front has long been
+a sound wave."""
 
 
 def peak_overpressure(scaled_distance: np.ndarray) -> np.ndarray:
@@ -39,8 +41,8 @@ def scaled_duration(scaled_distance: np.ndarray) -> np.ndarray:
     z = np.asarray(scaled_distance, float)
     milliseconds = (
         980.0
-        * (1.0 + (z / 0.54) ** 10)
-        / ((1.0 + (z / 0.02) ** 3) * (1.0 + (z / 0.74) ** 6) * np.sqrt(1.0 + (z / 6.9) ** 2))
+        * (1.0 + _raised(z / 0.54, 10))
+        / ((1.0 + _raised(z / 0.02, 3)) * (1.0 + _raised(z / 0.74, 6)) * np.sqrt(1.0 + (z / 6.9) ** 2))
     )
     return 1e-3 * milliseconds
 
@@ -51,7 +53,7 @@ def scaled_incident_impulse(scaled_distance: np.ndarray) -> np.ndarray:
     Not in the report; Kinney and Graham give it in bar·ms, with 0.067.
     """
     z = np.asarray(scaled_distance, float)
-    return 6.7 * np.sqrt(1.0 + (z / 0.23) ** 4) / (z**2 * np.cbrt(1.0 + (z / 1.55) ** 3))
+    return 6.7 * np.sqrt(1.0 + _raised(z / 0.23, 4)) / (z**2 * cube_root(1.0 + _raised(z / 1.55, 3)))
 
 
 def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
@@ -68,8 +70,8 @@ def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
 def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
     """The wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
     if burst is Burst.SURFACE:
-        cube_root = np.cbrt(GROUND_REFLECTION)
-        return unit_wave(np.asarray(scaled_distance) / cube_root).scaled(cube_root)
+        size = cube_root(GROUND_REFLECTION)
+        return unit_wave(np.asarray(scaled_distance) / size).scaled(size)
     z = np.maximum(scaled_distance, SMALLEST_SCALED_DISTANCE)
     peak, impulse = peak_overpressure(z), scaled_incident_impulse(z)
     reflected = reflected_overpressure(peak)
@@ -83,9 +85,17 @@ def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
     )
 
 
+def _raised(base: np.ndarray, exponent: int) -> np.ndarray:
+    """Return base to the power of a whole exponent, by products alone."""
+    result = base
+    for _ in range(exponent - 1):
+        result = result * base
+    return result
+
+
 @cache
 def _arrival_table() -> tuple[np.ndarray, np.ndarray]:
-    distances = np.concatenate(([0.0], np.geomspace(1e-3, _FARTHEST_IN_TABLE, 4001)))
+    distances = np.concatenate(([0.0], power(10.0, np.linspace(*_TABLE_DECADES, 4001))))
     slowness = 1.0 / shock_speed(peak_overpressure(distances))
     steps = np.diff(distances) * (slowness[1:] + slowness[:-1]) / 2.0
     return distances, np.concatenate(([0.0], np.cumsum(steps)))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arithmetic import cube_root
 from . import kingery_bulmash, kinney_graham
 from .wave import Burst, Choice, Wave, scaled_distance
 
@@ -61,4 +62,4 @@ def blast_wave(
     distance = scaled_distance(stand_off_m, tnt_kg)
     unit_wave = _UNIT_WAVES[BlastModel(model)]
     anywhere = np.where(np.isinf(distance), 1.0, distance)
-    return unit_wave(anywhere, Burst(burst)).scaled(np.cbrt(tnt_kg))
+    return unit_wave(anywhere, Burst(burst)).scaled(cube_root(tnt_kg))

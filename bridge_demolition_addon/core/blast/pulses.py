@@ -55,14 +55,10 @@ class Pulses:
         """(n, c) impulse per area of each whole pulse, Pa·s."""
         return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
-    def take(self, columns: np.ndarray) -> "Pulses":
-        """Return the pulses of some charges (k,)."""
-        return Pulses(
-            self.arrivals_s[:, columns],
-            self.peaks_pa[:, columns],
-            self.durations_s[:, columns],
-            self.decays[:, columns],
-        )
+    def take(self, bodies: np.ndarray, charges: np.ndarray) -> "Pulses":
+        """Return the pulses (k,) of pairs of a body (k,) and a charge (k,)."""
+        pairs = bodies, charges
+        return Pulses(self.arrivals_s[pairs], self.peaks_pa[pairs], self.durations_s[pairs], self.decays[pairs])
 
     def put(self, columns: np.ndarray, other: "Pulses") -> None:
         """Replace the pulses of some charges (k,) by others (n, k)."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arithmetic import power
 from ..errors import BlastError
 from .wave import checked
 
@@ -65,7 +66,7 @@ def peak_particle_velocity(
         A distance is not above 0, or a number is negative or not finite.
     """
     distance, charge = _distances(distance_m), checked(charge_kg, "charge", "kg")
-    return ground.velocity_m_s * (np.sqrt(charge) / distance) ** ground.exponent
+    return ground.velocity_m_s * power(np.sqrt(charge) / distance, ground.exponent)
 
 
 def charge_per_delay(
@@ -73,7 +74,7 @@ def charge_per_delay(
 ) -> np.ndarray:
     """Explosive that may detonate within one delay so that a velocity is kept at distances, kg."""
     limit = checked(limit_m_s, "limit", "m/s")
-    return (_distances(distance_m) * (limit / ground.velocity_m_s) ** (1.0 / ground.exponent)) ** 2
+    return (_distances(distance_m) * power(limit / ground.velocity_m_s, 1.0 / ground.exponent)) ** 2
 
 
 def distance_for_velocity(
@@ -83,7 +84,7 @@ def distance_for_velocity(
     limit = checked(limit_m_s, "limit", "m/s")
     if (limit == 0.0).any():
         raise BlastError("limit is 0: expected a number above 0 (m/s)")
-    return np.sqrt(checked(charge_kg, "charge", "kg")) * (ground.velocity_m_s / limit) ** (1.0 / ground.exponent)
+    return np.sqrt(checked(charge_kg, "charge", "kg")) * power(ground.velocity_m_s / limit, 1.0 / ground.exponent)
 
 
 def _distances(distance_m: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ from typing import NoReturn
 
 import numpy as np
 
+from ..arithmetic import cube_root
 from ..errors import BlastError
 
 SMALLEST_SCALED_DISTANCE = 0.0531
@@ -55,20 +56,20 @@ class Wave:
     arrival_time_s: np.ndarray
     positive_phase_duration_s: np.ndarray
 
-    def scaled(self, cube_root: np.ndarray) -> "Wave":
+    def scaled(self, size: np.ndarray) -> "Wave":
         """The wave at the same scaled distances from charges whose cube root is so many times as large.
 
         Pressures stay, times and impulses grow with the cube root (Hopkinson 1915, Cranz 1926). Without any charge
         there is no wave: everything is 0.
         """
-        there = cube_root > 0.0
+        there = size > 0.0
         return Wave(
             self.peak_overpressure_pa * there,
             self.reflected_overpressure_pa * there,
-            self.incident_impulse_pa_s * cube_root,
-            self.reflected_impulse_pa_s * cube_root,
-            self.arrival_time_s * cube_root,
-            self.positive_phase_duration_s * cube_root,
+            self.incident_impulse_pa_s * size,
+            self.reflected_impulse_pa_s * size,
+            self.arrival_time_s * size,
+            self.positive_phase_duration_s * size,
         )
 
 
@@ -88,9 +89,9 @@ def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
         A stand-off or a charge is negative or not finite.
     """
     stand_off = checked(stand_off_m, "stand-off", "m")
-    cube_root = np.cbrt(checked(tnt_kg, "charge", "kg of TNT"))
-    shape = np.broadcast_shapes(stand_off.shape, cube_root.shape)
-    return np.divide(stand_off, cube_root, out=np.full(shape, np.inf), where=cube_root > 0.0)
+    size = cube_root(checked(tnt_kg, "charge", "kg of TNT"))
+    shape = np.broadcast_shapes(stand_off.shape, np.shape(size))
+    return np.divide(stand_off, size, out=np.full(shape, np.inf), where=size > 0.0)
 
 
 def checked(values: np.ndarray, name: str, unit: str) -> np.ndarray:
