@@ -20,7 +20,7 @@ from ..core.scenario import (
     TimeSettings,
 )
 from ..core.scenario.file import read_scenario
-from ..core.sequence.checked_model import runnable_model
+from ..core.sequence.checked_model import checked_model
 from ..core.structure.model import Model
 
 MOST_FIELDS = 300
@@ -55,7 +55,7 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     if prepared.notes:
         yield from _section("Repaired", (note.split(": ", 1) for note in prepared.notes))
     yield from _section("Time", _time_facts(scenario))
-    model = runnable_model(scenario, prepared.members) if scenario.fracture.shards <= MOST_SHARDS_CUT else None
+    model = checked_model(scenario, prepared.members) if scenario.fracture.shards <= MOST_SHARDS_CUT else None
     yield from _section("Shards and connections", _connection_facts(scenario, model))
     yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ball:

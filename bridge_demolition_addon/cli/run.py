@@ -13,7 +13,7 @@ from ..core.results.files import RESULT_FILES
 from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
-from ..core.sequence.checked_model import runnable_model
+from ..core.sequence.checked_model import checked_model
 from ..core.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
 from .progress import Progress, progress_on
@@ -90,7 +90,7 @@ def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, pro
 def _model_of(path: str, scenario: Scenario) -> Model:
     """Return the model of a scenario file; what is wrong with it is said with the file's name."""
     try:
-        return runnable_model(scenario)
+        return checked_model(scenario)
     except (GeometryError, ScenarioError) as error:
         raise type(error)(f"{path}: {error}") from error
 

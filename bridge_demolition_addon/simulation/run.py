@@ -17,7 +17,7 @@ from ..core.display.contours import ContourSettings
 from ..core.results.files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
-from ..core.sequence.checked_model import runnable_model
+from ..core.sequence.checked_model import checked_model
 from ..core.structure.model import Model
 from ..scene.blast.charges import charge_objects, show_until
 from ..scene.demolition import build_demolition, first_frame_after
@@ -94,7 +94,7 @@ def run_scenario(
     """
     began = time.perf_counter()
     progress.stage("building the bridge and its shards")
-    model = model or runnable_model(scenario)
+    model = model or checked_model(scenario)
     folder = prepared_folder(output, overwrite=overwrite)
     (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
     scene = _empty_scene(scenario.title)

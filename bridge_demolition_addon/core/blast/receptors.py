@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.vectors import distance
 from . import vibration
 from .charges import Charge
 from .models import BlastModel, blast_wave
@@ -75,7 +76,7 @@ def loads_at(
     between charge and place, and no wall sends anything back.
     """
     charges = [charge for charge in charges if charge.mass_kg > 0.0]
-    stand_offs = np.array([[np.linalg.norm(np.subtract(place_m, charge.place_m)) for charge in charges]])
+    stand_offs = distance(np.array(place_m), np.array([[charge.place_m for charge in charges]]))
     delays = np.array([charge.delay_s for charge in charges])
     bursts = [charge.burst for charge in charges]
     by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
@@ -104,7 +105,7 @@ def peak_overpressures(
     """
     peaks = np.zeros(len(points_m))
     for charge in charges:
-        stand_offs = np.linalg.norm(points_m - np.array(charge.place_m), axis=1)
+        stand_offs = distance(points_m, np.array(charge.place_m))
         wave = blast_wave(stand_offs, charge.tnt_for_pressure_kg, charge.burst, model)
         peaks = np.maximum(peaks, wave.peak_overpressure_pa)
     return peaks
@@ -123,7 +124,7 @@ def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge], ground: 
     """Of each group with all its mass at the distance of its nearest charge, which is on the safe side."""
     velocities = []
     for group in charges_per_delay(charges):
-        distance = min(float(np.linalg.norm(np.subtract(place_m, charge.place_m))) for charge in group)
+        nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()
         mass = sum(charge.mass_kg for charge in group)
-        velocities.append(float(vibration.peak_particle_velocity(max(distance, _NEAREST_M), mass, ground)))
+        velocities.append(float(vibration.peak_particle_velocity(max(nearest, _NEAREST_M), mass, ground)))
     return max(velocities)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..geometry.hulls import ConvexHulls
 from ..geometry.proximity import ranges
+from ..geometry.vectors import dot, transformed, transformed_back
 
 GRAZING_M = 1e-3
 """Hulls stop rays this much inside their faces, so that none is stopped between bodies that touch, or by rounding."""
@@ -61,7 +62,7 @@ def _targets(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray) -> 
     """Bodies (t,) and places (t, 3) that rays go to."""
     bodies = np.arange(len(hulls))
     owners = np.repeat(bodies, np.diff(hulls.vertex_starts))
-    half_way = centres[owners] + _HALF_WAY * np.einsum("vij,vj->vi", rotations[owners], hulls.vertices)
+    half_way = centres[owners] + _HALF_WAY * transformed(rotations[owners], hulls.vertices)
     return np.concatenate((bodies, owners)), np.concatenate((centres, half_way))
 
 
@@ -69,8 +70,8 @@ def _holding(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sou
     """Which bodies (n,) hold a charge."""
     if not len(hulls):
         return np.zeros(0, bool)
-    local = np.einsum("nji,nj->ni", rotations, source - centres)
-    outside_by = np.einsum("fi,fi->f", hulls.normals, local[hulls.bodies]) - hulls.offsets
+    local = transformed_back(rotations, source - centres)
+    outside_by = dot(hulls.normals, local[hulls.bodies]) - hulls.offsets
     return np.maximum.reduceat(outside_by, hulls.starts[:-1]) <= 0.0
 
 
@@ -79,9 +80,9 @@ def _near_misses(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows of targets (t, 3), and the bodies whose bounding spheres the rays to them touch."""
     rays, others = targets - source, centres - source
-    along, squares = rays @ others.T, np.einsum("ti,ti->t", rays, rays)[:, None]
+    along, squares = dot(rays[:, None], others), dot(rays, rays)[:, None]
     nearest = np.clip(np.divide(along, squares, out=np.zeros(along.shape), where=squares > 0.0), 0.0, 1.0)
-    distances = np.einsum("ni,ni->n", others, others) - nearest * (2.0 * along - nearest * squares)
+    distances = dot(others, others) - nearest * (2.0 * along - nearest * squares)
     return np.nonzero(distances < hulls.radii**2)
 
 
@@ -94,8 +95,8 @@ def _pass_through(
     bodies: np.ndarray,
 ) -> np.ndarray:
     """Whether rays to targets (k, 3) pass through the bodies (k,) that they are paired with."""
-    rays = np.einsum("kji,kj->ki", rotations[bodies], targets - source)
-    origins = np.einsum("kji,kj->ki", rotations[bodies], source - centres[bodies])
+    rays = transformed_back(rotations[bodies], targets - source)
+    origins = transformed_back(rotations[bodies], source - centres[bodies])
     counts = np.diff(hulls.starts)[bodies]
     passing = np.zeros(len(bodies), bool)
     for first, last in _blocks(counts):
@@ -109,8 +110,8 @@ def _cross(
 ) -> np.ndarray:
     """Whether rays (k, 3) cross hulls, given as faces with the row of the ray: what all half-spaces leave of each."""
     normals = hulls.normals[faces]
-    slopes = np.einsum("fi,fi->f", normals, rays[rows])
-    rooms = hulls.offsets[faces] - GRAZING_M - np.einsum("fi,fi->f", normals, origins[rows])
+    slopes = dot(normals, rays[rows])
+    rooms = hulls.offsets[faces] - GRAZING_M - dot(normals, origins[rows])
     # Along a face there is no crossing: either all of the ray is behind it or nothing.
     crossings = np.divide(rooms, slopes, out=np.where(rooms < 0.0, -np.inf, np.inf), where=slopes != 0.0)
     entries = np.where(slopes < 0.0, crossings, 0.0)

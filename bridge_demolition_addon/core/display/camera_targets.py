@@ -9,7 +9,7 @@ import numpy as np
 from ..bridge.extent import extent, surface_height
 from ..bridge.member import Member
 from ..scenario import Scenario
-from ..sequence.hammering import tip_places
+from ..sequence.tool_paths import chisel_tip_positions
 
 _DEBRIS_HEIGHTS = 0.5
 """Ground to be seen around the bridge, as a part of its height: what topples reaches as far as it was high, and its
@@ -47,6 +47,6 @@ def _of_jackhammers(scenario: Scenario, members: Sequence[Member]) -> Iterator[t
     """Upper ends of the chisels at the top of their strokes, at both ends of their paths."""
     for hammer in scenario.jackhammers:
         surface = surface_height(scenario, members, hammer.path_m[0])
-        (tip,) = tip_places(hammer, surface, np.array([hammer.start_time_s]))
+        (tip,) = chisel_tip_positions(hammer, surface, np.array([hammer.start_time_s]))
         for along, across in hammer.path_m:
             yield along, across, float(tip[2]) + hammer.length_m

@@ -16,7 +16,7 @@ _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""
 
 
-def runnable_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
+def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
     """Return the model of a scenario in which all that is planned for it concerns something.
 
     Parameters

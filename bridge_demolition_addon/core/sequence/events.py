@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ScenarioError
+from ..geometry.vectors import dot
 from ..scenario import Change, Removal, SawCut, Weakening
 from ..structure.model import Model
 
@@ -149,5 +150,5 @@ def _crosses(cut: SawCut, structure: Structure) -> np.ndarray:
     solid = structure.is_shard[structure.pairs]
     mirrored = 2.0 * structure.points_m[:, None] - ends[:, ::-1]
     ends = np.where(solid[:, :, None], ends, mirrored)
-    sides = (ends - np.array(cut.point_m)) @ np.array(cut.normal) > 0.0
+    sides = dot(ends - np.array(cut.point_m), np.array(cut.normal)) > 0.0
     return sides[:, 0] != sides[:, 1]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.vectors import distance
 from ..scenario import Scenario
 
 
 class Rest:
     """Watches frame by frame whether all bodies rest, and since when.
 
-    Speeds come from places and rotations of two frames, so that a solver's trembling within a frame is not motion.
+    Speeds come from positions and rotations of two frames, so that a solver's trembling within a frame is not motion.
 
     Parameters
     ----------
@@ -34,20 +35,20 @@ class Rest:
         self._last: tuple[float, np.ndarray, np.ndarray] | None = None
         self._time_s = 0.0
 
-    def observe(self, time_s: float, places_m: np.ndarray, rotations: np.ndarray, asleep: np.ndarray) -> None:
-        """Look at a frame: its time, and places (n, 3), rotations (n, 3, 3) and sleep (n,) of all bodies."""
+    def observe(self, time_s: float, positions_m: np.ndarray, rotations: np.ndarray, asleep: np.ndarray) -> None:
+        """Look at a frame: its time, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of all bodies."""
         if self._last and time_s > self._last[0]:
             before_s, before_m, before = self._last
             step_s = time_s - before_s
-            speeds = np.linalg.norm(places_m - before_m, axis=1) / step_s
+            speeds = distance(positions_m, before_m) / step_s
             # A rotation by a small angle φ changes the matrix by √2 φ in the Frobenius norm.
-            spins = np.linalg.norm(rotations - before, axis=(1, 2)) / (np.sqrt(2.0) * step_s)
+            spins = distance(rotations.reshape(-1, 9), before.reshape(-1, 9)) / (np.sqrt(2.0) * step_s)
             rests = asleep | ((speeds < self._limits[0]) & (spins < self._limits[1]))
             if not rests.all() or before_s < self._not_before_s:
                 self.since_s = None
             elif self.since_s is None:
                 self.since_s = before_s
-        self._last = time_s, places_m, rotations
+        self._last = time_s, positions_m, rotations
         self._time_s = time_s
 
     @property

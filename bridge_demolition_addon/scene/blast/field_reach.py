@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.geometry.vectors import dot, length
+
 SHARE_OF_WAY = 0.45
 """Part of the way to a neighbour that a field reaches: less than half, as the neighbour may come nearer too."""
 
@@ -22,7 +24,7 @@ _PAIRS_AT_ONCE = 2_000_000
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Reaches:
+class FieldReach:
     """Cylinders about the centres of k bodies.
 
     Attributes
@@ -37,15 +39,15 @@ class Reaches:
     ahead_m: np.ndarray
     behind_m: np.ndarray
 
-    def hold(self, moves_m: np.ndarray, directions: np.ndarray) -> np.ndarray:
-        """Whether bodies that have moved (k, 3), m, are still inside their cylinders about directions (k, 3)."""
-        along = np.einsum("ki,ki->k", moves_m, directions)
-        across = np.linalg.norm(moves_m - along[:, None] * directions, axis=1)
+    def contain(self, moves_m: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Return whether bodies moved by (k, 3), m, are still inside their cylinders about directions (k, 3)."""
+        along = dot(moves_m, directions)
+        across = length(moves_m - along[:, None] * directions)
         return (across < self.radii_m) & (along < self.ahead_m) & (along > -self.behind_m)
 
 
-def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.ndarray) -> Reaches:
-    """Reaches of fields on some bodies, so that none holds the centre of another.
+def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.ndarray) -> FieldReach:
+    """Return the reaches of fields on some bodies, so that none contains the centre of another.
 
     Parameters
     ----------
@@ -54,14 +56,16 @@ def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.nd
     centres
         (n, 3) centres of mass of all bodies, m.
     """
-    reaches = Reaches(np.full(len(bodies), WIDEST_M), np.full(len(bodies), LONGEST_M), np.full(len(bodies), WIDEST_M))
+    reaches = FieldReach(
+        np.full(len(bodies), WIDEST_M), np.full(len(bodies), LONGEST_M), np.full(len(bodies), WIDEST_M)
+    )
     rows = max(1, _PAIRS_AT_ONCE // max(1, len(centres)))
     for first in range(0, len(bodies), rows):
         block = slice(first, first + rows)
         between = centres[None] - centres[bodies[block], None]
-        squares = np.einsum("kni,kni->kn", between, between)
+        squares = dot(between, between)
         squares[np.arange(len(squares)), bodies[block]] = np.inf
-        along = np.einsum("kni,ki->kn", between, directions[block])
+        along = dot(between, directions[block, None])
         radii = np.minimum(WIDEST_M, SHARE_OF_WAY * np.sqrt(squares.min(axis=1, initial=np.inf)))
         in_line = squares - along**2 < (2.0 * radii[:, None]) ** 2  # it may come nearer from the side as well
         ahead = np.where(in_line & (along > 0.0), along, np.inf).min(axis=1, initial=np.inf)

@@ -16,7 +16,7 @@ from mathutils import Matrix, Vector
 
 from ...core.errors import SimulationError
 from ..collections import collection_for, find_collection
-from .field_reach import Reaches
+from .field_reach import FieldReach
 
 _ROLE = "Force objects"
 _BODY = "bda_pushed_body"
@@ -25,16 +25,16 @@ _FLOAT32 = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Built:
-    """How many force objects were made anew, kept, and removed."""
+class BuildCount:
+    """How many force objects were made, kept and removed."""
 
     made: int
     kept: int
     removed: int
 
 
-def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Object]) -> Built:
-    """Give each body one force object, and take away those of bodies that are no more.
+def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Object]) -> BuildCount:
+    """Give each body one force object, and remove those of bodies that are gone.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Objec
     bpy.data.batch_remove(gone)
     missing = [body for body in pushed if body not in existing]
     _make(scene, missing)
-    return Built(len(missing), len(pushed) - len(missing), len(gone))
+    return BuildCount(len(missing), len(pushed) - len(missing), len(gone))
 
 
 def force_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
@@ -110,7 +110,7 @@ class ForceFields:
         self._pushing: list[tuple[bpy.types.Object, float]] = []
 
     def push(
-        self, rows: np.ndarray, forces_n: np.ndarray, directions: np.ndarray, centres: np.ndarray, reaches: Reaches
+        self, rows: np.ndarray, forces_n: np.ndarray, directions: np.ndarray, centres: np.ndarray, reaches: FieldReach
     ) -> None:
         """Let some fields push in the coming frame, and no other.
 
@@ -214,7 +214,7 @@ def _template(scene: bpy.types.Scene) -> bpy.types.Object:
     return template
 
 
-def _rows_of(reaches: Reaches) -> list[list[float]]:
+def _rows_of(reaches: FieldReach) -> list[list[float]]:
     return np.column_stack((reaches.radii_m, reaches.ahead_m, reaches.behind_m)).tolist()
 
 

@@ -11,7 +11,7 @@ from mathutils import Matrix
 from ...core.geometry.solids import sphere
 from ...core.scenario import Ball
 from ...core.scenario.kept import values_from_text, values_text
-from ...core.sequence.lifting import lift_path
+from ...core.sequence.tool_paths import lift_path
 from ...core.timing.timeline import Timeline
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from ..world import START_FRAME

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.geometry.solids import cylinder
 from ...core.scenario import Jackhammer
-from ...core.sequence.hammering import tip_places
+from ...core.sequence.tool_paths import chisel_tip_positions
 from ...core.timing.timeline import Timeline
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from .keyframes import key_values
@@ -38,7 +38,7 @@ def create_jackhammer(
     set_surface(chisel.rigid_body, settings.friction, 0.0, 0.0)
     times = np.concatenate(([0.0], timeline.ends_s))
     frames = start_frame + np.arange(len(times))
-    places = tip_places(settings, deck_top_m, times)
+    places = chisel_tip_positions(settings, deck_top_m, times)
     chisel.location = places[0]
     key_values(chisel, "location", frames, places)
     return chisel

@@ -15,9 +15,10 @@ from ...core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ...core.blast.settings import Apply
 from ...core.errors import LayoutError, SimulationError
 from ...core.geometry.hulls import convex_hulls
+from ...core.geometry.vectors import length
 from ...core.results.inventory import Inventory
 from ...scene.blast.charges import charges_of
-from ...scene.blast.field_reach import Reaches, isolating_reaches
+from ...scene.blast.field_reach import FieldReach, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
 from ...scene.blast.settings import blast_of
 from ...scene.bodies import scaled_mesh
@@ -47,7 +48,7 @@ class FieldBlast:
         self._loads = no_loads()
         self._pushed = np.zeros(0, int)
         self._directions = np.zeros((0, 3))
-        self._reaches: Reaches | None = None
+        self._reaches: FieldReach | None = None
         self._centres: np.ndarray | None = None
 
     def before_frame(self, start_s: float, frame_s: float, centres: np.ndarray, rotations: np.ndarray) -> None:
@@ -56,7 +57,7 @@ class FieldBlast:
         Raises
         ------
         LayoutError
-            Blender cannot be told to heed the fields again.
+            Blender does not let its fields act again.
         """
         self._fields.rest()
         heed_fields(self._scene)
@@ -70,7 +71,7 @@ class FieldBlast:
 
     def _push(self, frame_s: float, centres: np.ndarray) -> None:
         impulses = self._loads.vectors(len(centres))
-        sizes = np.linalg.norm(impulses, axis=1)
+        sizes = length(impulses)
         self._pushed = np.flatnonzero(sizes > 0.0)
         self._directions = impulses[self._pushed] / sizes[self._pushed, None]
         self._reaches = isolating_reaches(self._pushed, self._directions, centres)
@@ -84,7 +85,7 @@ class FieldBlast:
         Raises
         ------
         SimulationError
-            Somebody meddled with the fields while they pushed.
+            A field was changed while it pushed.
         """
         if not self._fields.still_push():
             raise SimulationError(
@@ -92,13 +93,13 @@ class FieldBlast:
             )
         if len(self._pushed):
             moves = (centres - self._centres)[self._pushed]
-            self.left += int((~self._reaches.hold(moves, self._directions)).sum())
+            self.left += int((~self._reaches.contain(moves, self._directions)).sum())
         return self._loads
 
     def rest(self) -> None:
         """Push nothing any more."""
         self._fields.rest()
-        with suppress(LayoutError):  # until Blender makes its evaluated copy anew
+        with suppress(LayoutError):  # until Blender makes its evaluated copy again
             heed_fields(self._scene)
 
     def _spare_blender_the_fields(self) -> None:
@@ -109,7 +110,7 @@ class FieldBlast:
 
 
 class DirectBlast:
-    """Loads as forces in Bullet, anew in every sub-step.
+    """Loads as forces in Bullet, set again in every sub-step.
 
     Parameters
     ----------

@@ -8,7 +8,7 @@ from bpy.props import StringProperty
 from ...core.errors import DemolitionError, OutputError
 from ...core.scenario import Scenario
 from ...core.scenario.file import read_scenario, scenario_text
-from ...core.sequence.checked_model import runnable_model
+from ...core.sequence.checked_model import checked_model
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.demolition import build_demolition
 from ...scene.removal import remove_demolition, remove_loose_connections
@@ -124,7 +124,7 @@ class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
         is_new = settings.scenario_path not in ("", settings.loaded_path)
         try:
             scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-            model = runnable_model(scenario)
+            model = checked_model(scenario)
             build_demolition(context.scene, scenario, model)
         except DemolitionError as error:
             return refused(self, error)

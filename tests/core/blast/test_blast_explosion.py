@@ -113,5 +113,5 @@ def test_no_field_holds_the_centre_of_another_body():
 def test_a_body_by_itself_has_all_the_room():
     reaches = isolating_reaches(np.array([0]), np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3)))
     assert (reaches.radii_m, reaches.ahead_m, reaches.behind_m) == (WIDEST_M, LONGEST_M, WIDEST_M)
-    assert reaches.hold(np.array([[19.0, 4.0, 0.0]]), np.array([[1.0, 0.0, 0.0]])).tolist() == [True]
-    assert reaches.hold(np.array([[1.0, 6.0, 0.0]]), np.array([[1.0, 0.0, 0.0]])).tolist() == [False]
+    assert reaches.contain(np.array([[19.0, 4.0, 0.0]]), np.array([[1.0, 0.0, 0.0]])).tolist() == [True]
+    assert reaches.contain(np.array([[1.0, 6.0, 0.0]]), np.array([[1.0, 0.0, 0.0]])).tolist() == [False]

@@ -23,11 +23,11 @@ def turned(axis, degrees):
     return matrix
 
 
-def area(vertices, direction, rotation=None, **options):
+def area(vertices, direction, rotation=None):
     """Projected area of one body along one direction of any length."""
     direction = np.asarray(direction, float) / np.linalg.norm(direction)
     rotations = np.eye(3)[None] if rotation is None else rotation[None]
-    return projected_areas(convex_hulls([vertices]), rotations, direction[None, None], **options).item()
+    return projected_areas(convex_hulls([vertices]), rotations, direction[None, None]).item()
 
 
 def test_a_cube_has_six_faces():
@@ -60,7 +60,6 @@ def test_bodies_without_volume_are_refused(flat):
         convex_hulls([CUBE, flat])
 
 
-@pytest.mark.parametrize("facing_only", [False, True])
 @pytest.mark.parametrize(
     "vertices, direction, expected",
     [
@@ -77,9 +76,9 @@ def test_bodies_without_volume_are_refused(flat):
         (CORNER, [1, -1, 0], 0.5 / np.sqrt(2.0)),
     ],
 )
-def test_shadows_of_known_shapes(vertices, direction, expected, facing_only):
+def test_shadows_of_known_shapes(vertices, direction, expected):
     # Sums of some faces, each rounded.
-    assert area(vertices, direction, facing_only=facing_only) == pytest.approx(expected, rel=1e-14)
+    assert area(vertices, direction) == pytest.approx(expected, rel=1e-14)
 
 
 def test_the_area_follows_the_rotation():
@@ -104,8 +103,10 @@ def random_bodies(count=40, charges=5, seed=3):
 
 def test_faces_turned_to_the_source_are_half_of_all():
     hulls, rotations, directions = random_bodies()
-    facing = projected_areas(hulls, rotations, directions, facing_only=True)
     # Faces of a closed surface add up to nothing: what faces the source is as much as what does not.
+    normals = np.einsum("fij,fj->fi", rotations[hulls.bodies], hulls.normals)
+    towards = np.maximum(-np.einsum("fi,fci->fc", normals, directions[hulls.bodies]), 0.0) * hulls.areas[:, None]
+    facing = np.add.reduceat(towards, hulls.starts[:-1])
     np.testing.assert_allclose(facing, projected_areas(hulls, rotations, directions), rtol=1e-12)
 
 

@@ -9,7 +9,7 @@ from scenarios import I235
 from bridge_demolition_addon.core.bridge.extent import extent
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.scenario import Ball, BallCable, FractureSettings
-from bridge_demolition_addon.core.sequence.checked_model import runnable_model
+from bridge_demolition_addon.core.sequence.checked_model import checked_model
 
 SPAN = replace(I235, fracture=FractureSettings(shards=20))
 
@@ -22,10 +22,10 @@ def swinging(crane_z_m):
 
 @pytest.mark.parametrize(("above_m", "allowed"), [(-0.5, False), (0.4, False), (0.6, True)])
 def test_a_ball_on_a_cable_begins_outside_all_members(above_m, allowed):
-    top_m = extent(runnable_model(SPAN).members)[1][2]
+    top_m = extent(checked_model(SPAN).members)[1][2]
     scenario = swinging(float(top_m) + 5.0 + above_m)
     if allowed:
-        assert runnable_model(scenario).shards
+        assert checked_model(scenario).shards
         return
     with pytest.raises(GeometryError, match=r"ball begins within member 'deck'.*draw it aside"):
-        runnable_model(scenario)
+        checked_model(scenario)

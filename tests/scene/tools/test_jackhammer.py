@@ -11,7 +11,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario import Jackhammer
-from bridge_demolition_addon.core.sequence.hammering import tip_places
+from bridge_demolition_addon.core.sequence.tool_paths import chisel_tip_positions
 from bridge_demolition_addon.core.timing.timeline import Timeline
 from bridge_demolition_addon.simulation.recording import handlers
 from bridge_demolition_addon.simulation.recording.recorder import Recording
@@ -76,7 +76,7 @@ def test_jackhammer_removes_material_where_it_is_driven_and_nowhere_else(slab):
 def test_chisel_is_where_it_is_led(slab):
     (tool,) = slab.inventory.of_kind("tool")
     np.testing.assert_allclose(
-        slab.frames.positions_m[:, tool], tip_places(HAMMER, TOP_M, slab.frames.time_s), atol=1e-4
+        slab.frames.positions_m[:, tool], chisel_tip_positions(HAMMER, TOP_M, slab.frames.time_s), atol=1e-4
     )
     heights = slab.frames.positions_m[:, tool, 2]
     assert heights.min() == pytest.approx(TOP_M - HAMMER.depth_m, abs=1e-4)
@@ -95,7 +95,7 @@ def test_scenario_with_a_jackhammer(tmp_path):
     (tool,) = results.inventory.of_kind("tool")
     np.testing.assert_allclose(
         results.frames.positions_m[:, tool],
-        tip_places(hammer, deck_top(scenario.bridge), results.frames.time_s),
+        chisel_tip_positions(hammer, deck_top(scenario.bridge), results.frames.time_s),
         atol=1e-4,
     )
     assert results.frames.intact[results.frames.time_s < 0.19].all()

@@ -1,4 +1,4 @@
-"""The way of a jackhammer's chisel, and which jackhammers are refused."""
+"""Paths of a jackhammer's chisel and of a lifted ball, and which jackhammers are refused."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ from scenarios import I235
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario import Jackhammer
 from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.core.sequence.hammering import tip_places
+from bridge_demolition_addon.core.sequence.tool_paths import chisel_tip_positions, lift_path
 
 HAMMER = Jackhammer(
     start_time_s=1.0,
@@ -24,7 +24,7 @@ HAMMER = Jackhammer(
 
 def test_chisel_goes_up_and_down_along_its_path():
     times = np.array((0.0, 1.0, 1.25, 1.5, 2.0, 2.25, 2.5, 4.0, 4.5, 5.0, 9.0))
-    places = tip_places(HAMMER, 5.0, times)
+    places = chisel_tip_positions(HAMMER, 5.0, times)
     clear, low, high = 5.0 - 0.2 + 0.5, 4.8, 6.3
     expected_z = (clear, clear, low, clear, clear, low, clear, clear, (clear + high) / 2, high, high)
     np.testing.assert_allclose(places[:, 2], expected_z, atol=1e-12)
@@ -33,13 +33,13 @@ def test_chisel_goes_up_and_down_along_its_path():
 
 
 def test_chisel_on_one_point_stays_there():
-    places = tip_places(replace(HAMMER, path_m=[(3, 1)]), 5.0, np.linspace(0, 9, 50))
+    places = chisel_tip_positions(replace(HAMMER, path_m=[(3, 1)]), 5.0, np.linspace(0, 9, 50))
     assert (places[:, :2] == (3, 1)).all()
 
 
 def test_largest_speed():
     times = np.linspace(1.0, 4.0, 30001)
-    speeds = np.diff(tip_places(HAMMER, 0.0, times)[:, 2]) / np.diff(times)
+    speeds = np.diff(chisel_tip_positions(HAMMER, 0.0, times)[:, 2]) / np.diff(times)
     assert HAMMER.largest_speed_m_s == pytest.approx(abs(speeds).max(), rel=1e-4)
 
 
@@ -74,3 +74,20 @@ def test_jackhammers_are_written_without_loss():
 def test_wrong_jackhammers_are_refused(values, text):
     with pytest.raises(ScenarioError, match=text):
         replace(I235, jackhammers=[replace(HAMMER, **values)])
+
+
+def test_ball_goes_up_and_then_level_with_limited_speed():
+    start, end, steps = np.array((1.0, 2.0, 0.7)), np.array((5.0, -1.0, 10.7)), 60
+    path = lift_path(start, end, np.linspace(0, 1, steps + 1))
+    np.testing.assert_allclose(path[[0, -1]], [start, end], atol=1e-12)
+    level = path[:, 2] < end[2] - 1e-9
+    np.testing.assert_array_equal(path[level, :2], np.broadcast_to(start[:2], (level.sum(), 2)))
+    lengths = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    # 10 m up and 5 m across; steps are chords, shorter than the way only where it turns.
+    mean = 15.0 / steps
+    assert lengths.max() <= 1.5 * mean * (1.0 + 1e-9)
+    assert max(lengths[0], lengths[-1]) < 0.1 * mean
+
+
+def test_ball_that_need_not_move_stays():
+    assert not np.ptp(lift_path((1, 2, 3), (1, 2, 3), np.linspace(0, 1, 5)), axis=0).any()
