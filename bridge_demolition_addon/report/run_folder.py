@@ -22,7 +22,7 @@ from ..core.results.files import (
     SCENARIO_FILE,
     SUMMARY_FILE,
 )
-from ..core.results.removed_shards import without_taken_away
+from ..core.results.removed_shards import without_removed
 from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
@@ -137,15 +137,15 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
         )
         return None
     try:
-        results, taken_away = without_taken_away(load_results(path))
+        results, removed = without_removed(load_results(path))
     except OutputError as error:
         shortcomings.append(
             f"{RESULTS_FILE} cannot be read, and all that needs it is left out: {_reason(error, path)}."
         )
         return None
-    if taken_away:
+    if removed:
         shortcomings.append(
-            f"{taken_away} shards were taken away in the course of the run, as the scenario says. They are no "
+            f"{removed} shards were removed in the course of the run, as the scenario says. They are no "
             "debris, and are left out of everything here, masses, loads and energies of the time before included."
         )
     return results

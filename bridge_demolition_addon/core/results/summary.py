@@ -11,7 +11,7 @@ from ..mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
 from .motion import throw
-from .removed_shards import without_taken_away
+from .removed_shards import without_removed
 
 
 def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None) -> dict[str, Any]:
@@ -26,7 +26,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
     contact_time_s
         How long hits of the ball last; by default as long as elastic ones.
     """
-    left, _ = without_taken_away(results)
+    left, _ = without_removed(results)
     key, reason = key_step(results, gravity_m_s2)
     return {
         "frames": len(results.frames),

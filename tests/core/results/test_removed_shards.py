@@ -1,4 +1,4 @@
-"""Shards that were taken away count for nothing."""
+"""Shards that were removed count for nothing."""
 
 import numpy as np
 import pytest
@@ -7,13 +7,13 @@ from moving_boxes import moving_boxes
 from bridge_demolition_addon.core.results.collapse import collapse_progress
 from bridge_demolition_addon.core.results.debris import debris_of
 from bridge_demolition_addon.core.results.energy import energy_of
-from bridge_demolition_addon.core.results.removed_shards import without_taken_away
+from bridge_demolition_addon.core.results.removed_shards import without_removed
 
 PLACES = np.array([[(0, 0, 5), (3, 0, 5), (6, 0, 5)], [(0, 0, 5), (3, 0, -995), (6, 0, 2)]], float)
 
 
 def test_they_are_no_debris_and_lose_no_energy():
-    results, count = without_taken_away(moving_boxes([0, 1], [(1, 1, 1)] * 3, PLACES))
+    results, count = without_removed(moving_boxes([0, 1], [(1, 1, 1)] * 3, PLACES))
     assert count == 1
     assert results.inventory.of_kind("shard").tolist() == [0, 2]
     assert debris_of(results).bodies.tolist() == [2]
@@ -25,5 +25,5 @@ def test_they_are_no_debris_and_lose_no_energy():
 def test_without_them_nothing_changes():
     results = moving_boxes([0, 1], [(1, 1, 1)] * 3, PLACES)
     fallen = moving_boxes([0, 1], [(1, 1, 1)] * 3, np.maximum(PLACES, -20.0))
-    assert without_taken_away(fallen) == (fallen, 0)
-    assert without_taken_away(results)[1] == 1
+    assert without_removed(fallen) == (fallen, 0)
+    assert without_removed(results)[1] == 1

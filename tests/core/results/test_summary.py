@@ -35,7 +35,7 @@ def test_summary_of_the_chain():
     assert summary["largest_throw"] == {"throw_m": 5.0, "body": "lower"}
 
 
-def test_a_shard_that_was_taken_away_is_not_thrown():
+def test_a_shard_that_was_removed_is_not_thrown():
     chain = hanging_chain()
     places = chain.frames.positions_m.copy()
     places[-1, chain.inventory.body_names.tolist().index("lower"), 2] -= 1000.0

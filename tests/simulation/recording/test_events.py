@@ -74,7 +74,7 @@ def test_tower_comes_down_by_what_is_taken_from_under_it(blender, tmp_path, asle
     blocks = Blocks(solver_iterations=100)
     blocks.block((0, 0, -0.5), size_m=(20, 20, 1))
     lowest, *upper = [blocks.block((0, 0, 0.5 + level), MASS_KG) for level in range(3)]
-    aside = blocks.block((1.0, 0, 0.5), MASS_KG)  # face to face with the one that is taken away
+    aside = blocks.block((1.0, 0, 0.5), MASS_KG)  # face to face with the one that is removed
     blocks.connect("FIXED", (0, 0, 1), lowest, upper[0])
     for block in (lowest, *upper, aside):
         block.rigid_body.use_deactivation = asleep
@@ -96,7 +96,7 @@ def test_tower_comes_down_by_what_is_taken_from_under_it(blender, tmp_path, asle
     assert recording.applied_events[0]["shards"] == [lowest.name]
 
 
-def test_blocks_taken_away_together_bear_on_each_other_no_more(blender, tmp_path):
+def test_blocks_removed_together_bear_on_each_other_no_more(blender, tmp_path):
     """Bullet keeps the last contact of two bodies that it simulates no more."""
     blocks = Blocks()
     blocks.block((0, 0, -0.5), size_m=(20, 20, 1))
