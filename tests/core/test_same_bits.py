@@ -1,0 +1,59 @@
+"""A model has the same bits on every processor: what numpy and OpenBLAS choose by processor is not used for it."""
+
+import ast
+import re
+
+import numpy as np
+import pytest
+from places import EXAMPLES, ROOT
+from processes import run_program
+
+CORE = ROOT / "bridge_demolition_addon" / "core"
+ROOMS = ("blast", "bridge", "fracture", "geometry", "mechanics", "sequence", "structure", "timing")
+MODULES = [path for room in ROOMS for path in sorted((CORE / room).glob("*.py"))]
+
+# Products by BLAS and LAPACK, and functions of which numpy or the C library have one version for each processor.
+BY_PROCESSOR = {
+    *("dot", "einsum", "inner", "linalg", "matmul", "tensordot", "vdot"),
+    *("arccos", "arcsin", "arctan", "arctan2", "cbrt", "cos", "cosh", "exp", "exp2", "expm1", "float_power", "hypot"),
+    *("log", "log10", "log1p", "log2", "power", "sin", "sinc", "sinh", "tan", "tanh", "geomspace", "logspace"),
+    *("acos", "asin", "atan", "atan2", "pow"),
+}
+DRAWN_BY_LOGARITHMS = {"exponential", "multinomial", "normal", "poisson", "standard_normal"}
+
+
+def chosen_by_processor(text):
+    """Lines of a program that use something which differs by processor."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.MatMult):
+            yield node.lineno
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            known = DRAWN_BY_LOGARITHMS if node.value.id == "generator" else BY_PROCESSOR
+            if node.value.id in ("np", "math", "generator") and node.attr in known:
+                yield node.lineno
+
+
+def test_what_differs_by_processor_is_found():
+    text = "a @ b\na @= b\nnp.linalg.norm(a)\nmath.cos(b)\ngenerator.normal()\nnp.sqrt(a)\ngenerator.random()\nc.dot"
+    assert sorted(chosen_by_processor(text)) == [1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: f"{path.parent.name}/{path.name}")
+def test_no_module_uses_what_differs_by_processor(path):
+    assert not list(chosen_by_processor(path.read_text(encoding="utf-8")))
+
+
+def processor_features():
+    """Names by which numpy can be told not to use what this processor has."""
+    simd = np.show_config(mode="dicts")["SIMD Extensions"]
+    return " ".join(simd.get("found", []))
+
+
+@pytest.mark.parametrize("example", ["i235_one_span", "three_span_box_girder"])
+def test_a_model_has_the_same_bits_on_an_older_processor_and_on_one_core(example):
+    path = EXAMPLES / f"{example}.toml"
+    older = {"NPY_DISABLE_CPU_FEATURES": processor_features(), "OPENBLAS_CORETYPE": "Nehalem"}
+    runs = [run_program("bits_of_a_model", path), run_program("bits_of_a_model", path, "one core", **older)]
+    assert [(run.returncode, run.stderr) for run in runs] == [(0, ""), (0, "")]
+    assert re.fullmatch(r"[0-9a-f]{64}\n", runs[0].stdout)
+    assert runs[0].stdout == runs[1].stdout
