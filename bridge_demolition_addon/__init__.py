@@ -16,9 +16,8 @@ def unregister() -> None:
 
 def _interface() -> tuple:
     # The engineering in `core` and the checks of the command line work where there is no Blender to import.
-    from .simulation.crash_guards import safe_render, safe_undo
-    from .simulation.recording import unrecorded_watch
+    from .simulation import blender_events
     from .ui import registration, scene_settings
     from .ui.contours import decorator, view
 
-    return (scene_settings, view, registration, decorator, safe_undo, safe_render, unrecorded_watch)
+    return (blender_events, scene_settings, view, registration, decorator)

@@ -30,7 +30,8 @@ from bridge_demolition_addon.scene.blast.settings import keep_blast
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.world import START_FRAME
-from bridge_demolition_addon.simulation.recording import blast, handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
+from bridge_demolition_addon.simulation.recording import blast
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 FRAMES = 5
@@ -116,9 +117,9 @@ def _with_blast(count: int, apply: Apply, every: int) -> float:
     """What blast adds to a bare step: loads are recorded in neither."""
     SteadyLoads.every = every
     scene = _scene(count, apply)
-    handlers.start(recording := _Unrecorded(scene, Path()))
+    start_recording(recording := _Unrecorded(scene, Path()))
     seconds = _frames(scene)
-    handlers.stop()
+    stop_recording()
     if recording.error:
         raise recording.error
     return seconds

@@ -19,7 +19,7 @@ import bench_recording as bench
 import bpy
 
 from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity
-from bridge_demolition_addon.simulation.display import contours
+from bridge_demolition_addon.simulation.blender_events import contours_of
 
 ROUNDS = 3
 
@@ -59,17 +59,17 @@ def main() -> None:
 @contextmanager
 def _contours(scene: bpy.types.Scene, folder: Path):
     with bench._recording(scene, folder, every_substep=True) as recording:
-        contours.show(scene, ContourSettings(quantity=Quantity.VON_MISES))
+        contours_of(scene).show(ContourSettings(quantity=Quantity.VON_MISES))
         yield recording
-        if error := contours.error_of(scene):
+        if error := contours_of(scene).error:
             raise error
-        contours.hide(scene)
+        contours_of(scene).hide()
 
 
 def _painting_seconds(scene: bpy.types.Scene) -> float:
     """Time to paint the current frame."""
     began = time.perf_counter()
-    contours.refresh(scene)
+    contours_of(scene).refresh()
     return time.perf_counter() - began
 
 

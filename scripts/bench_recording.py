@@ -26,7 +26,7 @@ from bench_deck import DECK
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.world import START_FRAME
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 FRAMES = 10
@@ -88,9 +88,9 @@ def _bare():
 @contextmanager
 def _recording(scene: bpy.types.Scene, folder: Path, *, every_substep: bool):
     recording = Recording(scene, folder, every_substep=every_substep)
-    handlers.start(recording)
+    start_recording(recording)
     yield recording
-    handlers.stop()
+    stop_recording()
     if recording.error:
         raise recording.error
 

@@ -10,7 +10,7 @@ from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.results.arrays import Results
 from bridge_demolition_addon.core.scenario import TimeSettings
 from bridge_demolition_addon.scene.world import create_world
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 MOST_FRAMES = 10_000
@@ -67,10 +67,10 @@ class Blocks:
     def play(self, folder: Path, frames: int) -> Results:
         """Simulate and record, from the start frame on."""
         recording = Recording(self.scene, folder)
-        handlers.start(recording)
+        start_recording(recording)
         for frame in range(self.scene.frame_start, self.scene.frame_start + frames + 2):
             self.scene.frame_set(frame)
-        handlers.stop()
+        stop_recording()
         if recording.error:
             raise recording.error
         return recording.results()

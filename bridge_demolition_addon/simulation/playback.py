@@ -8,7 +8,7 @@ import bpy
 
 from ..core.errors import SimulationError
 from ..core.sequence.rest import Rest
-from .recording import handlers
+from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording
 
 
@@ -55,7 +55,7 @@ class Playing:
         self.done = 0
         self.longest_frame_s = 0.0
         self.seconds = 0.0
-        handlers.start(recording)
+        start_recording(recording)
         start_over(self._scene)
 
     @property
@@ -94,13 +94,13 @@ class Playing:
 
     def end(self) -> None:
         """End the recording, and leave it at its logs."""
-        if handlers.current() is self.recording:
-            handlers.stop()
+        if running_recording() is self.recording:
+            stop_recording()
 
     def _see_whether_recorded(self) -> None:
         if self.recording.error:
             raise self.recording.error
-        if handlers.current() is not self.recording:
+        if running_recording() is not self.recording:
             raise SimulationError("the recording was ended by someone else")
 
 

@@ -6,7 +6,7 @@ import bpy
 from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import OutputError
-from ..simulation.recording import handlers
+from ..simulation.blender_events import running_recording
 from .sidebar import path_property
 
 
@@ -49,7 +49,7 @@ def no_world(context: bpy.types.Context) -> str | None:
 
 def recording_runs() -> str | None:
     """Return a sentence where a recording runs, else None."""
-    return "A recording runs: unregister its handler first" if handlers.current() else None
+    return "A recording runs: unregister its handler first" if running_recording() else None
 
 
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:

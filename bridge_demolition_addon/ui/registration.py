@@ -6,7 +6,7 @@ from functools import cache
 
 import bpy
 
-from ..simulation.recording import handlers
+from ..simulation.blender_events import stop_recording
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
@@ -48,7 +48,7 @@ def register() -> None:
 def unregister() -> None:
     """End a run or recording that goes on, and unregister all classes."""
     running.end(bpy.context)
-    handlers.stop()
+    stop_recording()
     redraw.unregister()
     last_recording.forget()
     for each in reversed(classes()):

@@ -82,14 +82,14 @@ def test_sleeping_block_keeps_its_resting_load_and_is_marked(blender, tmp_path):
 
 
 def test_frames_played_back_are_not_recorded_again(blender, tmp_path):
-    from bridge_demolition_addon.simulation.recording import handlers
+    from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
     from bridge_demolition_addon.simulation.recording.recorder import Recording
 
     blocks = Blocks()
     blocks.block((0, 0, 10), 100.0)
-    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    start_recording(recording := Recording(blocks.scene, tmp_path))
     for frame in (*range(1, 11), 5, 6, 4, 10):
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert recording.error is None
     assert recording.results().frames.number.tolist() == list(range(2, 11))

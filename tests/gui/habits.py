@@ -4,7 +4,7 @@
 from pathlib import Path
 
 from person import Person, Steps
-from traces import SCENARIO, handlers
+from traces import SCENARIO, recording_runs
 
 
 def delete_all(person: Person) -> Steps:
@@ -32,7 +32,7 @@ def register(person: Person, results: Path) -> Steps:
     """Choose a folder and register the handler."""
     yield from person.fill_in("output_directory", str(results))
     yield from person.click("bda.register_handler")
-    yield from person.wait_for("the handler is registered", lambda: bool(handlers()), 5.0)
+    yield from person.wait_for("the handler is registered", recording_runs, 5.0)
 
 
 def go_to_start(person: Person) -> Steps:

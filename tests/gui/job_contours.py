@@ -5,7 +5,7 @@ import bpy
 from habits import build, go_to_start, play_or_pause, register
 from panels import Panels
 from person import TO_THE_END, Person, Steps
-from traces import colours, handlers, module
+from traces import colours, module, recording_runs
 
 
 def steps(person: Person) -> Steps:
@@ -68,7 +68,7 @@ def steps(person: Person) -> Steps:
     yield from person.click("contours")
     yield 0.5
     yield from person.picture("contours_off")
-    person.expect("no handler is left", dict(handlers()), {})
+    person.expect("no recording runs", recording_runs(), False)
     person.expect("the bodies show their own colours", bool((colours(person, shown=True) == own).all()))
     person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
     yield from film(person)
@@ -113,7 +113,7 @@ def load_in_the_middle_of_a_film(person: Person) -> Steps:
     yield 3.0
     person.expect("no more pictures are rendered", len(list(rendered("*.png"))), stopped_at)
     person.expect("pictures are as large as they were", person.scene.render.resolution_x, 1920)
-    person.expect("no handler is left of the film", dict(handlers()), {})
+    person.expect("no recording runs of the film", recording_runs(), False)
     yield from person.picture("loaded_in_the_middle_of_a_film")
 
 

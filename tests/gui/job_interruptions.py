@@ -4,7 +4,7 @@
 import bpy
 from habits import build, go_to_start, play_or_pause, play_until, register
 from person import Person, Steps
-from traces import EXTENSION, handlers, rows
+from traces import EXTENSION, handlers, recording_runs, rows
 
 
 def steps(person: Person) -> Steps:
@@ -58,7 +58,7 @@ def load_while_recording(person: Person) -> Steps:
         yield 2.0
         yield from person.picture("file_loaded_and_unregistered")
         person.expect_reports("loading ends the recording with a warning", "loading a file", "Results are in")
-    person.expect("no handler is left after loading", dict(handlers()), {})
+    person.expect("no recording runs after loading", recording_runs(), False)
 
 
 def switch_off_while_playing(person: Person) -> Steps:
@@ -69,7 +69,7 @@ def switch_off_while_playing(person: Person) -> Steps:
     yield 1.0
     yield from person.picture("switched_off_while_playing")
     person.expect("it plays on without the extension", person.playing)
-    person.expect("no handler is left after switching off", dict(handlers("")), {})
+    person.expect("no handler is left after switching off", dict(handlers()), {})
     person.expect("its log is whole", len(rows(person.folder / "switched_off" / "force_log.csv")) % 32, 0)
     person.expect_reports("nothing but the registering is reported before", "Recording to")
     yield from play_or_pause(person)

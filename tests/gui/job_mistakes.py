@@ -5,7 +5,7 @@ import math
 
 from habits import build, play_or_pause, play_until
 from person import Person, Steps
-from traces import SCENARIO, everything, handlers, rows
+from traces import SCENARIO, everything, recording_runs, rows
 
 
 def steps(person: Person) -> Steps:
@@ -30,7 +30,7 @@ def press_greyed_buttons(person: Person) -> Steps:
         yield 1.5
         yield from person.picture(f"greyed_{button.partition('.')[2]}")
         yield from person.press("LEFTMOUSE")
-    person.expect("greyed buttons do nothing", (everything(), dict(handlers())), (before, {}))
+    person.expect("greyed buttons do nothing", (everything(), recording_runs()), (before, False))
 
 
 def build_what_is_not_there(person: Person) -> Steps:
@@ -69,11 +69,11 @@ def record_into_a_folder_in_use(person: Person) -> Steps:
     yield from person.click("bda.register_handler")
     yield from person.picture("folder_in_use")
     person.expect_reports("a folder that is there is an error", "overwriting")
-    person.expect("it registers nothing", dict(handlers()), {})
+    person.expect("it registers nothing", recording_runs(), False)
     yield from person.close_message()
     yield from person.click("overwrite")
     yield from person.click("bda.register_handler")
-    person.expect("it is used once overwriting is allowed", set(handlers().values()), {1})
+    person.expect("it is used once overwriting is allowed", recording_runs(), True)
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield from person.click("bda.unregister_handler")
     yield from person.picture("nothing_recorded")

@@ -7,7 +7,7 @@ Blender alone crashes where a render simulates what has not been played.
 import bpy
 from habits import build, go_to_start, play_or_pause, play_until, register
 from person import Person, Steps
-from traces import handlers
+from traces import recording_runs
 
 LAST_FRAME = 20
 
@@ -50,7 +50,7 @@ def steps(person: Person) -> Steps:
     yield 1.0
     yield from person.picture("rendered_while_recording")
     person.expect_reports("a render of what was not played is not recorded", "Recording to", "a render went beyond")
-    person.expect("no handler is left", dict(handlers()), {})
+    person.expect("no recording runs", recording_runs(), False)
 
 
 def set_up(person: Person) -> None:

@@ -9,7 +9,7 @@ from habits import build, delete_all
 from panels import Panels
 from person import Person, Steps
 from pulse import Pulse
-from traces import CHECKOUT, EXTENSION, handlers, rows
+from traces import CHECKOUT, EXTENSION, handlers, recording_runs, rows
 
 SCENARIO = CHECKOUT / "examples" / "i235_one_span.toml"
 SHARDS = 200
@@ -40,7 +40,7 @@ def run(person: Person, name: str) -> Steps:
     """Give a folder, and click Run."""
     yield from person.fill_in("output_directory", str(person.folder / name))
     yield from person.click("bda.run")
-    yield from person.wait_for("it runs", lambda: bool(handlers()), 10.0)
+    yield from person.wait_for("it runs", recording_runs, 10.0)
 
 
 def stop_with_escape(person: Person) -> Steps:
@@ -50,7 +50,7 @@ def stop_with_escape(person: Person) -> Steps:
     person.expect("Esc alone stops it", person.refusal("bda.unregister_handler"), "Run is at work: Esc stops it")
     yield from person.move_to_view()
     yield from person.press("ESC")
-    yield from person.wait_for("it stops", lambda: not handlers(), 10.0)
+    yield from person.wait_for("it stops", lambda: not recording_runs(), 10.0)
     yield 1.0
     stopped = person.scene.frame_current
     person.expect("it stops before the end", stopped < person.scene.frame_end)
@@ -67,7 +67,7 @@ def run_to_the_end(person: Person) -> Steps:
     yield from run(person, "results")
     pulse = Pulse()
     undone = False
-    while handlers():
+    while recording_runs():
         yield
         if person.scene.frame_current > 15 and not undone:
             yield from person.press("Z", ctrl=True)
@@ -83,7 +83,7 @@ def run_to_the_end(person: Person) -> Steps:
     person.expect("the run is complete", summary["completed"])
     with np.load(folder / "results.npz") as arrays:
         person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, person.scene.frame_end + 1)))
-    person.expect("no handler is left", dict(handlers()), {})
+    person.expect("no recording runs", recording_runs(), False)
     person.expect_reports("nothing but the results is reported", "Results are in")
 
 
@@ -131,4 +131,4 @@ def switch_off_while_it_runs(person: Person) -> Steps:
     bpy.ops.preferences.addon_disable(module=EXTENSION)
     yield 1.0
     yield from person.picture("switched_off_while_running")
-    person.expect("no handler is left after switching off", dict(handlers("")), {})
+    person.expect("no handler is left after switching off", dict(handlers()), {})

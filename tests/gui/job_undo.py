@@ -7,7 +7,7 @@ this job looks at what becomes of the recording.
 
 from habits import build, play_or_pause, play_until, register
 from person import Person, Steps
-from traces import handlers
+from traces import recording_runs
 
 
 def steps(person: Person) -> Steps:
@@ -27,4 +27,4 @@ def steps(person: Person) -> Steps:
     reports = ("30 shards", "Recording to", "undo, redo", "Results are in")
     person.expect_reports("undo ends the recording with a warning", *reports)
     person.expect("what was recorded is kept", (person.folder / "undone" / "summary.json").exists())
-    person.expect("no handler is left after undo", dict(handlers()), {})
+    person.expect("no recording runs after undo", recording_runs(), False)

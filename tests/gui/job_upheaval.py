@@ -30,7 +30,7 @@ def steps(person: Person, upheaval: str, company: str) -> Steps:
         yield from globals()[upheaval](person)
         yield from play_on(person)
         person.expect("preferences are as before", preferences_of_undo(), preferences)
-        person.expect("no handler of a recording is registered twice", max(handlers().values(), default=1), 1)
+        person.expect("no handler is registered twice", max(handlers().values(), default=1), 1)
         if upheaval not in ("new_file", "open_file"):
             yield from play_anew(person)
         person.note(f"survived {number + 1}")
@@ -160,7 +160,7 @@ def switch_off(person: Person) -> Steps:
     """Switch the extension off while it plays, and on again."""
     if hasattr(person.scene, "bda"):
         bpy.ops.preferences.addon_disable(module=EXTENSION)
-    person.expect("no handler is left", dict(handlers("")), {})
+    person.expect("no handler is left", dict(handlers()), {})
     yield 0.5
     bpy.ops.preferences.addon_enable(module=EXTENSION)
     yield 0.3

@@ -19,7 +19,7 @@ from file_browser import choose_file
 from habits import delete_all, play_or_pause, register
 from panels import Panels
 from person import Person, Steps, region_of
-from traces import PRESETS, charges, colours, handlers, opened, rows, scenario_in, scenario_shown
+from traces import PRESETS, charges, colours, opened, recording_runs, rows, scenario_in, scenario_shown
 
 PRESET = PRESETS / "one_span_explosives.toml"
 PRESET_NUMBER = 0
@@ -289,7 +289,7 @@ def record(person: Person, panels: Panels) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield 2.0
     yield from person.picture("unregistered")
-    person.expect("no handler is left", dict(handlers()), {})
+    person.expect("no recording runs", recording_runs(), False)
     person.expect_reports("nothing but the results is reported", f"Results are in {person.folder / 'results'}")
 
 

@@ -51,15 +51,20 @@ def opened() -> list[str]:
     return file.read_text(encoding="utf-8").splitlines() if file.exists() else []
 
 
-def handlers(module: str = "simulation.recording.handlers") -> Counter[str]:
-    """How often each handler of a module of the extension is registered, by default those of a recording."""
+def recording_runs() -> bool:
+    """Whether a recording runs, or ended early and was not stopped yet."""
+    return module("simulation.blender_events").running_recording() is not None
+
+
+def handlers() -> Counter[str]:
+    """How often each handler of the extension is registered."""
     lists = {name: getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)}
     return Counter(
         f"{name}: {handler.__qualname__}"
         for name, functions in lists.items()
         if isinstance(functions, list)
         for handler in functions
-        if handler.__module__.startswith(f"{EXTENSION}.{module}")
+        if handler.__module__.startswith(EXTENSION)
     )
 
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import bpy
 from blocks import Blocks
 
-from bridge_demolition_addon.simulation.crash_guards import safe_undo, standstill
+from bridge_demolition_addon.simulation import blender_events
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
+from bridge_demolition_addon.simulation.crash_guards import safe_undo
 from bridge_demolition_addon.simulation.playback import start_over
-from bridge_demolition_addon.simulation.recording import handlers
-from bridge_demolition_addon.simulation.recording import unrecorded_watch as watch
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 
@@ -54,14 +54,14 @@ class FallingRow:
 
     def record(self) -> None:
         self.recording = Recording(self.scene, self.folder)
-        handlers.start(self.recording)
+        start_recording(self.recording)
         self.play(1, 11)
         assert self.recording.error is None
 
     def watch(self) -> None:
         for body in self.row:
             body["bda_kind"] = "shard"
-        watch.register()
+        blender_events.register()
         self.play(1, 11)
 
     # What is deleted.
@@ -116,24 +116,24 @@ class FallingRow:
         rest = self.height()
         self.play(12, 40)
         assert self.height() == rest, "nothing moves until the start frame"
-        assert standstill.stands_still(self.scene)
+        assert blender_events.recorded_scene(self.scene).stands_still
         self.fall_from_the_start()
         assert self.height() < 4.0, "it falls again"
 
     def fall_from_the_start(self) -> None:
         self.play(1, 20)
-        assert not standstill.stands_still(self.scene)
+        assert not blender_events.recorded_scene(self.scene).stands_still
 
     def record_again(self) -> None:
         assert "removed: go to the start frame" in str(self.recording.error), self.recording.error
-        handlers.stop()
+        stop_recording()
         for link in list(self.scene.rigidbody_world.constraints.objects):
             if None in (link.rigid_body_constraint.object1, link.rigid_body_constraint.object2):
                 bpy.data.objects.remove(link)  # left over by a body, and no recording takes it
         again = self.folder / "again"
         again.mkdir()
         self.recording = Recording(self.scene, again)
-        handlers.start(self.recording)
+        start_recording(self.recording)
         start_over(self.scene)
         self.play(1, 20)
         self._assert_recorded(19)
@@ -141,7 +141,7 @@ class FallingRow:
     def record_from_now(self) -> None:
         self.play(1, 11)
         self.recording = Recording(self.scene, self.folder)
-        handlers.start(self.recording)
+        start_recording(self.recording)
         self.play(12, 30)
         self._assert_recorded(19)
 
@@ -151,18 +151,18 @@ class FallingRow:
             self.recording.distrust,
         )
         assert self.recording.recorded_frames == frames
-        handlers.stop()
+        stop_recording()
 
     def add_block(self) -> None:
         self.blocks.block((0, 5, 3), 10.0)
         before = self.height()
         self.play(12, 16)
-        assert self.height() < before and not standstill.stands_still(self.scene)
+        assert self.height() < before and not blender_events.recorded_scene(self.scene).stands_still
 
     # Undo.
 
     def undo_and_redo(self) -> None:
-        safe_undo.register()
+        blender_events.register()
         preferences = bpy.context.preferences
 
         def looks() -> tuple[bool, ...]:
@@ -189,11 +189,11 @@ class FallingRow:
         assert tuple(bpy.data.objects["Block 3"].color) == red
         self.play(1, 30)
         assert self.height() < 4.0
-        safe_undo.unregister()
+        blender_events.unregister()
 
     def undo_without_a_world(self) -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        safe_undo.register()
+        blender_events.register()
         seen = []
         experimental = bpy.context.preferences.experimental
         bpy.app.handlers.undo_pre.append(lambda *_: seen.append(experimental.use_undo_legacy))
@@ -202,15 +202,15 @@ class FallingRow:
         bpy.ops.ed.undo_push(message="two")
         assert bpy.ops.ed.undo() == {"FINISHED"}
         assert seen == [False], seen
-        safe_undo.unregister()
+        blender_events.unregister()
 
     def end_in_mid_undo(self) -> None:
-        safe_undo.register()
+        blender_events.register()
         preferences = bpy.context.preferences
         assert not preferences.experimental.use_undo_legacy
-        safe_undo._before_undo()
+        safe_undo.before_undo()
         assert preferences.experimental.use_undo_legacy
-        safe_undo.unregister()
+        blender_events.unregister()
         assert not preferences.experimental.use_undo_legacy and not preferences.view.show_developer_ui
 
 
@@ -220,7 +220,7 @@ def main(folder: str, *steps: str) -> None:
     row = FallingRow(Path(folder))
     for step in steps:
         getattr(row, step)()
-    watch.unregister()
+    blender_events.unregister()
     bpy.ops.wm.read_factory_settings(use_empty=True)
     for frame in range(1, 5):
         bpy.context.scene.frame_set(frame)

@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 from falling_pair import FRAMES, FallingPair, assert_ended, play
 
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import stop_recording
 
 
 class Upheaval:
@@ -55,7 +55,7 @@ class Upheaval:
         self.ended("undo")
 
     def redo(self) -> None:
-        handlers.stop()
+        stop_recording()
         self._colour_and_undo()
         self.pair.scene = bpy.context.scene
         self.recording = self.pair.record(self.folder)

@@ -13,7 +13,7 @@ from blocks import Blocks
 
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.blast.force_fields import force_objects
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 
@@ -81,8 +81,8 @@ def test_recording_twice_leaves_one_handler(blender, tmp_path):
     before = len(bpy.app.handlers.frame_change_post)
     for name in ("first", "second"):
         (folder := tmp_path / name).mkdir()
-        handlers.start(Recording(blocks.scene, folder))
+        start_recording(Recording(blocks.scene, folder))
     assert len(bpy.app.handlers.frame_change_post) == before + 1
-    handlers.stop()
+    stop_recording()
     assert len(bpy.app.handlers.frame_change_post) == before
-    np.testing.assert_equal(handlers.stop(), None)
+    np.testing.assert_equal(stop_recording(), None)

@@ -10,14 +10,14 @@ from falling_pair import FRAMES, FallingPair, assert_ended, assert_handlers_gone
 from processes import run_program
 
 from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 
 @pytest.fixture
 def pair(blender):
     yield FallingPair()
-    handlers.stop()
+    stop_recording()
 
 
 def falling_heights(blender, scene, body, last):
@@ -113,7 +113,7 @@ def test_other_scene_plays_untouched(blender, pair, tmp_path):
     assert falling_heights(blender, other, body, FRAMES) == alone
     play(pair.scene, FRAMES + 2, FRAMES + 10)
     assert recording.error is None
-    handlers.stop()
+    stop_recording()
     assert_whole(recording, tmp_path, range(2, FRAMES + 11))
     assert "Other block" not in recording.results().inventory.body_names
     assert_handlers_gone(blender)

@@ -9,7 +9,7 @@ from blocks import Blocks
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.core.results.summary import summarise
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 
@@ -28,10 +28,10 @@ def test_net_force_comes_from_the_change_of_momentum(strange_blender, tmp_path):
     blocks.block((0, 0, 1.0), mass)
     ceiling, hanging = blocks.block((5, 0, 10)), blocks.block((5, 0, 9), mass)
     blocks.connect("FIXED", (5, 0, 9.5), ceiling, hanging)
-    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    start_recording(recording := Recording(blocks.scene, tmp_path))
     for frame in range(1, 241):
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert recording.error is None
     assert "friction" in str(recording.distrust)
     results = recording.results()
@@ -53,10 +53,10 @@ def test_spin_comes_from_the_change_of_direction(strange_blender, tmp_path):
     blocks = Blocks(frames_per_second=240, substeps_per_frame=1)
     blocks.block((0, 0, -0.5), size_m=(2, 10, 1))
     blocks.block((1.5, 0, 0.1), 50.0, (4, 1, 0.2))
-    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    start_recording(recording := Recording(blocks.scene, tmp_path))
     for frame in range(1, 121):
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     results = recording.results()
     spins = results.frames.angular_velocities_rad_s[:, 1]
     # The end at larger x goes down: positive about y.
@@ -71,10 +71,10 @@ def test_spin_comes_from_the_change_of_direction(strange_blender, tmp_path):
 def test_scene_is_left_as_it_was(strange_blender, tmp_path):
     blocks = Blocks()
     blocks.block((0, 0, 1.0), 10.0)
-    handlers.start(Recording(blocks.scene, tmp_path))
+    start_recording(Recording(blocks.scene, tmp_path))
     for frame in range(1, 5):
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert blocks.world.time_scale == 1.0
     graph = strange_blender.context.view_layer.depsgraph
     assert graph.scene_eval.rigidbody_world.time_scale == 1.0

@@ -22,7 +22,7 @@ from bridge_demolition_addon.core.scenario import (
 from bridge_demolition_addon.core.structure.connections import GROUND
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.demolition import build_demolition
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 GRAVITY = 9.80665
@@ -59,10 +59,10 @@ def played(scene, scenario, folder):
     model = build_model(scenario)
     build_demolition(scene, scenario, model)
     recording = Recording(scene, folder)
-    handlers.start(recording)
+    start_recording(recording)
     for frame in range(scene.frame_start, scene.frame_end + 1):
         scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     if recording.error:
         raise recording.error
     return model, recording.results()

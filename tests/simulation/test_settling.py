@@ -12,7 +12,7 @@ from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.results.summary import settling
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, breaking_of
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 WARM_UP_S = 1.0
@@ -25,10 +25,10 @@ def beam(folder, damping):
     assert breaking_of(scene.scene) == breaking
     scene.hold(abs(scene.fracture.centres[:, 0]) > 5.7)
     recording = Recording(scene.scene, folder)
-    handlers.start(recording)
+    start_recording(recording)
     for frame in range(1, 51):
         scene.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert recording.error is None
     return recording.results()
 
@@ -52,10 +52,10 @@ def test_damping_is_a_share_of_the_velocity_in_a_second(blender, tmp_path):
     scene = ShardScene((1, 1, 1), (0, 0, 100), 1, {}, breaking=Breaking(warm_up_s=WARM_UP_S, warm_up_damping=damping))
     scene.shards[0].rigid_body.linear_damping = 0.0
     recording = Recording(scene.scene, tmp_path)
-    handlers.start(recording)
+    start_recording(recording)
     for frame in range(1, 51):
         scene.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     results = recording.results()
     rate = -np.log(1.0 - damping)
     end = int(np.flatnonzero(results.frames.time_s >= WARM_UP_S - 1e-6)[0])

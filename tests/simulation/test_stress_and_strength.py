@@ -10,7 +10,7 @@ from shard_scenes import DENSITY_KG_M3, ShardScene
 from bridge_demolition_addon.core.mechanics.strength import MATERIALS, Ductility, Strength
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
@@ -21,10 +21,10 @@ def test_column_carries_all_that_is_above(blender, tmp_path):
     column = ShardScene((1, 1, height), (0, 0, height / 2), 150, {"substeps_per_frame": 20, "solver_iterations": 50})
     low = np.array([shard.vertices[:, 2].min() for shard in column.fracture.shards])
     column.hold(low < 1e-6)
-    handlers.start(recording := Recording(column.scene, tmp_path))
+    start_recording(recording := Recording(column.scene, tmp_path))
     for frame in range(1, 75):
         column.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     results = recording.results()
     vertical, heights = results.frames.loads.stresses_pa[-1, :, 2, 2], column.fracture.centres[:, 2]
     for level in np.arange(1.5, height, 1.0):
@@ -92,14 +92,14 @@ def collapse_gravity(blender, tmp_path, shard_count, **breaking):
     deck = ShardScene((6, 2, 0.5), (0, 0, 5), shard_count, steps, **breaking)
     deck.hold(abs(deck.fracture.centres[:, 0]) > 2.55)
     middle = int(np.argmin(np.linalg.norm(deck.fracture.centres - (0, 0, 5), axis=1)))
-    handlers.start(recording := Recording(deck.scene, tmp_path))
+    start_recording(recording := Recording(deck.scene, tmp_path))
     for frame in range(1, 200):
         share = min(1.0, frame / 24) + max(0, frame - 24) / 12
         deck.scene.gravity[2] = -share * GRAVITY
         deck.scene.frame_set(frame)
         if recording.recorded_frames and recording.frames[-1].positions_m[middle, 2] < 4.5:
             break
-    handlers.stop()
+    stop_recording()
     if recording.error:
         raise recording.error
     return share

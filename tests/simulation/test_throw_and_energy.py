@@ -10,7 +10,7 @@ from bridge_demolition_addon.bullet.memory import write_vectors
 from bridge_demolition_addon.core.results.energy import energy_of
 from bridge_demolition_addon.core.results.motion import throw
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 G = float(np.float32(STANDARD_GRAVITY_M_S2))
@@ -19,7 +19,7 @@ G = float(np.float32(STANDARD_GRAVITY_M_S2))
 def launched(blocks, folder, frames, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0.0), body=0):
     """A recording of a body that gets its velocities in the frame in which no time passes yet."""
     recording = Recording(blocks.scene, folder)
-    handlers.start(recording)
+    start_recording(recording)
     first = blocks.scene.frame_start
     for frame in range(first, first + frames + 2):
         blocks.scene.frame_set(frame)
@@ -28,7 +28,7 @@ def launched(blocks, folder, frames, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0
             address = world._body_addresses[[body]]
             write_vectors(address + np.uint64(world._layout.body.linear_velocity), np.array([velocity]))
             write_vectors(address + np.uint64(world._layout.body.angular_velocity), np.array([spin]))
-    handlers.stop()
+    stop_recording()
     if recording.error:
         raise recording.error
     return recording.results()

@@ -1,8 +1,8 @@
 """Undo and redo in the middle of a simulation, without a crash.
 
-Blender's undo reads what has changed anew and keeps everything else. It frees the Bullet bodies of changed objects,
+Blender's undo reads what has changed again and keeps everything else. It frees the Bullet bodies of changed objects,
 while the world that it keeps still holds them, and crashes at the next step. Its older undo (a preference for
-developers, "Undo Legacy") reads the whole file anew, world included. So wherever there is a rigid-body world, undo and
+developers, "Undo Legacy") reads the whole file again, world included. So wherever there is a rigid-body world, undo and
 redo go the older way, and the preferences are as before when they are done.
 
 No body has a place in Bullet after that, and a simulation cannot go on from the middle: undo ends at the start frame.
@@ -10,12 +10,7 @@ No body has a place in Bullet after that, and a simulation cannot go on from the
 
 from __future__ import annotations
 
-import atexit
-
 import bpy
-from bpy.app.handlers import persistent
-
-from .callbacks import Callbacks
 
 _LEGACY, _DEVELOPER, _CHANGED = "use_undo_legacy", "show_developer_ui", "is_dirty"
 
@@ -23,21 +18,8 @@ _before: dict[str, bool] = {}
 """The person's preferences, while they are not as the person left them."""
 
 
-def register() -> None:
-    """Make undo and redo safe from now on."""
-    _callbacks.attach()
-
-
-def unregister() -> None:
-    """Leave undo to Blender."""
-    _callbacks.detach()
-    if bpy.app.timers.is_registered(_restore_preferences):
-        bpy.app.timers.unregister(_restore_preferences)
-    _restore_preferences()
-
-
-@persistent
-def _before_undo(*_: object) -> None:
+def before_undo() -> None:
+    """Make the coming undo or redo go the older way."""
     if _before or not any(scene.rigidbody_world for scene in bpy.data.scenes):
         return
     preferences = bpy.context.preferences
@@ -46,22 +28,29 @@ def _before_undo(*_: object) -> None:
     _before[_CHANGED] = preferences.is_dirty
     preferences.view.show_developer_ui = True  # without it Blender ignores the other
     preferences.experimental.use_undo_legacy = True
-    # If undo fails half way, nobody tells.
-    bpy.app.timers.register(_restore_preferences, persistent=True)
+    # Blender calls no handler where an undo fails half way.
+    bpy.app.timers.register(_restore, persistent=True)
 
 
-@persistent
-def _after_undo(*_: object) -> None:
+def after_undo() -> None:
+    """Restore the preferences and go to the start frame."""
     if not _before:
         return
-    _restore_preferences()
+    _restore()
     for scene in bpy.data.scenes:
         world = scene.rigidbody_world
         if world and not world.point_cache.is_baked and scene.frame_current > world.point_cache.frame_start:
             scene.frame_set(world.point_cache.frame_start)
 
 
-def _restore_preferences() -> None:
+def restore_preferences() -> None:
+    """Leave the preferences as they were, whether or not the undo has ended."""
+    if bpy.app.timers.is_registered(_restore):
+        bpy.app.timers.unregister(_restore)
+    _restore()
+
+
+def _restore() -> None:
     if not _before:
         return
     preferences = bpy.context.preferences
@@ -69,8 +58,3 @@ def _restore_preferences() -> None:
     preferences.experimental.use_undo_legacy = _before[_LEGACY]
     preferences.is_dirty = _before[_CHANGED]
     _before.clear()
-
-
-_callbacks = Callbacks(undo_pre=_before_undo, redo_pre=_before_undo, undo_post=_after_undo, redo_post=_after_undo)
-
-atexit.register(_restore_preferences)

@@ -16,7 +16,7 @@ from ...core.display.film_frames import film_rows
 from ...core.errors import ContourError, OutputError
 from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
-from . import contours
+from ..blender_events import contours_of
 
 _PICTURE = "contours_{:06d}.png"
 
@@ -92,7 +92,7 @@ class FilmRendering:
     def __init__(
         self, scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
     ):
-        series = contours.series_of(scene)
+        series = contours_of(scene).series
         if series is None:
             raise ContourError(f"scene {scene.name!r} has no recording to show: record one, or load its results")
         self._scene, self._folder = scene, folder
@@ -134,7 +134,7 @@ class FilmRendering:
                 scene.frame_set(frame)
                 scene.render.filepath = str(path)
                 bpy.ops.render.render(write_still=True, scene=scene.name)
-                if error := contours.error_of(scene):
+                if error := contours_of(scene).error:
                     raise error
                 if not path.exists():
                     raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
@@ -182,7 +182,7 @@ def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
     A render would simulate them anew, beside the simulation of the 3D view in one and the same world, and crash.
     """
     world = scene.rigidbody_world
-    if not contours.is_placed(scene) or not world.enabled:
+    if not contours_of(scene).is_placed or not world.enabled:
         yield
         return
     world.enabled = False
@@ -195,12 +195,12 @@ def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
 @contextmanager
 def _contours_shown(scene: bpy.types.Scene, settings: ContourSettings) -> Iterator[None]:
     """Colour the bodies by these settings, and afterwards as before."""
-    before = contours.settings_of(scene)
-    contours.show(scene, settings)
+    before = contours_of(scene).settings
+    contours_of(scene).show(settings)
     try:
         yield
     finally:
         if before is None:
-            contours.hide(scene)
+            contours_of(scene).hide()
         else:
-            contours.show(scene, before)
+            contours_of(scene).show(before)

@@ -24,8 +24,6 @@ from ...scene.inventory import take_inventory
 from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
-from ..crash_guards.standstill import stand_still
-from ..crash_guards.world_objects import WorldObjects
 from .blast import Blast, check_blast, goes_off
 from .bullet_reader import BulletReader
 from .logs import LogFiles, Logs
@@ -109,7 +107,6 @@ class Recording:
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         check_blast(scene, self._bodies)
         self._lifted = [body for body in self._bodies if lifts_of(body)]
-        self._objects = WorldObjects(scene)
         self._world = BulletWorld(scene, self._bodies, self._connections)
         self._inventory: Inventory | None = None
         self._reader: BulletReader | None = None
@@ -124,28 +121,10 @@ class Recording:
         Raises
         ------
         SimulationError
-            As for `before_update`; or time is animated and cannot be set.
+            Time is animated and cannot be set.
         """
-        self.before_update()
         self._set_time()
         self._prepare_blast()
-
-    def before_update(self) -> None:
-        """See whether all that is recorded is still there, while Bullet still has what was removed just now.
-
-        Raises
-        ------
-        SimulationError
-            Bodies or connections were added or removed, or the whole world was.
-        """
-        world = self.scene.rigidbody_world
-        if world is None or world.collection is None:
-            raise SimulationError("the rigid-body world was removed while it was recorded")
-        if not self._objects.are_the_same():
-            if self._objects.any_is_gone():
-                stand_still(self.scene, self._world)
-            changes = self._objects.changes()
-            raise SimulationError(f"rigid-body world changed, {changes}: go to the start frame and record anew")
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take down the frame.
@@ -178,6 +157,11 @@ class Recording:
         if self._logs:
             self._logs.close(self._frames[-1] if self._frames else None)
             self._logs = None
+
+    @property
+    def world(self) -> BulletWorld:
+        """The world that is recorded."""
+        return self._world
 
     @property
     def frames(self) -> Sequence[Frame]:

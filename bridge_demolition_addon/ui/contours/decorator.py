@@ -22,7 +22,7 @@ from ...core.display.colour_scale import colours
 from ...core.display.contours import ContourFrame, ContourSettings
 from ...core.display.force_arrows import arrows, body_forces, connection_forces, contact_forces
 from ...scene.blast.charges import charges_of
-from ...simulation.display import contours
+from ...simulation.blender_events import contours_of
 from ..viewport import covered_px
 from . import view as contour_view
 
@@ -74,7 +74,7 @@ def trouble() -> str:
 
 def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
     """Return the lines of the arrows, (6 k, 3) float, m, for each kind of force that is shown."""
-    settings, series = scene.bda, contours.series_of(scene)
+    settings, series = scene.bda, contours_of(scene).series
     row = series.row_at(scene.frame_current) if series else None
     if not settings.show_vectors or row is None:
         return {}
@@ -137,9 +137,9 @@ def _draw_in_space(context: bpy.types.Context) -> None:
 
 def _draw_on_screen(context: bpy.types.Context) -> None:
     scene = context.scene
-    settings = contours.settings_of(scene)
+    settings = contours_of(scene).settings
     if settings and scene.bda.colour_bar:
-        found = contours.shown_frame(scene)
+        found = contours_of(scene).shown_frame()
         if found:
             _draw_colour_bar(context, settings, found[0])
     if scene.bda.show_charges:

@@ -8,7 +8,7 @@ from ...core.errors import DemolitionError
 from ...core.results.arrays import load_results
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
-from ...simulation.display import contours
+from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
 from ..operators import Refusing, absolute, recording_runs, refused
 from . import view as contour_view
@@ -30,7 +30,7 @@ class BDA_OT_load_results(Refusing, bpy.types.Operator):
         scene = context.scene
         try:
             results = load_results(absolute(scene.bda.results_path))
-            contours.use_results(scene, results)
+            contours_of(scene).use_results(results)
         except DemolitionError as error:
             return refused(self, error)
         contour_view.follow(scene)
@@ -55,7 +55,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
             return reason
         if not context.scene.bda.film_directory:
             return "Choose a folder for the film first"
-        if contours.series_of(context.scene) is None:
+        if contours_of(context.scene).series is None:
             return "Nothing was recorded in this scene: record it, or load its results"
         return None
 

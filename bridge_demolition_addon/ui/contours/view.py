@@ -7,7 +7,7 @@ import bpy
 from ...core.display.colour_scale import ColourMap
 from ...core.display.contours import STRESSES, ContourSettings, Quantity, RangeKind
 from ...core.errors import DemolitionError
-from ...simulation.display import contours
+from ...simulation.blender_events import contours_of
 
 _COLOURS_BEFORE = "bda_colours_before"
 
@@ -43,25 +43,25 @@ def follow(scene: bpy.types.Scene) -> None:
     _refusals.pop(scene.session_uid, None)
     if scene.bda.contours:
         try:
-            contours.show(scene, settings_of(scene))
+            contours_of(scene).show(settings_of(scene))
         except DemolitionError as error:
             _refusals[scene.session_uid] = str(error)
         _show_colours_in_views(scene)
     else:
-        contours.hide(scene)
+        contours_of(scene).hide()
         _show_materials_in_views(scene)
     redraw()
 
 
 def trouble(scene: bpy.types.Scene) -> str:
     """Return why contours cannot be shown as asked for; empty where they can."""
-    error = contours.error_of(scene)
+    error = contours_of(scene).error
     return _refusals.get(scene.session_uid) or (str(error) if error else "")
 
 
 def follow_later(scene: bpy.types.Scene) -> None:
     """Follow settings that were undone, redone or loaded, once Blender has finished its present drawing."""
-    if scene.bda.contours != contours.is_shown(scene) and scene.session_uid not in _refusals:
+    if scene.bda.contours != contours_of(scene).is_shown and scene.session_uid not in _refusals:
         _schedule()
 
 
@@ -80,10 +80,9 @@ def unregister() -> None:
     if bpy.app.timers.is_registered(_follow_all):
         bpy.app.timers.unregister(_follow_all)
     for scene in bpy.data.scenes:
-        contours.hide(scene)
+        contours_of(scene).hide()
+        contours_of(scene).forget()
         _show_materials_in_views(scene)
-    contours.stop()
-    contours.forget_all()
     _refusals.clear()
 
 
@@ -94,7 +93,7 @@ def _schedule() -> None:
 
 def _follow_all() -> None:
     for scene in bpy.data.scenes:
-        if scene.bda.contours != contours.is_shown(scene):
+        if scene.bda.contours != contours_of(scene).is_shown:
             follow(scene)
 
 

@@ -14,8 +14,8 @@ from ...core.results.files import SCENARIO_FILE
 from ...core.scenario import RecordingSettings, Scenario
 from ...core.scenario.file import scenario_from_text, scenario_text
 from ...core.sequence.rest import Rest
+from ...simulation.blender_events import running_recording, start_recording, stop_recording
 from ...simulation.playback import start_over
-from ...simulation.recording import handlers
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recorder import Recording, check_recordable
 from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
@@ -44,7 +44,7 @@ class BDA_OT_register_handler(Refusing, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
             recording = new_recording(context.scene)
-            handlers.start(recording)
+            start_recording(recording)
         except (DemolitionError, OSError) as error:
             return refused(self, error)
         start_over(context.scene)
@@ -61,12 +61,12 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, _context: bpy.types.Context) -> str | None:
-        if not handlers.current():
+        if not running_recording():
             return "No handler is registered"
         return "Run is at work: Esc stops it" if running.goes_on() else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        return end_with_results(self, handlers.stop())
+        return end_with_results(self, stop_recording())
 
 
 CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler)

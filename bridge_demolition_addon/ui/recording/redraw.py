@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...simulation.recording import handlers
+from ...simulation.blender_events import running_recording
 
 _INTERVAL_S = 0.25
 
@@ -25,4 +25,4 @@ def _redraw() -> float | None:
             for region in area.regions:
                 if area.type == "VIEW_3D" and region.type == "UI":
                     region.tag_redraw()
-    return _INTERVAL_S if handlers.current() else None
+    return _INTERVAL_S if running_recording() else None

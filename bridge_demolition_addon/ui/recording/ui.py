@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...simulation.recording import handlers
+from ...simulation.blender_events import running_recording
 from ...simulation.recording.recorder import Recording
 from ..sidebar import SidebarPanel, draw_sentence
 from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
@@ -16,7 +16,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
     bl_label = "Frame Change Event Handler"
 
     def draw(self, context: bpy.types.Context) -> None:
-        settings, recording = context.scene.bda, handlers.current()
+        settings, recording = context.scene.bda, running_recording()
         column = self.layout.column()
         column.enabled = recording is None
         column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
@@ -51,7 +51,7 @@ class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
         settings = context.scene.bda
         for operator in (BDA_OT_set_debris_log, BDA_OT_set_force_log):
             column = self.layout.column(align=True)
-            column.enabled = handlers.current() is None
+            column.enabled = running_recording() is None
             column.operator(operator.bl_idname)
             column.prop(settings, operator.setting, text="", placeholder="In the folder of the results")
 

@@ -12,7 +12,7 @@ from ...core.sequence.checked_model import checked_model
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.demolition import build_demolition
 from ...scene.removal import remove_demolition, remove_loose_connections
-from ...simulation.display import contours
+from ...simulation.blender_events import contours_of
 from ..operators import FileWriter, Refusing, absolute, no_world, recording_runs, refused
 from ..viewport import look_at_selected, select_only
 from .prop import PRESETS, default_scenario
@@ -159,7 +159,7 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
         scene = context.scene
         if context.screen and context.screen.is_animation_playing:
             bpy.ops.screen.animation_cancel(restore_frame=False)
-        contours.forget(scene)
+        contours_of(scene).forget()
         removed = remove_demolition(scene)
         scene.bda.built_scenario = scene.bda.title = scene.bda.total_mass = ""
         self.report({"INFO"}, f"{removed} bodies removed")

@@ -18,7 +18,7 @@ FRAME_BY_FRAME = ContourSettings(quantity=Quantity.SUM, range_kind=RangeKind.FRA
 @pytest.fixture
 def hanging(blender, tmp_path):
     """Two blocks of 100 and 50 kg, side by side, each hanging from a ledge of its own; recorded over some frames."""
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation import blender_events
 
     blocks = Blocks()
     for x, mass in ((-2.0, 100.0), (2.0, 50.0)):
@@ -26,8 +26,7 @@ def hanging(blender, tmp_path):
         blocks.connect("FIXED", (x, 0.0, 4.0), ledge, blocks.block((x, 0.0, 3.0), mass))
     blocks.play(tmp_path, FRAMES)
     yield blocks
-    contours.stop()
-    contours.forget_all()
+    blender_events.unregister()
 
 
 def own_colours(blocks):
@@ -70,10 +69,10 @@ def render(scene, engine, path):
 
 @pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])
 def test_rendered_colours_are_those_of_the_map(hanging, tmp_path, engine):
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
     scene = hanging.scene
-    contours.show(scene, FRAME_BY_FRAME)
+    contours_of(scene).show(FRAME_BY_FRAME)
     scene.frame_set(FRAMES)
     # 100 kg is the largest, 50 kg half of it, both up from 0: statics, within what the solver leaves.
     expected = colours(ColourMap.VIRIDIS, [1.0, 0.5])
@@ -84,11 +83,10 @@ def test_rendered_colours_are_those_of_the_map(hanging, tmp_path, engine):
 
 def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
     from bridge_demolition_addon.core.display.colour_scale import linear
-    from bridge_demolition_addon.simulation.display import contours
-    from bridge_demolition_addon.simulation.recording import handlers
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
-    scene, recording = hanging.scene, handlers.latest()
-    contours.show(scene, ContourSettings(quantity=Quantity.SUM))
+    scene, recording = hanging.scene, contours_of(hanging.scene).recording
+    contours_of(scene).show(ContourSettings(quantity=Quantity.SUM))
     sums = np.array([frame.loads.body_sums_n for frame in recording.frames])
     names, moving = recording.inventory.body_names.tolist(), [1, 3]
     for frame in (2, 5, 3, 5):
@@ -100,9 +98,9 @@ def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
 
 
 def test_an_edited_body_is_coloured_again(hanging):
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
-    contours.show(hanging.scene, FRAME_BY_FRAME)
+    contours_of(hanging.scene).show(FRAME_BY_FRAME)
     hanging.scene.frame_set(5)
     before = shown_colours(hanging)
     hanging.world.collection.objects[1].data.update_tag()
@@ -114,39 +112,39 @@ def test_an_edited_body_is_coloured_again(hanging):
 def test_everything_is_as_before_when_contours_end(hanging):
     import bpy
 
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
     scene = hanging.scene
     red = bpy.data.materials.new("Red")
     scene.view_layers[0].material_override = red
     scene.view_settings.view_transform, scene.view_settings.exposure = "AgX", 0.7
     own, look, materials = own_colours(hanging), look_of(scene), list(bpy.data.materials)
-    contours.show(scene, FRAME_BY_FRAME)
+    contours_of(scene).show(FRAME_BY_FRAME)
     scene.frame_set(5)
     assert own_colours(hanging) == own
     assert look_of(scene) != look and scene.view_layers[0].material_override != red
-    contours.hide(scene)
+    contours_of(scene).hide()
     assert (own_colours(hanging), look_of(scene), list(bpy.data.materials)) == (own, look, materials)
     assert np.array_equal(shown_colours(hanging), np.array(own)[:, :3])
-    assert not [each for each in bpy.app.handlers.frame_change_post if each.__module__ == contours.__name__]
+    assert not contours_of(scene).is_shown
 
 
 def test_a_file_saved_with_contours_can_be_put_back(hanging, tmp_path):
     import bpy
 
     from bridge_demolition_addon.scene.rendering.body_colours import show_materials
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
     scene = hanging.scene
     red = bpy.data.materials.new("Red")
     scene.view_layers[0].material_override = red
     own, transform = own_colours(hanging), scene.view_settings.view_transform
-    contours.show(scene, FRAME_BY_FRAME)
+    contours_of(scene).show(FRAME_BY_FRAME)
     scene.frame_set(5)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "with.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "with.blend"))
     scene = bpy.context.scene
-    assert not contours.is_shown(scene)
+    assert not contours_of(scene).is_shown
     assert [tuple(each.color) for each in scene.rigidbody_world.collection.objects] == own
     show_materials(scene)
     assert scene.view_layers[0].material_override.name == "Red"
@@ -156,34 +154,33 @@ def test_a_file_saved_with_contours_can_be_put_back(hanging, tmp_path):
 def test_handlers_are_there_once(hanging):
     import bpy
 
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
     for _ in range(3):
-        contours.show(hanging.scene, FRAME_BY_FRAME)
+        contours_of(hanging.scene).show(FRAME_BY_FRAME)
     lists = (bpy.app.handlers.frame_change_post, bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.load_pre)
-    assert [sum(each.__module__ == contours.__name__ for each in one) for one in lists] == [1, 1, 1]
+    assert [sum(each.__module__.startswith("bridge_demolition_addon") for each in one) for one in lists] == [1, 1, 1]
 
 
 def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_path):
     from sample_results import changed
 
     from bridge_demolition_addon.core.results.arrays import load_results
-    from bridge_demolition_addon.simulation.display import contours
-    from bridge_demolition_addon.simulation.recording import handlers
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
-    handlers.latest().results().save(tmp_path / "results.npz")
+    contours_of(hanging.scene).recording.results().save(tmp_path / "results.npz")
     scene, results = hanging.scene, load_results(tmp_path / "results.npz")
-    contours.show(scene, FRAME_BY_FRAME)
+    contours_of(scene).show(FRAME_BY_FRAME)
     scene.frame_set(5)
     live = shown_colours(hanging)
-    contours.use_results(scene, changed(results, body_sums_n=2.0 * results.frames.loads.body_sums_n))
-    row = contours.series_of(scene).row_at(5)
-    recorded = [frame.loads.body_sums_n for frame in handlers.latest().frames][row]
-    assert np.array_equal(contours.series_of(scene).frame(row).loads.body_sums_n, 2.0 * recorded)
-    contours.refresh(scene)
+    contours_of(scene).use_results(changed(results, body_sums_n=2.0 * results.frames.loads.body_sums_n))
+    row = contours_of(scene).series.row_at(5)
+    recorded = [frame.loads.body_sums_n for frame in contours_of(hanging.scene).recording.frames][row]
+    assert np.array_equal(contours_of(scene).series.frame(row).loads.body_sums_n, 2.0 * recorded)
+    contours_of(scene).refresh()
     assert np.allclose(shown_colours(hanging), live)  # a frame's own range takes the factor out again
     with pytest.raises(ContourError, match="none of their"):
-        contours.use_results(scene, changed(results, body_names=np.array(["a", "b", "c", "d"])))
+        contours_of(scene).use_results(changed(results, body_names=np.array(["a", "b", "c", "d"])))
 
 
 def test_hidden_connections_work_all_the_same(blender, tmp_path):
@@ -203,14 +200,14 @@ def test_hidden_connections_work_all_the_same(blender, tmp_path):
 
 
 def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_frames(blender, tmp_path):
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
     from bridge_demolition_addon.simulation.display.film import FilmKind
 
     blocks = Blocks()
     block = blocks.block((0.0, 0.0, 3.0), 100.0)  # falls freely
     results = blocks.play(tmp_path, FRAMES)
     scene, graph = blocks.scene, blocks.scene.view_layers[0].depsgraph
-    contours.show(scene, FRAME_BY_FRAME)
+    contours_of(scene).show(FRAME_BY_FRAME)
     scene.rigidbody_world.time_scale = scene.rigidbody_world.time_scale  # Blender takes any setting for a change
     scene.view_layers[0].update()
     assert scene.rigidbody_world.point_cache.is_outdated
@@ -222,7 +219,7 @@ def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_fram
     # As the simulation would be begun anew in a render, it has to rest there: Blender crashes otherwise.
     assert len(render_film(scene, tmp_path / "film", FRAME_BY_FRAME, small_film(kind=FilmKind.PICTURES))) == FRAMES + 1
     assert scene.rigidbody_world.enabled
-    contours.hide(scene)
+    contours_of(scene).hide()
 
 
 def render_film(*settings):
@@ -294,7 +291,7 @@ def test_slow_motion_is_a_film_of_the_same_pictures(hanging, tmp_path):
 
 def test_a_film_that_cannot_be_made_is_refused(hanging, tmp_path, blender):
     from bridge_demolition_addon.scene.rendering.film import RenderSettings
-    from bridge_demolition_addon.simulation.display import contours
+    from bridge_demolition_addon.simulation.blender_events import contours_of
 
     look = look_of(hanging.scene)
     with pytest.raises(OutputError, match="even"):
@@ -307,5 +304,5 @@ def test_a_film_that_cannot_be_made_is_refused(hanging, tmp_path, blender):
     other = blender.data.scenes.new("Other")
     with pytest.raises(ContourError, match="no recording"):
         render_film(other, tmp_path / "no", FRAME_BY_FRAME, small_film())
-    assert look_of(hanging.scene) == look and not contours.is_shown(hanging.scene)
+    assert look_of(hanging.scene) == look and not contours_of(hanging.scene).is_shown
     assert not (tmp_path / "no").exists()

@@ -13,7 +13,7 @@ from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario import Jackhammer
 from bridge_demolition_addon.core.sequence.tool_paths import chisel_tip_positions
 from bridge_demolition_addon.core.timing.timeline import Timeline
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 HAMMER = Jackhammer(
@@ -49,10 +49,10 @@ def slab(blender, tmp_path):
     world = scene.scene.rigidbody_world
     create_jackhammer(world, HAMMER, TOP_M, scene.scene.frame_start + 1, Timeline.of(1.0 / 24.0, 8.0))
     recording = Recording(scene.scene, tmp_path)
-    handlers.start(recording)
+    start_recording(recording)
     for frame in range(1, 150):
         scene.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert recording.error is None
     return recording.results()
 

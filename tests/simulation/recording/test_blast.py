@@ -17,7 +17,7 @@ from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.time_scale import animate_time_scale
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 STEPS = {
@@ -116,10 +116,10 @@ def test_nothing_stays_switched_on(blender, tmp_path, apply):
     blocks = weightless(frames_per_second=1000, substeps_per_frame=1)
     blocks.block((5.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], apply)
-    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    start_recording(recording := Recording(blocks.scene, tmp_path))
     for frame in range(1, 15):  # into the middle of the positive phase
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     speeds = recording.results().frames.velocities_m_s[:, 0, 0]
     assert speeds[-1] > speeds[-2] > 0.0
     graph = blender.context.view_layer.depsgraph
@@ -304,12 +304,12 @@ def test_fields_are_ignored_while_none_pushes_and_heeded_afterwards(blender, tmp
     blocks = weightless(frames_per_second=1000, substeps_per_frame=1)
     blocks.block((5.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields")
-    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    start_recording(recording := Recording(blocks.scene, tmp_path))
     ignored = []
     for frame in range(1, 40):
         blocks.scene.frame_set(frame)
         ignored.append(limits_of(blocks.scene).collection is not None)
-    handlers.stop()
+    stop_recording()
     assert recording.error is None
     pushes = np.array([frame.blast_impulses_ns.any() for frame in recording.frames[1:]])
     np.testing.assert_array_equal(ignored[2:], ~pushes)
@@ -360,11 +360,11 @@ def test_changing_a_force_object_while_it_pushes_ends_the_recording_and_says_so(
     blocks.block((5.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields")
     (field,) = force_objects(blocks.scene).values()
-    handlers.start(recording := Recording(blocks.scene, tmp_path))
+    start_recording(recording := Recording(blocks.scene, tmp_path))
     for frame in range(1, 20):
         field.location.x += 0.1  # Blender makes its evaluated copy anew, without our load
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert "force object was changed" in str(recording.error)
 
 

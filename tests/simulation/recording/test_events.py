@@ -15,7 +15,7 @@ from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking
 from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 MASS_KG = 100.0
@@ -24,10 +24,10 @@ WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
 
 def play(scene, folder, frames, every_substep=True):
     recording = Recording(scene, folder, every_substep=every_substep)
-    handlers.start(recording)
+    start_recording(recording)
     for frame in range(scene.frame_start, scene.frame_start + frames + 2):
         scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     if recording.error:
         raise recording.error
     return recording, recording.results()
@@ -174,12 +174,12 @@ def test_changes_start_anew_with_the_simulation(blender, tmp_path):
     bar = hanging_bar()
     keep_changes(bar.scene, [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
     recording = Recording(bar.scene, tmp_path)
-    handlers.start(recording)
+    start_recording(recording)
     for _ in range(2):
         bar.scene.rigidbody_world.substeps_per_frame = 10  # has Blender simulate anew
         for frame in range(1, 16):
             bar.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     assert recording.error is None
     assert len(recording.applied_events) == 1
     results = recording.results()

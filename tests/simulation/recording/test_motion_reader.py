@@ -7,7 +7,7 @@ from blocks import Blocks
 from bridge_demolition_addon.bullet.world import BulletWorld
 from bridge_demolition_addon.core.mechanics.frame_loads import LoadAccumulator
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder
 
@@ -80,10 +80,10 @@ def test_last_substep_alone_is_an_option_and_says_so(blender, tmp_path):
     blocks = Blocks()
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), 100.0)
     blocks.connect("FIXED", (0, 0, 9.5), ceiling, block)
-    handlers.start(recording := Recording(blocks.scene, tmp_path, every_substep=False))
+    start_recording(recording := Recording(blocks.scene, tmp_path, every_substep=False))
     for frame in range(1, 26):
         blocks.scene.frame_set(frame)
-    handlers.stop()
+    stop_recording()
     results = recording.results()
     assert results.reading == "last sub-step of each frame"
     assert results.frames.loads.body_forces_n[-1, 1, 2] == pytest.approx(-100.0 * GRAVITY[2], rel=1e-6)

@@ -6,7 +6,7 @@ Without the extension the first of these ends the process with a segmentation fa
 import pytest
 from places import SMALL
 
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import running_recording
 
 FRAMES = 8
 
@@ -88,7 +88,7 @@ def test_a_still_does_not_disturb_a_recording(extension, scene):
     extension.ops.render.render()
     for frame in range(6, FRAMES + 1):
         scene.frame_set(frame)
-    recording = handlers.current()
+    recording = running_recording()
     assert recording.error is None
     assert [frame.number for frame in recording.frames] == list(range(2, FRAMES + 1))
 
@@ -98,7 +98,7 @@ def test_a_render_of_what_was_not_played_ends_a_recording(extension, scene, play
     extension.ops.bda.register_handler()
     play(scene, played)
     extension.ops.render.render(animation=True)
-    recording = handlers.current()
+    recording = running_recording()
     assert "play the timeline, then render it" in str(recording.error)
     assert recording.recorded_frames == played - 1
 

@@ -7,7 +7,7 @@ import sys
 import pytest
 from places import SMALL
 
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import running_recording
 from bridge_demolition_addon.ui.results.ui import lines_of
 
 FRAMES = 20
@@ -41,7 +41,7 @@ def rows(path):
 def test_logs_go_to_the_folder_of_the_results(built, tmp_path):
     record(built)
     assert len(rows(tmp_path / "results" / "force_log.csv")) == 32 * (FRAMES - 1)
-    assert handlers.current() is None
+    assert running_recording() is None
 
 
 def test_logs_go_where_they_were_sent(built, settings, tmp_path):
@@ -74,7 +74,7 @@ def test_a_folder_that_went_away_while_recording_is_told_of(built, tmp_path):
     with pytest.raises(RuntimeError) as caught:
         built.ops.bda.unregister_handler()
     assert "No such file" in str(caught.value) and "Traceback" not in str(caught.value)
-    assert handlers.current() is None
+    assert running_recording() is None
 
 
 @pytest.mark.parametrize("setting", ["force_log_path", "debris_log_path"])
@@ -95,7 +95,7 @@ def test_a_log_that_cannot_be_written_is_refused_before_anything_is_made(built, 
         built.ops.bda.register_handler()
     assert there.read_text() == "mine"
     assert not (tmp_path / "results").exists() and not (tmp_path / "one.csv").exists()
-    assert handlers.current() is None
+    assert running_recording() is None
 
 
 def test_an_earlier_log_is_replaced_once_that_is_allowed(built, settings, tmp_path):

@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 from places import EXAMPLES, SMALL
 
-from bridge_demolition_addon.simulation.display import contours
-from bridge_demolition_addon.simulation.recording import handlers
+from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording, stop_recording
 
 EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
 
@@ -37,9 +36,9 @@ def test_an_empty_scene_and_a_running_recording_are_refused(built, operator):
     built.ops.bda.register_handler()
     with pytest.raises(RuntimeError, match="A recording runs"):
         call()
-    assert handlers.current().error is None
+    assert running_recording().error is None
     built.ops.bda.unregister_handler.poll()
-    handlers.stop()
+    stop_recording()
     built.ops.bda.remove_demolition()
     with pytest.raises(RuntimeError, match="nothing to remove"):
         call()
@@ -47,15 +46,15 @@ def test_an_empty_scene_and_a_running_recording_are_refused(built, operator):
 
 def test_built_with_other_values_and_recorded_again(built, settings):
     record(built)
-    assert contours.series_of(built.context.scene) is not None
+    assert contours_of(built.context.scene).series is not None
     settings.scenario.fracture.shards = 20
     built.ops.bda.remove_demolition()
-    assert contours.series_of(built.context.scene) is None, "what was recorded is of bodies that are gone"
+    assert contours_of(built.context.scene).series is None, "what was recorded is of bodies that are gone"
     assert settings.scenario.fracture.shards == 20 and settings.built_scenario == ""
     built.ops.bda.build_scenario()
     assert len(built.context.scene.rigidbody_world.collection.objects) == 22
     record(built)
-    assert handlers.latest().recorded_frames == 5
+    assert contours_of(built.context.scene).recording.recorded_frames == 5
 
 
 def test_a_deleted_shard_can_be_cleared_up_after(built):
@@ -67,7 +66,7 @@ def test_a_deleted_shard_can_be_cleared_up_after(built):
     assert not Path(built.context.scene.bda.output_directory).exists()
     built.ops.bda.remove_loose_connections()
     record(built)
-    assert handlers.latest().error is None
+    assert contours_of(built.context.scene).recording.error is None
 
 
 def test_slow_motion_of_other_charges_is_refused(extension, settings, tmp_path):

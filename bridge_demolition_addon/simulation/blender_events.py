@@ -1,0 +1,170 @@
+"""One handler for each of Blender's events: it passes the event on to the owner of the scene.
+
+The handlers are there while the add-on is on, or something is done in a scene without it. What each owner does, and in
+which order, is written in `RecordedScene`.
+"""
+
+from __future__ import annotations
+
+import atexit
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .crash_guards import safe_undo
+from .display.contours import ContourDisplay
+from .recorded_scene import RecordedScene
+from .recording.recorder import Recording
+
+_scenes: dict[int, RecordedScene] = {}
+"""By the numbers that stay a scene's own while Blender runs."""
+
+_is_registered = False
+
+
+def register() -> None:
+    """Follow all scenes from now on."""
+    global _is_registered
+    _is_registered = True
+    _attach()
+
+
+def unregister() -> None:
+    """End all that is done in scenes, and take the handlers away."""
+    global _is_registered
+    _is_registered = False
+    stop_recording()
+    _render_ended()
+    for owner in list(_scenes.values()):
+        owner.before_undo_or_load()
+    _scenes.clear()
+    safe_undo.restore_preferences()
+    _detach()
+
+
+def recorded_scene(scene: bpy.types.Scene) -> RecordedScene:
+    """Return the owner of all that is done in a scene; events of the scene reach it from now on."""
+    _attach()
+    owner = _scenes.get(scene.session_uid)
+    if owner is None:
+        owner = _scenes[scene.session_uid] = RecordedScene(scene)
+    owner.scene = owner.contours.scene = scene  # after undo Blender holds it elsewhere
+    return owner
+
+
+def contours_of(scene: bpy.types.Scene) -> ContourDisplay:
+    """Return the contours of a scene."""
+    return recorded_scene(scene).contours
+
+
+def start_recording(recording: Recording) -> None:
+    """Let a recording follow its scene's timeline, in place of one that may still run."""
+    stop_recording()
+    recorded_scene(recording.scene).start(recording)
+
+
+def stop_recording() -> Recording | None:
+    """End the recording that runs, and return it."""
+    owner = next((each for each in list(_scenes.values()) if each.recording), None)
+    recording = owner.stop() if owner else None
+    _detach_where_idle()
+    return recording
+
+
+def running_recording() -> Recording | None:
+    """Return the recording that runs, or ended early and was not stopped yet."""
+    return next((each.recording for each in list(_scenes.values()) if each.recording), None)
+
+
+@persistent
+def _before_frame(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    recorded_scene(scene).before_frame()
+
+
+@persistent
+def _after_frame(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    recorded_scene(scene).after_frame(depsgraph)
+
+
+@persistent
+def _before_update(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    recorded_scene(scene).before_update()
+
+
+@persistent
+def _after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    recorded_scene(scene).after_update(depsgraph)
+
+
+@persistent
+def _before_render(scene: bpy.types.Scene, *_: object) -> None:
+    recorded_scene(scene).before_render()
+
+
+@persistent
+def _after_render(*_: object) -> None:
+    _render_ended()
+
+
+@persistent
+def _before_undo(*_: object) -> None:
+    for owner in list(_scenes.values()):
+        owner.before_undo_or_load()
+    safe_undo.before_undo()
+
+
+@persistent
+def _after_undo(*_: object) -> None:
+    safe_undo.after_undo()
+
+
+@persistent
+def _before_load(*_: object) -> None:
+    for uid, owner in list(_scenes.items()):
+        owner.before_undo_or_load()
+        owner.contours.settings = None
+        if not owner.recording:  # which waits to be stopped, and its results to be written
+            del _scenes[uid]
+
+
+_HANDLERS = {
+    "frame_change_pre": _before_frame,
+    "frame_change_post": _after_frame,
+    "depsgraph_update_pre": _before_update,
+    "depsgraph_update_post": _after_update,
+    "render_init": _before_render,
+    "render_complete": _after_render,
+    "render_cancel": _after_render,
+    "undo_pre": _before_undo,
+    "redo_pre": _before_undo,
+    "undo_post": _after_undo,
+    "redo_post": _after_undo,
+    "load_pre": _before_load,
+}
+
+
+def _attach() -> None:
+    for name, handler in _HANDLERS.items():
+        handlers = getattr(bpy.app.handlers, name)
+        if handler not in handlers:
+            handlers.append(handler)
+
+
+def _detach() -> None:
+    for name, handler in _HANDLERS.items():
+        handlers = getattr(bpy.app.handlers, name)
+        if handler in handlers:
+            handlers.remove(handler)
+
+
+def _detach_where_idle() -> None:
+    if not _is_registered and not any(owner.is_at_work for owner in list(_scenes.values())):
+        _detach()
+
+
+def _render_ended() -> None:
+    for owner in list(_scenes.values()):
+        owner.after_render()
+
+
+atexit.register(unregister)  # Blender's own end may hang or crash where handlers are left

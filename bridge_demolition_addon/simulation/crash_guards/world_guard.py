@@ -1,0 +1,118 @@
+"""Keeps Blender from crashing when something is taken out of a rigid-body world in mid-simulation.
+
+Blender frees the Bullet part of a deleted body or connection, but not all that points at it. So the world of every
+scene that was built here is known from the first frame after the start on, recorded or not. When objects are gone, it
+is made safe, and time stops in it until the start frame, where Blender makes a new world. Everything else of the scene
+can be played and edited meanwhile.
+"""
+
+from __future__ import annotations
+
+import bpy
+
+from ...bullet.time_control import stop_time
+from ...bullet.world import BulletWorld
+from ...core.errors import DemolitionError, LayoutError
+from ...scene.bodies import bodies_of, is_marked
+from ...scene.connections.constraints import connections_of, loose_connections
+from .world_objects import WorldObjects
+
+
+class WorldGuard:
+    """Guard of one scene's world.
+
+    Attributes
+    ----------
+    stands_still
+        Whether the scene is not simulated until its start frame.
+    """
+
+    def __init__(self) -> None:
+        self.stands_still = False
+        self._objects: WorldObjects | None = None
+        self._world: BulletWorld | None = None  # none as well where the world cannot be known up to the start frame
+
+    def share(self, scene: bpy.types.Scene, world: BulletWorld) -> None:
+        """Guard a world that a recording knows, until `release`."""
+        self.release()
+        self._objects, self._world = WorldObjects(scene), world
+
+    def release(self) -> None:
+        """Leave the world to whoever wants it."""
+        if self._world:
+            self._world.release()
+        self._objects = self._world = None
+
+    def check_objects(self, scene: bpy.types.Scene) -> str:
+        """Return that something was added to the world or taken out, in a sentence; empty where nothing was.
+
+        To be called before Blender frees what was removed: then the world is made safe, and stands still.
+        """
+        if self._objects is None:
+            return ""
+        if not _has_world(scene):
+            self.release()
+            return "the rigid-body world was removed while it was recorded"
+        if self._objects.are_the_same():
+            return ""
+        changes = self._objects.changes()
+        if self._world and self._objects.any_is_gone():
+            self._stand_still(scene)
+        self.release()
+        return f"rigid-body world changed, {changes}: go to the start frame and record again"
+
+    def keep_standing_still(self, scene: bpy.types.Scene) -> None:
+        """Stop time before a frame again: Blender takes frames out of its cache, and counts on from there."""
+        if not self.stands_still:
+            return
+        world = scene.rigidbody_world
+        self.stands_still = False
+        if world and scene.frame_current > world.point_cache.frame_start:
+            try:
+                stop_time(scene)
+                self.stands_still = True
+            except LayoutError:
+                pass  # a new world, and none of ours
+
+    def look(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        """Know the world that Blender has after a frame that is not recorded."""
+        if not _has_world(scene) or scene.rigidbody_world.point_cache.is_baked:
+            self.release()
+            return
+        unchanged = self._objects is not None and self._objects.are_the_same()
+        if scene.frame_current <= scene.rigidbody_world.point_cache.frame_start:
+            if not (unchanged and self._world):
+                self.release()
+            return
+        if self.stands_still or bpy.app.is_job_running("RENDER"):
+            return
+        if not unchanged:
+            self.release()
+            self._objects, self._world = WorldObjects(scene), _world_of(scene)
+        if self._world:
+            try:
+                self._world.bind(depsgraph)
+            except DemolitionError:
+                self._world.release()
+                self._world = None
+
+    def _stand_still(self, scene: bpy.types.Scene) -> None:
+        """Make the world safe and stop time; where memory is not as expected, Blender is left to itself."""
+        try:
+            self._world.retire()
+            stop_time(scene)
+            self.stands_still = True
+        except LayoutError:
+            pass
+
+
+def _has_world(scene: bpy.types.Scene) -> bool:
+    return scene.rigidbody_world is not None and scene.rigidbody_world.collection is not None
+
+
+def _world_of(scene: bpy.types.Scene) -> BulletWorld | None:
+    """The world of a scene that was built here, without connections that lack a body; None for other scenes."""
+    bodies, loose = bodies_of(scene), set(loose_connections(scene))
+    if not any(map(is_marked, bodies)):
+        return None
+    return BulletWorld(scene, bodies, [each for each in connections_of(scene) if each not in loose])

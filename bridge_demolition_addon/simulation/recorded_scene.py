@@ -1,0 +1,143 @@
+"""The one owner of all that is done in a scene while Blender runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+
+import bpy
+
+from ..core.errors import SimulationError
+from .crash_guards.safe_render import has_to_rest
+from .crash_guards.world_guard import WorldGuard
+from .display.contours import ContourDisplay
+from .recording.recorder import Recording
+
+
+class RecordedScene:
+    """Records a scene, keeps Blender from crashing over it, and colours its bodies.
+
+    The methods named after Blender's events never raise. Each does its work in the order in which it is written: the
+    guard comes before the recording, as it has to see what was removed while Bullet still has it, and contours come
+    last, as they show what was recorded.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+
+    Attributes
+    ----------
+    scene
+        As Blender holds it now.
+    recording
+        The recording that runs, or ended early and was not stopped yet; or None.
+    contours
+        Colours of the bodies.
+    """
+
+    def __init__(self, scene: bpy.types.Scene):
+        self.scene = scene
+        self.recording: Recording | None = None
+        self.contours = ContourDisplay(scene)
+        self._guard = WorldGuard()
+        self._is_rendered = False
+        self._rests = False
+
+    @property
+    def stands_still(self) -> bool:
+        """Whether the scene is not simulated until its start frame, as something was taken out of its world."""
+        return self._guard.stands_still
+
+    @property
+    def is_at_work(self) -> bool:
+        """Whether anything is done in the scene that lasts."""
+        return self.recording is not None or self.contours.is_shown or self.stands_still
+
+    def start(self, recording: Recording) -> None:
+        """Record the scene from now on."""
+        self._guard.share(self.scene, recording.world)
+        self._is_rendered = False
+        self.recording = recording
+        self.contours.follow(recording)
+
+    def stop(self) -> Recording | None:
+        """End the recording, and give it back."""
+        recording, self.recording = self.recording, None
+        self.contours.is_live = False
+        if recording and not recording.error:
+            recording.close()
+            self._guard.release()
+        return recording
+
+    def before_frame(self) -> None:
+        """Guard the world, and prepare the frame."""
+        self._check_objects()
+        if self._is_rendered:
+            self._with_recording(_refuse_unplayed_frame)
+        self._with_recording(Recording.before_frame)
+        self._guard.keep_standing_still(self.scene)
+
+    def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Record the frame, and colour it."""
+        self._with_recording(lambda recording: recording.after_frame(depsgraph))
+        if not self._is_recorded:
+            self._guard.look(self.scene, depsgraph)
+        self.contours.paint(depsgraph)
+
+    def before_update(self) -> None:
+        """Guard the world."""
+        self._check_objects()
+
+    def after_update(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Colour the bodies: one that was edited was evaluated again, and has its own colour."""
+        self.contours.paint(depsgraph)
+
+    def before_undo_or_load(self) -> None:
+        """End the recording and let go of the world, while they are still there: Blender frees them now."""
+        if self._is_recorded:
+            self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
+        with suppress(ReferenceError):  # the scene was deleted before
+            self._guard.release()
+
+    def before_render(self) -> None:
+        """Let the world rest, where Blender would simulate it in the render."""
+        self._is_rendered = True
+        if has_to_rest(self.scene):
+            self.scene.rigidbody_world.enabled = False
+            self._rests = True
+
+    def after_render(self) -> None:
+        """Let the world go on."""
+        self._is_rendered = False
+        if self._rests:
+            self._rests = False
+            with suppress(ReferenceError):  # the scene was deleted meanwhile
+                self.scene.rigidbody_world.enabled = True
+
+    @property
+    def _is_recorded(self) -> bool:
+        return self.recording is not None and self.recording.error is None
+
+    def _check_objects(self) -> None:
+        changes = self._guard.check_objects(self.scene)
+        if changes and self._is_recorded:
+            self._fail(SimulationError(changes))
+
+    def _with_recording(self, action: Callable[[Recording], None]) -> None:
+        if not self._is_recorded:
+            return
+        try:
+            action(self.recording)
+        except Exception as error:  # an exception in a handler would be lost in the console: the recording keeps it
+            self._fail(error)
+
+    def _fail(self, error: Exception) -> None:
+        self.recording.fail(error)
+        self._guard.release()
+
+
+def _refuse_unplayed_frame(recording: Recording) -> None:
+    """A render simulates in copies and a thread of its own; what was played before it plays back."""
+    if not recording.has_frame(recording.scene.frame_current):
+        raise SimulationError("a render went beyond the frames that were recorded: play the timeline, then render it")
