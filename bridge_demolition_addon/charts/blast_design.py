@@ -1,4 +1,4 @@
-"""Charts to choose charges by: Figures 10 to 14 of the report of 2019, drawn anew from formulas put right.
+"""Charts to choose charges by: Figures 10 to 14 of the report of 2019, drawn from corrected formulas.
 
 Every chart is its own figure and returns it; `write_charts` saves them all. Lines differ by dashes and weight, and
 maps by lightness, so that all can be read in black and white.

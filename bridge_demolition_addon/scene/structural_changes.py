@@ -10,8 +10,7 @@ import numpy as np
 from ..core.results.inventory import Inventory
 from ..core.scenario import Change, Removal, SawCut, Weakening
 from ..core.scenario.kept import tables_from_text, tables_text
-from ..core.sequence.events import Event, Structure, schedule
-from .bodies import Kind, kind_of, member_of
+from ..core.sequence.events import Event, recorded_structure, schedule
 
 _CHANGES = "bda_changes"
 
@@ -46,13 +45,5 @@ def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], invent
     changes = changes_of(scene)
     if not changes:
         return ()
-    members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
-    structure = Structure(
-        centres_m=np.array([body.matrix_world.translation for body in bodies]).reshape(-1, 3),
-        member_names=members[:, 0],
-        member_kinds=members[:, 1],
-        is_shard=np.array([kind_of(body) is Kind.SHARD and body.rigid_body.type == "ACTIVE" for body in bodies], bool),
-        pairs=inventory.pairs,
-        points_m=inventory.points_m,
-    )
-    return schedule(changes, structure)
+    centres = np.array([body.matrix_world.translation for body in bodies]).reshape(-1, 3)
+    return schedule(changes, recorded_structure(inventory, centres))

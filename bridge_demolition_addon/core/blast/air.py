@@ -14,12 +14,12 @@ SOUND_SPEED_M_S = 340.29
 
 
 def shock_speed(overpressure_pa: np.ndarray) -> np.ndarray:
-    """Speed of a shock front, m/s: c₀ √(1 + 6 p₀ / 7 Pₐ)."""
+    """Return the speed of a shock front, m/s: c₀ √(1 + 6 p₀ / 7 Pₐ)."""
     return SOUND_SPEED_M_S * np.sqrt(1.0 + 6.0 * np.asarray(overpressure_pa) / (7.0 * AMBIENT_PRESSURE_PA))
 
 
 def reflected_overpressure(overpressure_pa: np.ndarray) -> np.ndarray:
-    """Overpressure on a wall that a front meets head-on, Pa: 2 p₀ (7 Pₐ + 4 p₀) / (7 Pₐ + p₀).
+    """Return the overpressure on a wall that a front meets head-on, Pa: 2 p₀ (7 Pₐ + 4 p₀) / (7 Pₐ + p₀).
 
     Between 2 p₀ for a weak front and 8 p₀ for a strong one. Air in front of a charge is hot enough to be no perfect
     gas any more, and reflects up to 13 p₀.

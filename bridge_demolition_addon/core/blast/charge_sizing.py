@@ -1,4 +1,4 @@
-"""Blast the other way round: how far a wanted load reaches, and the smallest charge that gives it at a distance.
+"""The distance up to which a charge gives a wanted load, and the smallest charge that gives it at a distance.
 
 What is looked for is always the farthest scaled distance at which a load is still reached. That is the one answer on
 the safe side, and the smallest charge, also where the tables are not monotonic: the incident impulse has a bump near
@@ -29,15 +29,15 @@ def stand_off_for_overpressure(
     burst: Burst = Burst.AIR,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
 ) -> float:
-    """Farthest stand-off at which a charge gives a peak incident overpressure, m; 0 for no charge.
+    """Return the farthest stand-off at which a charge gives a peak incident overpressure, m; 0 for no charge.
 
     Parameters
     ----------
-    overpressure_pa
+    overpressure_pa : float
         Wanted peak overpressure, Pa.
-    tnt_kg
+    tnt_kg : float
         Charge, kg of TNT.
-    burst, model
+    burst, model : Burst, BlastModel
         Where it detonates, and where the wave comes from.
 
     Raises
@@ -56,7 +56,7 @@ def smallest_charge_for_overpressure(
     burst: Burst = Burst.AIR,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
 ) -> float:
-    """Smallest charge that gives a peak incident overpressure at a stand-off, kg of TNT.
+    """Return the smallest charge that gives a peak incident overpressure at a stand-off, kg of TNT.
 
     Parameters and errors are those of `stand_off_for_overpressure`.
     """
@@ -72,7 +72,7 @@ def smallest_charge_for_impulse(
     burst: Burst = Burst.AIR,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
 ) -> float:
-    """Smallest charge that gives an incident impulse per area (Pa·s) at a stand-off (m), kg of TNT.
+    """Return the smallest charge that gives an incident impulse per area (Pa·s) at a stand-off (m), kg of TNT.
 
     The impulse of W kg is that of 1 kg at the same Z, times W^(1/3) = R/Z. So Z is where (impulse of 1 kg) / Z is the
     wanted impulse over R.
@@ -99,7 +99,7 @@ def _charge_at(stand_off_m: float, scaled_distance: float) -> float:
 
 
 def _distance_of_overpressure(overpressure_pa: float, burst: Burst, model: BlastModel) -> float:
-    """Farthest scaled distance at which the peak overpressure is reached, m/kg^(1/3)."""
+    """Return the farthest scaled distance at which the peak overpressure is reached, m/kg^(1/3)."""
     z = _farthest(overpressure_pa, _peak_overpressure, burst, model)
     if z is None:
         most = _on_grid(_peak_overpressure, burst, model).max()
@@ -118,7 +118,7 @@ def _impulse_over_distance(z: np.ndarray, burst: Burst, model: BlastModel) -> np
 
 
 def _farthest(wanted: float, load: Callable[..., np.ndarray], burst: Burst, model: BlastModel) -> float | None:
-    """Farthest scaled distance at which a load is reached, None if it is reached nowhere."""
+    """Return the farthest scaled distance at which a load is reached, None if it is reached nowhere."""
     distances, loads = _distances(), _on_grid(load, burst, model)
     reached = np.flatnonzero(loads >= wanted)
     if not len(reached):

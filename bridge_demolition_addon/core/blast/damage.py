@@ -1,4 +1,4 @@
-"""What peak overpressures do to buildings and people, and how far from the charges they are reached."""
+"""Damage of peak overpressures to buildings and people, and how far from the charges they are reached."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ do less, so that the stand-offs are on the safe side for them. Of eardrums Richm
 
 
 def distinct_thresholds() -> list[Threshold]:
-    """The thresholds, without those of the same overpressure as one before."""
+    """Return the thresholds, without those of the same overpressure as one before."""
     return list({threshold.overpressure_pa: threshold for threshold in reversed(THRESHOLDS)}.values())[::-1]
 
 
@@ -49,26 +49,26 @@ def ring_radii(
     thresholds: Sequence[Threshold] = THRESHOLDS,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
 ) -> np.ndarray:
-    """Radii of the rings around the charges, on plan at a level, within which a threshold is reached.
+    """Return the radii of the rings around the charges, on plan at a level, within which a threshold is reached.
 
     Each charge is taken by itself. Where waves of several meet, their pressures can add up, so that the damage reaches
     farther there than any ring.
 
     Parameters
     ----------
-    charges
-        The c charges.
-    level_m
+    charges : (c,) Charge
+        The charges.
+    level_m : float
         Height of the plan, m: a charge above it has smaller rings.
-    thresholds
-        The t thresholds.
-    model
+    thresholds : (t,) Threshold
+        The thresholds.
+    model : BlastModel
         Where the waves come from.
 
     Returns
     -------
-    numpy.ndarray
-        (t, c) in m; 0 where the threshold is not reached at that level.
+    (t, c) float
+        Radii, m; 0 where the threshold is not reached at that level.
     """
     radii = np.zeros((len(thresholds), len(charges)))
     for row, threshold in enumerate(thresholds):

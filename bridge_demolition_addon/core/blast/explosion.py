@@ -1,4 +1,4 @@
-"""What several charges do to several bodies in every step of a simulation, while the bodies move and turn."""
+"""Loads of several charges on several bodies in every step of a simulation, while the bodies move and turn."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ class StepLoads:
 
     Attributes
     ----------
-    bodies, charges
-        (k,) which body and which charge.
-    stand_offs_m, scaled_distances
-        (k,) from the charge to the body's centre when the charge detonated, in m and m/kg^(1/3).
-    areas_m2
-        (k,) area that the body shows to the charge, times the share of it that stands free.
-    directions
-        (k, 3) unit vectors from the charge to the body when the charge detonated.
-    peaks_pa
-        (k,) peak overpressure of the pulse.
-    pressure_impulses_pa_s
-        (k,) the overpressure's integral over this step.
-    impulses_ns
-        (k,) impulse that the body gets along the direction in this step.
+    bodies, charges : (k,) int
+        Which body and which charge.
+    stand_offs_m, scaled_distances : (k,) float
+        From the charge to the body's centre when the charge detonated, in m and m/kg^(1/3).
+    areas_m2 : (k,) float
+        Area that the body shows to the charge, times the share of it that the charge sees.
+    directions : (k, 3) float
+        Unit vectors from the charge to the body when the charge detonated.
+    peaks_pa : (k,) float
+        Peak overpressure of the pulse.
+    pressure_impulses_pa_s : (k,) float
+        The overpressure's integral over this step.
+    impulses_ns : (k,) float
+        Impulse that the body gets along the direction in this step.
     """
 
     bodies: np.ndarray
@@ -52,7 +52,7 @@ class StepLoads:
         return len(self.bodies)
 
     def vectors(self, count: int) -> np.ndarray:
-        """Impulse (count, 3) in N·s on each of so many bodies, of all charges together."""
+        """Return the impulse (count, 3) on each of so many bodies, of all charges together, N·s."""
         columns = (self.impulses_ns[:, None] * self.directions).T
         return np.column_stack([np.bincount(self.bodies, column, count) for column in columns])
 
@@ -60,8 +60,8 @@ class StepLoads:
 class Explosion:
     """Charges and the bodies around them, through time.
 
-    A charge finds out where the bodies are when it detonates: its front is faster than they are by far. The areas they
-    show to it follow their turning.
+    Stand-offs and directions are those at the detonation: the front is faster than the bodies by far. The areas that
+    they show to the charge follow their turning.
 
     Parameters
     ----------
@@ -87,14 +87,16 @@ class Explosion:
         self._shares = np.ones(shape)
 
     def loads(self, start_s: float, end_s: float, centres: np.ndarray, rotations: np.ndarray) -> StepLoads:
-        """Exact loads of a step of time.
+        """Return the exact loads of a step of time.
 
         Parameters
         ----------
-        start_s, end_s
+        start_s, end_s : float
             Simulated time at its beginning and at its end.
-        centres, rotations
-            (n, 3) where the bodies' centres of mass are at its beginning, m, and (n, 3, 3) how they are turned.
+        centres : (n, 3) float
+            Centres of mass at its beginning, m.
+        rotations : (n, 3, 3) float
+            From the axes of each body to those of the world.
         """
         self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
         pulses = self._pulses
@@ -120,7 +122,7 @@ class Explosion:
         )
 
     def is_quiet(self, start_s: float, end_s: float) -> bool:
-        """Whether it is known, before looking at the bodies, that nothing is loaded between two times."""
+        """Return whether nothing is loaded between two times, wherever the bodies are."""
         if (~self._detonated & (self._detonations_s < end_s)).any():
             return False
         return not self._pulses.load_between(start_s, end_s).any()
@@ -148,15 +150,15 @@ class Explosion:
 
 
 def no_loads() -> StepLoads:
-    """Loads of a step in which there are none."""
+    """Return the loads of a step in which there are none."""
     nothing, none = np.zeros(0), np.zeros(0, int)
     return StepLoads(none, none, nothing, nothing, nothing, np.zeros((0, 3)), nothing, nothing, nothing)
 
 
 def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
-    """Loads of steps of time that follow each other, as those of one step.
+    """Return the loads of steps of time that follow each other, as those of one step.
 
-    What does not stay the same in between, the area, is the mean that the impulses have met.
+    The area, which changes from step to step, is the mean that the impulses have met.
     """
     if not steps:
         return no_loads()

@@ -21,13 +21,13 @@ _MOST_STEPS = 50
 
 
 def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """Overpressure at times since the front arrived; 0 before that and after the positive phase.
+    """Return the overpressure at times since the front arrived; 0 before that and after the positive phase.
 
     Parameters
     ----------
-    peak, duration, decay
+    peak, duration, decay : (...) float
         Peak overpressure (Pa), positive-phase duration (s) and decay b of the pulses.
-    time
+    time : (...) float
         Times since the front arrived, s. All four broadcast.
     """
     part = _part_of_phase(time, duration)
@@ -38,7 +38,7 @@ def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np
 def impulse_between(
     peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, start: np.ndarray, end: np.ndarray
 ) -> np.ndarray:
-    """Exact integral of the overpressure from `start` to `end`, s since the front arrived, in Pa·s.
+    """Return the exact integral of the overpressure from `start` to `end`, s since the front arrived, in Pa·s.
 
     The interval may begin before the front and end after the pulse. It is integrated from its own beginning, so that
     short intervals lose nothing to the difference of two long ones.
@@ -52,12 +52,12 @@ def impulse_between(
 
 
 def whole_impulse(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray) -> np.ndarray:
-    """Impulse of the whole positive phase, p₀ t_d (b - 1 + e^(-b)) / b², in Pa·s."""
+    """Return the impulse of the whole positive phase, p₀ t_d (b - 1 + e^(-b)) / b², in Pa·s."""
     return peak * duration * _share(np.asarray(decay, float))
 
 
 def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Duration and decay of the pulses that have a peak, a duration and an impulse.
+    """Return duration and decay of the pulses that have a peak, a duration and an impulse.
 
     No decay of at least 0 gives more than half of p₀ t_d. Where more is asked for, the pulse gets no decay and a longer
     duration, 2 i / p₀: peak and impulse are what moves and breaks a body, and tests measure them better than where a
@@ -66,7 +66,7 @@ def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple
 
     Parameters
     ----------
-    peak, duration, impulse
+    peak, duration, impulse : (...) float
         Pa, s and Pa·s, of one shape; where the peak is 0 so are the results.
     """
     there = peak > 0.0
@@ -77,7 +77,7 @@ def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple
 
 
 def decay_of(share: np.ndarray) -> np.ndarray:
-    """The decay b ≥ 0 at which the impulse is a share of p₀ t_d, from above 0 to `LARGEST_SHARE`.
+    """Return the decay b ≥ 0 at which the impulse is a share of p₀ t_d, from above 0 to `LARGEST_SHARE`.
 
     The share falls with b and is convex, and at b = 1/share - 2 it is not below what is asked for. So Newton's steps
     from there go one way, never overshoot, and are done after a handful.
@@ -115,6 +115,6 @@ def _moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
 
 
 def _part_of_phase(time: np.ndarray, duration: np.ndarray) -> np.ndarray:
-    """Time as part of the positive phase; a pulse without duration is over at once."""
+    """Return time as part of the positive phase; a pulse without duration is over at once."""
     time, duration = np.broadcast_arrays(np.asarray(time, float), np.asarray(duration, float))
     return np.divide(time, duration, out=np.full(time.shape, np.inf), where=duration > 0.0)

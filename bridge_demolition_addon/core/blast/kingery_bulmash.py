@@ -2,7 +2,7 @@
 
 Spherical burst: Kingery and Bulmash, *Airblast Parameters from TNT Spherical Air Burst and Hemispherical Surface
 Burst*, ARBRL-TR-02555 (1984). Hemispherical burst: Swisdak, *Simplified Kingery Airblast Calculations*, 26th DoD
-Explosives Safety Seminar (1994). The coefficients are in ``core/data``; every quantity has its own range of scaled
+Explosives Safety Seminar (1994). The coefficients are in ``data``; every quantity has its own range of scaled
 distances, in one to four pieces that meet within 2.4 % (incident impulse of the surface burst at Z = 2.38), mostly
 within 1 %.
 
@@ -61,7 +61,7 @@ class _Piece:
 
 
 def evaluate(quantity: Quantity, scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> np.ndarray:
-    """One quantity for 1 kg of TNT at scaled distances of any shape (m/kg^(1/3)), in Pa, Pa·s, s or m/s."""
+    """Return one quantity for 1 kg of TNT at scaled distances of any shape (m/kg^(1/3)), in Pa, Pa·s, s or m/s."""
     pieces = _tables()[burst][quantity]
     nearest, farthest = pieces[0].nearest, pieces[-1].farthest
     z = np.asarray(scaled_distance, float)
@@ -79,7 +79,7 @@ def evaluate(quantity: Quantity, scaled_distance: np.ndarray, burst: Burst = Bur
 
 
 def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
-    """The wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
+    """Return the wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
     return Wave(
         evaluate(Quantity.PEAK_OVERPRESSURE, scaled_distance, burst),
         evaluate(Quantity.REFLECTED_OVERPRESSURE, scaled_distance, burst),
@@ -88,11 +88,6 @@ def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
         evaluate(Quantity.ARRIVAL_TIME, scaled_distance, burst),
         evaluate(Quantity.DURATION, scaled_distance, burst),
     )
-
-
-def ranges(quantity: Quantity, burst: Burst = Burst.AIR) -> list[tuple[float, float]]:
-    """Ranges of scaled distance of a quantity's pieces, nearest first, m/kg^(1/3)."""
-    return [(piece.nearest, piece.farthest) for piece in _tables()[burst][quantity]]
 
 
 @cache

@@ -26,7 +26,7 @@ a sound wave."""
 
 
 def peak_overpressure(scaled_distance: np.ndarray) -> np.ndarray:
-    """Peak incident overpressure, Pa (equation 3)."""
+    """Return the peak incident overpressure, Pa (equation 3)."""
     z = np.asarray(scaled_distance, float)
     ratio = (
         808.0
@@ -37,7 +37,7 @@ def peak_overpressure(scaled_distance: np.ndarray) -> np.ndarray:
 
 
 def scaled_duration(scaled_distance: np.ndarray) -> np.ndarray:
-    """Positive-phase duration of 1 kg of TNT, s (equation 4)."""
+    """Return the positive-phase duration of 1 kg of TNT, s (equation 4)."""
     z = np.asarray(scaled_distance, float)
     milliseconds = (
         980.0
@@ -48,7 +48,7 @@ def scaled_duration(scaled_distance: np.ndarray) -> np.ndarray:
 
 
 def scaled_incident_impulse(scaled_distance: np.ndarray) -> np.ndarray:
-    """Incident impulse per area of 1 kg of TNT, Pa·s: 6.7 √(1 + (Z/0.23)⁴) / (Z² ∛(1 + (Z/1.55)³)).
+    """Return the incident impulse per area of 1 kg of TNT, Pa·s: 6.7 √(1 + (Z/0.23)⁴) / (Z² ∛(1 + (Z/1.55)³)).
 
     Not in the report; Kinney and Graham give it in bar·ms, with 0.067.
     """
@@ -57,9 +57,9 @@ def scaled_incident_impulse(scaled_distance: np.ndarray) -> np.ndarray:
 
 
 def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
-    """Arrival time for 1 kg of TNT, s: the way of the front at the speed that its overpressure gives it.
+    """Return the arrival time for 1 kg of TNT, s: of a front with the speed that its overpressure gives it.
 
-    Kinney and Graham have no formula for it. The way begins in the middle of the charge.
+    Kinney and Graham have no formula for it. Its path begins in the middle of the charge.
     """
     distances, times = _arrival_table()
     z = np.asarray(scaled_distance, float)
@@ -68,7 +68,7 @@ def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
 
 
 def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
-    """The wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
+    """Return the wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
     if burst is Burst.SURFACE:
         size = cube_root(GROUND_REFLECTION)
         return unit_wave(np.asarray(scaled_distance) / size).scaled(size)

@@ -1,4 +1,4 @@
-"""Which blast wave is reckoned with, and that wave for any charge at any stand-off."""
+"""Models of the blast wave, and the wave of any charge at any stand-off."""
 
 import numpy as np
 
@@ -29,18 +29,18 @@ def blast_wave(
     burst: Burst = Burst.AIR,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
 ) -> Wave:
-    """The waves of charges at stand-offs.
+    """Return the waves of charges at stand-offs.
 
     Parameters
     ----------
-    stand_off_m
+    stand_off_m : (...) float
         Distances from the charges, m; nearer than a charge's surface (`wave.SMALLEST_SCALED_DISTANCE`) counts as
         that.
-    tnt_kg
+    tnt_kg : (...) float
         Charges, kg of TNT; a charge of 0 has a wave of zeros.
-    burst
+    burst : Burst
         Where the charges detonate.
-    model
+    model : BlastModel
         Where the wave comes from.
 
     Returns

@@ -1,4 +1,4 @@
-"""How much of a body a blast wave meets: its area as the source sees it, which changes as the body turns."""
+"""Areas of bodies as a blast wave meets them, which change as the bodies turn."""
 
 import numpy as np
 

@@ -26,17 +26,17 @@ class Loading(Choice):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pulses:
-    """Friedlander pulses of c charges on n bodies, structure of arrays (n, c).
+    """Friedlander pulses of c charges on n bodies, or of k pairs of them as arrays (k,).
 
     Attributes
     ----------
-    arrivals_s
+    arrivals_s : (n, c) float
         When each front arrives, delay of its charge included, s.
-    peaks_pa
+    peaks_pa : (n, c) float
         Peak overpressures, Pa; 0 for a charge of 0 kg.
-    durations_s
+    durations_s : (n, c) float
         Positive-phase durations, s.
-    decays
+    decays : (n, c) float
         Decays b.
     """
 
@@ -47,12 +47,12 @@ class Pulses:
 
     @property
     def ends_s(self) -> np.ndarray:
-        """(n, c) when each positive phase ends, s."""
+        """Return when each positive phase ends, (n, c) s."""
         return self.arrivals_s + self.durations_s
 
     @property
     def impulses_pa_s(self) -> np.ndarray:
-        """(n, c) impulse per area of each whole pulse, Pa·s."""
+        """Return the impulse per area of each whole pulse, (n, c) Pa·s."""
         return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
     def take(self, bodies: np.ndarray, charges: np.ndarray) -> "Pulses":
@@ -68,7 +68,7 @@ class Pulses:
         self.decays[:, columns] = other.decays
 
     def load_between(self, start_s: float, end_s: float) -> np.ndarray:
-        """(n, c) whether each pulse loads its body at some time between two."""
+        """Return whether each pulse (n, c) loads its body at some time between two."""
         return (self.peaks_pa > 0.0) & (self.arrivals_s < end_s) & (start_s < self.ends_s)
 
 
@@ -82,19 +82,21 @@ def blast_pulses(
     loading: Loading = Loading.INCIDENT,
     constant_decay: float | None = None,
 ) -> Pulses:
-    """The pulses of charges on bodies.
+    """Return the pulses of charges on bodies.
 
     Parameters
     ----------
-    stand_offs_m
-        (n, c) distances of the bodies from the charges, m; nearer than its surface counts as that.
-    tnt_kg, delays_s, bursts
-        (c,) mass of each charge in kg of TNT, its delay in s, and where it detonates.
-    model
+    stand_offs_m : (n, c) float
+        Distances of the bodies from the charges, m; nearer than its surface counts as that.
+    tnt_kg, delays_s : (c,) float
+        Mass of each charge, kg of TNT, and its delay, s.
+    bursts : (c,) Burst
+        Where each charge detonates.
+    model : BlastModel
         Where the waves come from.
-    loading
+    loading : Loading
         Which of their pressures loads the bodies.
-    constant_decay
+    constant_decay : float or None
         One decay for all pulses, such as `REPORT_DECAY`; None solves each from peak, duration and impulse.
 
     Raises
@@ -130,7 +132,7 @@ def blast_pulses(
 
 
 def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> np.ndarray:
-    """Exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, in Pa·s, however long the step is.
+    """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s.
 
     Raises
     ------
@@ -145,7 +147,7 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> np.ndarray:
 
 
 def pressure_at(pulses: Pulses, time_s: np.ndarray) -> np.ndarray:
-    """Overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it.
+    """Return the overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it.
 
     Instead of one time there can be an array of them that broadcasts with (n, c).
     """

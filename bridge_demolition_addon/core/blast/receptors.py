@@ -1,4 +1,4 @@
-"""What charges do to places near them: pressure and impulse with all delays, and the vibration of the ground."""
+"""Effects of charges at positions near them: pressure and impulse with all delays, and the vibration of the ground."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NEAREST_M = 1e-3
 
 
 def charges_per_delay(charges: Sequence[Charge], window_s: float = ONE_DELAY_S) -> list[tuple[Charge, ...]]:
-    """Charges that shake the ground together, in order of time: each group within a window from its first charge."""
+    """Group charges that shake the ground together, in order of time: each within a window from its first charge."""
     groups: list[list[Charge]] = []
     for charge in sorted(charges, key=lambda each: each.delay_s):
         if charge.mass_kg <= 0.0:
@@ -37,21 +37,21 @@ def charges_per_delay(charges: Sequence[Charge], window_s: float = ONE_DELAY_S) 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlaceLoads:
-    """What reaches one place.
+    """Loads at one position.
 
     Attributes
     ----------
-    distance_m
+    distance_m : float
         To the nearest charge.
-    arrival_s
+    arrival_s : float
         When the first wave arrives, from the start of the blasting.
-    times_s, pressures_pa
-        (t,) times from the start of the blasting, and (t,) the incident overpressures of all charges added up.
-    peak_pa
+    times_s, pressures_pa : (t,) float
+        Times from the start of the blasting, and the incident overpressures of all charges added up.
+    peak_pa : float
         Largest of these.
-    impulse_pa_s
+    impulse_pa_s : float
         Impulse per area of the positive phases of all charges.
-    peak_velocity_m_s
+    peak_velocity_m_s : float
         Largest peak particle velocity of the ground, of all groups of charges that detonate together.
     """
 
@@ -70,10 +70,10 @@ def loads_at(
     model: BlastModel = BlastModel.KINGERY_BULMASH,
     ground: vibration.Ground = vibration.FREE_FACE_AVERAGE,
 ) -> PlaceLoads:
-    """What charges, at least one of them above 0 kg, do at a place (3,), m.
+    """Return the loads of charges, at least one of them above 0 kg, at a position (3,), m.
 
     Pressures are free-field, from the explosives' TNT by pressure, impulses from that by impulse. Nothing stands
-    between charge and place, and no wall sends anything back.
+    between charge and position, and no wall sends anything back.
     """
     charges = [charge for charge in charges if charge.mass_kg > 0.0]
     stand_offs = distance(np.array(place_m), np.array([[charge.place_m for charge in charges]]))
@@ -99,7 +99,7 @@ def loads_at(
 def peak_overpressures(
     points_m: np.ndarray, charges: Sequence[Charge], model: BlastModel = BlastModel.KINGERY_BULMASH
 ) -> np.ndarray:
-    """Largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.
+    """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.
 
     Where waves of several charges meet, their pressures can add up to more.
     """
@@ -112,7 +112,7 @@ def peak_overpressures(
 
 
 def _times(pulses: Pulses) -> np.ndarray:
-    """Times from 0 to a little past the last pulse, among them every front, just before it and through each pulse."""
+    """Return times from 0 to past the last pulse, among them each front, just before it and through each pulse."""
     shares = np.linspace(0.0, 1.0, _TIMES_PER_PULSE)
     fronts, ends = pulses.arrivals_s[0], pulses.ends_s[0]
     before = np.nextafter(fronts, 0.0)
@@ -121,7 +121,7 @@ def _times(pulses: Pulses) -> np.ndarray:
 
 
 def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge], ground: vibration.Ground) -> float:
-    """Of each group with all its mass at the distance of its nearest charge, which is on the safe side."""
+    """Return the largest of all groups, each at the distance of its nearest charge, which is on the safe side."""
     velocities = []
     for group in charges_per_delay(charges):
         nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()

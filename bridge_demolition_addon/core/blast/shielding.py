@@ -1,9 +1,9 @@
-"""How much of each body stands free, as seen from the charges.
+"""Shares of the bodies that the charges see.
 
 Rays go from every charge to every body: to its centre of mass, and to the points half-way from there to the vertices of
 its hull. A ray is stopped by the convex hull of any other body that it passes through; the visible share is that of
 the rays that are not. A wave also bends round edges, which is not modelled: behind anything narrow the load is more
-than this share. A body that holds the charge stops nothing: it is what the charge breaks.
+than this share. A body that contains the charge stops nothing: it is what the charge breaks.
 """
 
 from itertools import pairwise
@@ -25,27 +25,29 @@ _PAIRS_AT_ONCE = 1_000_000
 
 
 def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sources: np.ndarray) -> np.ndarray:
-    """Shares of the bodies that the charges see.
+    """Return the shares of the bodies that the charges see.
 
     Parameters
     ----------
-    hulls
+    hulls : ConvexHulls
         Convex hulls of n bodies.
-    centres, rotations
-        (n, 3) centres of mass in m, and (n, 3, 3) from the axes of each body to those of the world.
-    sources
-        (c, 3) places of the charges, m.
+    centres : (n, 3) float
+        Centres of mass, m.
+    rotations : (n, 3, 3) float
+        From the axes of each body to those of the world.
+    sources : (c, 3) float
+        Positions of the charges, m.
 
     Returns
     -------
-    numpy.ndarray
-        (n, c) from 0, hidden, to 1, free.
+    (n, c) float
+        From 0, hidden, to 1, free.
     """
     owners, targets = _targets(hulls, centres, rotations)
     counts = np.bincount(owners, minlength=len(hulls))
     shares = np.zeros((len(hulls), len(sources)))
     for column, source in enumerate(sources):
-        shields = ~_holding(hulls, centres, rotations, source)
+        shields = ~_containing(hulls, centres, rotations, source)
         stopped = np.zeros(len(targets), bool)
         for first, last in _blocks(np.full(len(targets), len(hulls))):
             rays, bodies = _near_misses(hulls, centres, source, targets[first:last])
@@ -59,15 +61,15 @@ def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarra
 
 
 def _targets(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Bodies (t,) and places (t, 3) that rays go to."""
+    """Return bodies (t,) and positions (t, 3) that rays go to."""
     bodies = np.arange(len(hulls))
     owners = np.repeat(bodies, np.diff(hulls.vertex_starts))
     half_way = centres[owners] + _HALF_WAY * transformed(rotations[owners], hulls.vertices)
     return np.concatenate((bodies, owners)), np.concatenate((centres, half_way))
 
 
-def _holding(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, source: np.ndarray) -> np.ndarray:
-    """Which bodies (n,) hold a charge."""
+def _containing(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, source: np.ndarray) -> np.ndarray:
+    """Return which bodies (n,) contain a charge."""
     if not len(hulls):
         return np.zeros(0, bool)
     local = transformed_back(rotations, source - centres)
@@ -78,7 +80,7 @@ def _holding(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sou
 def _near_misses(
     hulls: ConvexHulls, centres: np.ndarray, source: np.ndarray, targets: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Rows of targets (t, 3), and the bodies whose bounding spheres the rays to them touch."""
+    """Return rows of targets (t, 3), and the bodies whose bounding spheres the rays to them touch."""
     rays, others = targets - source, centres - source
     along, squares = dot(rays[:, None], others), dot(rays, rays)[:, None]
     nearest = np.clip(np.divide(along, squares, out=np.zeros(along.shape), where=squares > 0.0), 0.0, 1.0)
@@ -94,7 +96,7 @@ def _pass_through(
     targets: np.ndarray,
     bodies: np.ndarray,
 ) -> np.ndarray:
-    """Whether rays to targets (k, 3) pass through the bodies (k,) that they are paired with."""
+    """Return whether rays to targets (k, 3) pass through the bodies (k,) that they are paired with."""
     rays = transformed_back(rotations[bodies], targets - source)
     origins = transformed_back(rotations[bodies], source - centres[bodies])
     counts = np.diff(hulls.starts)[bodies]
@@ -108,7 +110,7 @@ def _pass_through(
 def _cross(
     hulls: ConvexHulls, rows: np.ndarray, faces: np.ndarray, origins: np.ndarray, rays: np.ndarray
 ) -> np.ndarray:
-    """Whether rays (k, 3) cross hulls, given as faces with the row of the ray: what all half-spaces leave of each."""
+    """Return whether rays (k, 3) cross hulls, given as faces with the row of the ray: where all half-spaces overlap."""
     normals = hulls.normals[faces]
     slopes = dot(normals, rays[rows])
     rooms = hulls.offsets[faces] - GRAZING_M - dot(normals, origins[rows])
@@ -121,7 +123,7 @@ def _cross(
 
 
 def _blocks(counts: np.ndarray) -> list[tuple[int, int]]:
-    """Rows from and to, so that the counts (k,) of each block add up to some `_PAIRS_AT_ONCE`."""
+    """Return rows from and to, so that the counts (k,) of each block add up to some `_PAIRS_AT_ONCE`."""
     block_of = np.cumsum(counts) // _PAIRS_AT_ONCE
     edges = np.flatnonzero(np.diff(block_of)) + 1
     return [(first, last) for first, last in pairwise([0, *edges.tolist(), len(counts)]) if first < last]

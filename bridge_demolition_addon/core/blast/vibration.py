@@ -24,11 +24,11 @@ class Ground:
 
     Attributes
     ----------
-    name
+    name : str
         What kind of ground.
-    velocity_m_s
+    velocity_m_s : float
         K: peak particle velocity at a scaled distance of 1 m/kg^(1/2), m/s.
-    exponent
+    exponent : float
         β: how fast it falls.
     """
 
@@ -49,15 +49,15 @@ GROUNDS = {"hard": FREE_FACE_HARD, "average": FREE_FACE_AVERAGE, "confined": CON
 def peak_particle_velocity(
     distance_m: np.ndarray, charge_kg: np.ndarray, ground: Ground = FREE_FACE_AVERAGE
 ) -> np.ndarray:
-    """Peak particle velocity, m/s.
+    """Return the peak particle velocity, m/s.
 
     Parameters
     ----------
-    distance_m
+    distance_m : (...) float
         Distances from the charge, m, above 0.
-    charge_kg
+    charge_kg : (...) float
         Explosive that detonates within one delay, kg, at least 0. Its own mass: the constants are not for TNT.
-    ground
+    ground : Ground
         What carries the vibration.
 
     Raises
@@ -72,7 +72,7 @@ def peak_particle_velocity(
 def charge_per_delay(
     distance_m: np.ndarray, limit_m_s: np.ndarray = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
 ) -> np.ndarray:
-    """Explosive that may detonate within one delay so that a velocity is kept at distances, kg."""
+    """Return the explosive that may detonate within one delay so that a velocity is kept at distances, kg."""
     limit = checked(limit_m_s, "limit", "m/s")
     return (_distances(distance_m) * power(limit / ground.velocity_m_s, 1.0 / ground.exponent)) ** 2
 
@@ -80,7 +80,7 @@ def charge_per_delay(
 def distance_for_velocity(
     charge_kg: np.ndarray, limit_m_s: np.ndarray = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
 ) -> np.ndarray:
-    """Distance from which on a charge keeps a velocity (above 0), m."""
+    """Return the distance from which on a charge keeps a velocity (above 0), m."""
     limit = checked(limit_m_s, "limit", "m/s")
     if (limit == 0.0).any():
         raise BlastError("limit is 0: expected a number above 0 (m/s)")

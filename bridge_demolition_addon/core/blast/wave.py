@@ -1,4 +1,4 @@
-"""What a blast wave is known by where it arrives, and how that scales with the charge."""
+"""The quantities of a blast wave where it arrives, and how they scale with the charge."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -41,11 +41,11 @@ class Wave:
 
     Attributes
     ----------
-    peak_overpressure_pa, reflected_overpressure_pa
+    peak_overpressure_pa, reflected_overpressure_pa : (...) float
         Peak overpressure beside the wave's path (incident, side-on), and on a wall that it meets head-on, Pa.
-    incident_impulse_pa_s, reflected_impulse_pa_s
+    incident_impulse_pa_s, reflected_impulse_pa_s : (...) float
         Impulse per area of the positive phase, incident and on such a wall, Pa·s.
-    arrival_time_s, positive_phase_duration_s
+    arrival_time_s, positive_phase_duration_s : (...) float
         From the detonation to the front, and from the front to the end of the positive phase, s.
     """
 
@@ -57,7 +57,7 @@ class Wave:
     positive_phase_duration_s: np.ndarray
 
     def scaled(self, size: np.ndarray) -> "Wave":
-        """The wave at the same scaled distances from charges whose cube root is so many times as large.
+        """Return the wave at the same scaled distances from charges whose cube root is so many times as large.
 
         Pressures stay, times and impulses grow with the cube root (Hopkinson 1915, Cranz 1926). Without any charge
         there is no wave: everything is 0.
@@ -74,13 +74,13 @@ class Wave:
 
 
 def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
-    """Scaled distance Z = R / W^(1/3), m/kg^(1/3), the report's equation 5 with a transmission factor of 1.
+    """Return the scaled distance Z = R / W^(1/3), m/kg^(1/3), the report's equation 5 with a transmission factor of 1.
 
     Parameters
     ----------
-    stand_off_m
+    stand_off_m : (...) float
         Distances from the charges, m, at least 0.
-    tnt_kg
+    tnt_kg : (...) float
         Charges, kg of TNT, at least 0, of a shape that broadcasts; without charge the distance is infinite.
 
     Raises
@@ -95,7 +95,7 @@ def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
 
 
 def checked(values: np.ndarray, name: str, unit: str) -> np.ndarray:
-    """Values as floats.
+    """Return values as floats.
 
     Raises
     ------

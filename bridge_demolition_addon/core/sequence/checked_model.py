@@ -1,4 +1,4 @@
-"""Whether a scenario can be run at all, beyond what its values tell: found out without Blender."""
+"""Check of a scenario as far as its model shows it, without Blender."""
 
 from collections.abc import Sequence
 
@@ -21,9 +21,9 @@ def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -
 
     Parameters
     ----------
-    scenario
+    scenario : Scenario
         What is to be run.
-    members
+    members : sequence of Member, optional
         Its members, where they are prepared already.
 
     Raises

@@ -1,4 +1,4 @@
-"""Which shards and connections each change of a scenario concerns, and when: rows of arrays, in order of time.
+"""Events: which shards and connections each change of a scenario concerns, and when.
 
 Members, boxes and planes mean the bridge as it was built, wherever its shards are by then.
 """
@@ -13,24 +13,27 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..geometry.vectors import dot
+from ..results.inventory import Inventory
 from ..scenario import Change, Removal, SawCut, Weakening
 from ..structure.model import Model
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Structure:
-    """What changes are looked for in: n bodies and m connections as they were built.
+    """Bodies and connections as they were built, among which those are found that a change concerns.
 
     Attributes
     ----------
-    centres_m
-        (n, 3) centres of mass.
-    member_names, member_kinds
-        (n,) name and kind of the member that each body was cut from; empty for one that was not.
-    is_shard
-        (n,) whether each body is a shard.
-    pairs, points_m
-        (m, 2) bodies of the connections, and (m, 3) where these are.
+    centres_m : (n, 3) float
+        Centres of mass.
+    member_names, member_kinds : (n,) str
+        Name and kind of the member that each body was cut from; empty for one that was not.
+    is_shard : (n,) bool
+        Whether each body is a shard that can move.
+    pairs : (m, 2) int
+        Bodies of the connections.
+    points_m : (m, 3) float
+        Where the connections are.
     """
 
     centres_m: np.ndarray
@@ -43,19 +46,19 @@ class Structure:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Event:
-    """A change as rows of bodies (b,) that it takes away, and of connections (c,).
+    """A change as rows of bodies that it removes, and of connections.
 
     Attributes
     ----------
-    time_s
+    time_s : float
         When it happens.
-    kind
+    kind : str
         ``removal``, ``saw cut`` or ``weakening``.
-    bodies
-        (b,) bodies that are taken away.
-    connections
-        (c,) connections that are cut, or that are weakened.
-    factor
+    bodies : (b,) int
+        Bodies that are removed.
+    connections : (c,) int
+        Connections that are cut or weakened.
+    factor : float
         Part of the strength of these that is left: 0 for those that are cut.
     """
 
@@ -67,7 +70,7 @@ class Event:
 
 
 def model_structure(model: Model) -> Structure:
-    """The structure of a model, where all connections to the ground end at one more body after the shards."""
+    """Return the structure of a model, where all connections to the ground end at one more body after the shards."""
     members = [model.members[member] for member in model.member_of_shard]
     count = len(model.shards)
     return Structure(
@@ -80,8 +83,20 @@ def model_structure(model: Model) -> Structure:
     )
 
 
+def recorded_structure(inventory: Inventory, centres_m: np.ndarray) -> Structure:
+    """Return the structure of bodies that are recorded, with their centres of mass (n, 3) before anything moves."""
+    return Structure(
+        centres_m=centres_m,
+        member_names=inventory.body_members,
+        member_kinds=inventory.body_member_kinds,
+        is_shard=(inventory.body_kinds == "shard") & inventory.moves,
+        pairs=inventory.pairs,
+        points_m=inventory.points_m,
+    )
+
+
 def schedule(changes: Sequence[Change], structure: Structure) -> tuple[Event, ...]:
-    """Changes as events, in order of time; those of the same time in the order in which they are given.
+    """Return changes as events, in order of time; those of the same time in the order in which they are given.
 
     Raises
     ------
@@ -115,12 +130,12 @@ def _event(change: Change, structure: Structure) -> Event:
 
 
 def _selected(change: Change, structure: Structure) -> np.ndarray:
-    """Connections (m,) with a shard of the members, in the box."""
+    """Return whether each connection (m,) has a shard of the members and is in the box."""
     return _of_members(change, structure)[structure.pairs].any(axis=1) & _in_box(change, structure.points_m)
 
 
 def _of_members(change: Change, structure: Structure) -> np.ndarray:
-    """Bodies (n,) of the members; all where none are named."""
+    """Return whether each body (n,) is of the members; all where none are named."""
     if change.members is None:
         return np.ones(len(structure.centres_m), bool)
     names, kinds = structure.member_names, structure.member_kinds
@@ -134,15 +149,15 @@ def _of_members(change: Change, structure: Structure) -> np.ndarray:
     return np.isin(names, change.members) | np.isin(kinds, change.members)
 
 
-def _in_box(change: Change, places_m: np.ndarray) -> np.ndarray:
-    """Places (k, 3) in the box; all where there is none."""
+def _in_box(change: Change, positions_m: np.ndarray) -> np.ndarray:
+    """Return whether positions (k, 3) are in the box; all where there is none."""
     if change.lowest_corner_m is None:
-        return np.ones(len(places_m), bool)
-    return ((places_m >= change.lowest_corner_m) & (places_m <= change.highest_corner_m)).all(axis=1)
+        return np.ones(len(positions_m), bool)
+    return ((positions_m >= change.lowest_corner_m) & (positions_m <= change.highest_corner_m)).all(axis=1)
 
 
 def _crosses(cut: SawCut, structure: Structure) -> np.ndarray:
-    """Connections (m,) whose two bodies lie on the two sides of the plane.
+    """Return whether the two bodies of each connection (m,) lie on the two sides of the plane.
 
     The ground has no centre that means anything: on its side stands the shard's, mirrored in the connection's point.
     """

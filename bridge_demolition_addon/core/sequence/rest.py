@@ -9,22 +9,22 @@ from ..scenario import Scenario
 
 
 class Rest:
-    """Watches frame by frame whether all bodies rest, and since when.
+    """Find frame by frame whether all bodies rest, and since when.
 
     Speeds come from positions and rotations of two frames, so that a solver's trembling within a frame is not motion.
 
     Parameters
     ----------
-    speed_m_s, spin_rad_s
+    speed_m_s, spin_rad_s : float
         Below both of these a body rests; one that sleeps rests anyway.
-    hold_s
+    hold_s : float
         For how long all have to rest.
-    not_before_s
+    not_before_s : float
         Time before which no rest counts, as something is still to happen.
 
     Attributes
     ----------
-    since_s
+    since_s : float or None
         Since when everything rests now; None while anything moves.
     """
 
@@ -53,19 +53,19 @@ class Rest:
 
     @property
     def is_reached(self) -> bool:
-        """Whether everything has been at rest for long enough."""
+        """Return whether everything has been at rest for long enough."""
         return self.came_to_rest_s is not None
 
     @property
     def came_to_rest_s(self) -> float | None:
-        """Since when everything rests, where it has for long enough; None where it does not."""
+        """Return since when everything rests, where it has for long enough; None where it has not."""
         if self.since_s is None or self._time_s - self.since_s < self._hold_s * (1.0 - 1e-6):
             return None
         return self.since_s
 
 
 def last_event_s(scenario: Scenario) -> float:
-    """Time at which the last thing that a scenario plans has happened, s: what moves afterwards only comes to rest."""
+    """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest."""
     times = [scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
     times += [hammer.end_time_s for hammer in scenario.jackhammers]
     if scenario.blast.explosion:

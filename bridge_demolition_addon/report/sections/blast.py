@@ -41,7 +41,9 @@ def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
         loads = [(each.name, loads_at(each.place_m, charges, model)) for each in scenario.neighbours]
         blocks += _neighbour_blocks(loads)
     else:
-        blocks.append(Paragraph("The scenario names no neighbours: add tables [[neighbours]] to have them told of."))
+        blocks.append(
+            Paragraph("The scenario names no neighbours: add tables [[neighbours]] to have what reaches them here.")
+        )
     return Section("Blast", tuple(blocks))
 
 
@@ -126,7 +128,7 @@ def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
         for name, load in loads
     ]
     ground = FREE_FACE_AVERAGE
-    told = (
+    basis = (
         f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), of the "
         f"charges that detonate together; houses bear {1e3 * DAMAGE_LIMIT_M_S:g} mm/s (USBM Bulletin 656), many "
         "codes ask for less. It holds for charges drilled into rock; the fall of the bridge, which often shakes the "
@@ -138,5 +140,5 @@ def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
             partial(neighbour_pressures, loads=loads),
             "Overpressure at the neighbours, all charges and delays together, incident and in the free field.",
         ),
-        Paragraph(told),
+        Paragraph(basis),
     ]

@@ -147,7 +147,7 @@ class ForceFields:
             self._pushing.append((self._fields[row], strength))
 
     def still_push(self) -> bool:
-        """Whether the fields that were told to push did so to the end of the frame."""
+        """Return whether the fields that were to push did so to the end of the frame."""
         return all(
             abs(evaluated.field.strength - strength) <= _FLOAT32 * strength
             for field, strength in self._pushing

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.blast import kinney_graham
-from bridge_demolition_addon.core.blast.kingery_bulmash import Quantity, evaluate, ranges
+from bridge_demolition_addon.core.blast.kingery_bulmash import Quantity, evaluate
 from bridge_demolition_addon.core.blast.models import BlastModel, blast_wave
 from bridge_demolition_addon.core.blast.wave import (
     SMALLEST_SCALED_DISTANCE,
@@ -21,6 +21,20 @@ WAVES = ("peak_overpressure_pa", "reflected_overpressure_pa", "incident_impulse_
 WAVES += ("arrival_time_s", "positive_phase_duration_s")
 MODELS = [(model, burst) for model in BlastModel for burst in Burst]
 CURVES = [(quantity, burst) for quantity in Quantity for burst in Burst]
+
+
+def table_rows(burst):
+    name = {Burst.AIR: "kingery_bulmash_spherical.csv", Burst.SURFACE: "kingery_bulmash_hemispherical.csv"}[burst]
+    text = (resources.files("bridge_demolition_addon.core.blast") / "data" / name).read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))
+
+
+def ranges(quantity, burst):
+    """Scaled distances from and to of a quantity's pieces, nearest first."""
+    rows = [row for row in table_rows(burst) if row["quantity"] == quantity]
+    return [(float(row["z_min"]), float(row["z_max"])) for row in rows]
+
+
 JOINTS = [
     (quantity, burst, nearer[1])
     for quantity, burst in CURVES
@@ -61,12 +75,6 @@ def test_kingery_bulmash_values(burst, z, peak, reflected, impulse, reflected_im
     assert wave.reflected_impulse_pa_s == printed(reflected_impulse)
     assert wave.arrival_time_s * 1e3 == printed(arrival)
     assert wave.positive_phase_duration_s * 1e3 == printed(duration)
-
-
-def table_rows(burst):
-    name = {Burst.AIR: "kingery_bulmash_spherical.csv", Burst.SURFACE: "kingery_bulmash_hemispherical.csv"}[burst]
-    text = (resources.files("bridge_demolition_addon.core.blast") / "data" / name).read_text(encoding="utf-8")
-    return list(csv.DictReader(text.splitlines()))
 
 
 def by_hand(row, z):
