@@ -49,11 +49,17 @@ def processor_features():
     return " ".join(simd.get("found", []))
 
 
-@pytest.mark.parametrize("example", ["i235_one_span", "three_span_box_girder"])
-def test_a_model_has_the_same_bits_on_an_older_processor_and_on_one_core(example):
-    path = EXAMPLES / f"{example}.toml"
+@pytest.mark.parametrize(
+    "program, argument",
+    [
+        ("bits_of_a_model", EXAMPLES / "i235_one_span.toml"),
+        ("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml"),
+        ("bits_of_a_blast", 200),
+    ],
+)
+def test_results_have_the_same_bits_on_an_older_processor_and_on_one_core(program, argument):
     older = {"NPY_DISABLE_CPU_FEATURES": processor_features(), "OPENBLAS_CORETYPE": "Nehalem"}
-    runs = [run_program("bits_of_a_model", path), run_program("bits_of_a_model", path, "one core", **older)]
+    runs = [run_program(program, argument), run_program(program, argument, "one core", **older)]
     assert [(run.returncode, run.stderr) for run in runs] == [(0, ""), (0, "")]
     assert re.fullmatch(r"[0-9a-f]{64}\n", runs[0].stdout)
     assert runs[0].stdout == runs[1].stdout

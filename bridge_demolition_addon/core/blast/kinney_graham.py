@@ -30,8 +30,12 @@ def peak_overpressure(scaled_distance: np.ndarray) -> np.ndarray:
     z = np.asarray(scaled_distance, float)
     ratio = (
         808.0
-        * (1.0 + (z / 4.5) ** 2)
-        / (np.sqrt(1.0 + (z / 0.048) ** 2) * np.sqrt(1.0 + (z / 0.32) ** 2) * np.sqrt(1.0 + (z / 1.35) ** 2))
+        * (1.0 + _raised(z / 4.5, 2))
+        / (
+            np.sqrt(1.0 + _raised(z / 0.048, 2))
+            * np.sqrt(1.0 + _raised(z / 0.32, 2))
+            * np.sqrt(1.0 + _raised(z / 1.35, 2))
+        )
     )
     return AMBIENT_PRESSURE_PA * ratio
 
@@ -42,7 +46,7 @@ def scaled_duration(scaled_distance: np.ndarray) -> np.ndarray:
     milliseconds = (
         980.0
         * (1.0 + _raised(z / 0.54, 10))
-        / ((1.0 + _raised(z / 0.02, 3)) * (1.0 + _raised(z / 0.74, 6)) * np.sqrt(1.0 + (z / 6.9) ** 2))
+        / ((1.0 + _raised(z / 0.02, 3)) * (1.0 + _raised(z / 0.74, 6)) * np.sqrt(1.0 + _raised(z / 6.9, 2)))
     )
     return 1e-3 * milliseconds
 
@@ -53,7 +57,7 @@ def scaled_incident_impulse(scaled_distance: np.ndarray) -> np.ndarray:
     Not in the report; Kinney and Graham give it in bar·ms, with 0.067.
     """
     z = np.asarray(scaled_distance, float)
-    return 6.7 * np.sqrt(1.0 + _raised(z / 0.23, 4)) / (z**2 * cube_root(1.0 + _raised(z / 1.55, 3)))
+    return 6.7 * np.sqrt(1.0 + _raised(z / 0.23, 4)) / (z * z * cube_root(1.0 + _raised(z / 1.55, 3)))
 
 
 def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
