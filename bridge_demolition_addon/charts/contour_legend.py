@@ -1,4 +1,4 @@
-"""The colour bar of contours, beside a rendered picture."""
+"""Colour bar of the contours, beside a rendered picture."""
 
 from __future__ import annotations
 

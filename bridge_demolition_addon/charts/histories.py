@@ -19,7 +19,7 @@ _MOST_KINDS = 7
 
 
 def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:
-    """Total and largest contact force, and what the ground carries by contacts, over time."""
+    """Draw total and largest contact force, and what the ground carries by contacts, over time."""
     axes = _time_axes(figure, "contact force (kN)", forces.times_s)
     axes.plot(forces.times_s, forces.total_n / 1e3, **line_style(0), label="all contacts together, at least")
     axes.plot(forces.times_s, forces.largest_n / 1e3, **line_style(1), label="largest on one shard")
@@ -28,7 +28,7 @@ def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: f
 
 
 def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
-    """Largest load on any shard over time, by connections and contacts together."""
+    """Draw the largest load on any shard over time, by connections and contacts together."""
     axes = _time_axes(figure, "largest load on a shard (kN)", results.frames.time_s)
     sums = largest_on_a_shard(results, results.frames.loads.body_peak_sums_n)
     resultants = largest_on_a_shard(results, results.frames.loads.body_peaks_n)
@@ -38,7 +38,7 @@ def load_history(figure: FigureBase, results: Results, impact_s: float | None) -
 
 
 def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
-    """The same from a log alone: times (k,), and (k,) largest sum and resultant on any body."""
+    """Draw the largest sum (k,) and resultant (k,) on any body over the times (k,) of a log."""
     axes = _time_axes(figure, "largest load on a body (kN)", times_s)
     axes.plot(times_s, sums_n / 1e3, **line_style(0), label="sum of magnitudes")
     axes.plot(times_s, resultants_n / 1e3, **line_style(1), label="resultant")
@@ -48,7 +48,7 @@ def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndar
 def breaking_history(
     figure: FigureBase, times_s: np.ndarray, kinds: Sequence[BreakingByKind], impact_s: float | None
 ) -> None:
-    """Share of the connections of each kind that are broken, over time."""
+    """Draw which share of the connections of each kind is broken, over time."""
     axes = _time_axes(figure, "connections broken (%)", times_s)
     for number, kind in enumerate(kinds[:_MOST_KINDS]):
         label = plain(f"{kind.kind} ({kind.broken[-1]} of {kind.count})")
@@ -62,7 +62,7 @@ def breaking_history(
 
 
 def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span], impact_s: float | None) -> None:
-    """Height of the centre of mass of every span over time, and of the lowest centre of its shards."""
+    """Draw the height of the centre of mass of every span over time, and of the lowest centre of its shards."""
     axes = _time_axes(figure, "height above the ground (m)", times_s)
     for number, span in enumerate(spans):
         style = line_style(number)
@@ -74,7 +74,7 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
 
 
 def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarray, impact_s: float | None) -> None:
-    """Progress of the collapse over time."""
+    """Draw the progress of the collapse over time."""
     axes = _time_axes(figure, "progress (%)", times_s)
     axes.plot(times_s, 100.0 * progress, **line_style(0), label="progress of the collapse")
     axes.set_ylim(min(0.0, 105.0 * progress.min()), 105.0)
@@ -82,7 +82,7 @@ def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarr
 
 
 def energy_history(figure: FigureBase, energy: Energy, impact_s: float | None) -> None:
-    """Potential and kinetic energy, and what is lost of them, over time."""
+    """Draw potential and kinetic energy, and what is lost of them, over time."""
     axes = _time_axes(figure, "energy (MJ)", energy.times_s)
     axes.plot(energy.times_s, energy.potential_j / 1e6, **line_style(0), label="potential")
     axes.plot(energy.times_s, energy.kinetic_j / 1e6, **line_style(1), label="kinetic")
@@ -92,7 +92,7 @@ def energy_history(figure: FigureBase, energy: Energy, impact_s: float | None) -
 
 
 def throw_distribution(figure: FigureBase, throws_m: np.ndarray, masses_kg: np.ndarray) -> None:
-    """Share of the debris that was thrown farther than a distance, by mass and by number."""
+    """Draw which share of the debris was thrown farther than a distance, by mass and by number."""
     axes = figure.add_subplot()
     order = np.argsort(throws_m)
     distances = np.concatenate([[0.0], throws_m[order]])
@@ -107,7 +107,7 @@ def throw_distribution(figure: FigureBase, throws_m: np.ndarray, masses_kg: np.n
 
 
 def compared_histories(figure: FigureBase, label: str, histories: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> None:
-    """Lines of several runs in one chart: the name of each, its times (k,) and its values (k,)."""
+    """Draw lines of several runs in one chart: of each its name, its times (k,) and its values (k,)."""
     axes = _time_axes(figure, label, np.concatenate([times for _, times, _ in histories]))
     for number, (name, times, values) in enumerate(histories):
         axes.plot(times, values, **line_style(number), label=plain(name))

@@ -50,7 +50,7 @@ _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.
 def debris_map(
     figure: FigureBase, results: Results, debris: Debris, zones: Sequence[Zone] = (), *, trajectories: bool = False
 ) -> None:
-    """Where the debris lies, against where the bridge stood.
+    """Draw where the debris lies, and where the bridge stood.
 
     Parameters
     ----------
@@ -75,14 +75,8 @@ def debris_map(
     draw_area(axes, debris.outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
     for ball in results.inventory.of_kind("ball"):
         hull = CrossSection.hull_points(corners_at(results, -1, ball)[:, :2])
-        draw_area(
-            axes,
-            hull,
-            facecolor="0.25",
-            edgecolor="black",
-            linewidth=0.5,
-            label=plain(results.inventory.body_names[ball]),
-        )
+        name = plain(results.inventory.body_names[ball])
+        draw_area(axes, hull, facecolor="0.25", edgecolor="black", linewidth=0.5, label=name)
     largest = np.argsort(-debris.throws_m, kind="stable")[:NAMED_THROWS]
     for number, row in enumerate(largest, start=1):
         first, last = results.frames.positions_m[[0, -1], debris.bodies[row], :2]
@@ -94,7 +88,7 @@ def debris_map(
 
 
 def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> None:
-    """How high the debris lies, in plan."""
+    """Draw how high the debris lies, in plan."""
     axes = _plan_axes(figure)
     xs, ys = heights.xs_m, heights.ys_m
     half = (xs[1] - xs[0]) / 2.0
@@ -109,7 +103,7 @@ def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> N
 
 
 def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone] = ()) -> None:
-    """The areas that make up the exclusion zone."""
+    """Draw the areas that make up the exclusion zone."""
     axes = _plan_axes(figure)
     draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone")
     draw_zones(axes, zones)
@@ -123,7 +117,7 @@ def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone]
 
 
 def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
-    """Footprints of the debris of several runs beside each other, all at one scale, each with the name of its run."""
+    """Draw the footprints of the debris of several runs beside each other, at one scale, each with its run's name."""
     low, high = _bounds_of(runs)
     rows = math.ceil(len(runs) / _MAPS_ABREAST)
     panels = figure.subplots(rows, min(len(runs), _MAPS_ABREAST), squeeze=False)
@@ -145,7 +139,7 @@ def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
 
 
 def debris_maps_height_mm(runs: Sequence[tuple[str, Debris]]) -> float:
-    """Height of `debris_maps` at the full width of a page, which suits their shape."""
+    """Return the height of `debris_maps` that suits their shape at the full width of a page."""
     low, high = _bounds_of(runs)
     columns, rows = min(len(runs), _MAPS_ABREAST), math.ceil(len(runs) / _MAPS_ABREAST)
     wide, across = high - low
@@ -154,7 +148,7 @@ def debris_maps_height_mm(runs: Sequence[tuple[str, Debris]]) -> float:
 
 
 def _bounds_of(runs: Sequence[tuple[str, Debris]]) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest and highest x and y of all debris and bridges, with some room around them."""
+    """Return the lowest and the highest x and y of all debris and bridges, with some room around them."""
     areas = [area for _, debris in runs for area in (debris.area, debris.outline) if not area.is_empty()]
     bounds = np.array([area.bounds() for area in areas])
     low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
@@ -182,18 +176,18 @@ def _name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
     """Write each zone's name where no other name is, if there is such a place at its sides."""
     letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes, figure)
     style = {"fontsize": _NAME_POINTS, "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}, "zorder": 5}
-    taken: list[np.ndarray] = []
+    occupied: list[np.ndarray] = []
     for zone in zones:
         size = letter_m * np.array([_LETTER_SHARE * len(zone.name), _LINE_SHARE])
         choices = [(*place, *_name_box(zone, *place, size)) for place in _NAME_PLACES]
-        free = (each for each in choices if not any(_overlap(each[3], other) for other in taken))
+        free = (each for each in choices if not any(_overlap(each[3], other) for other in occupied))
         across, upwards, anchor, box = next(free, choices[0])
-        taken.append(box)
+        occupied.append(box)
         axes.annotate(plain(zone.name), anchor, ha=across, va=upwards, **style)
 
 
 def _name_box(zone: Zone, across: str, upwards: str, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where a name of a size is anchored in its zone, and (2, 2) lowest and highest corner of the name."""
+    """Return where a name of a size is anchored in its zone, and its lowest and highest corner (2, 2)."""
     corners = np.array(zone.corners_m)
     low, high = corners.min(axis=0), corners.max(axis=0)
     sides = np.array([_SIDES[across], _SIDES[upwards]])
@@ -207,7 +201,7 @@ def _overlap(first: np.ndarray, second: np.ndarray) -> bool:
 
 
 def _metres_per_mm(axes: Axes, figure: FigureBase) -> float:
-    """About how many metres of a map are a millimetre of its drawing."""
+    """Return about how many metres of a map are a millimetre of its drawing."""
     shown = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)
     drawn_mm = MM_PER_INCH / figure.dpi * np.array([figure.bbox.width, figure.bbox.height]) * _AXES_SHARES
     return float((shown / drawn_mm).max())
@@ -238,7 +232,7 @@ def _fit(axes: Axes, figure: FigureBase) -> None:
 
 
 def _dimension(axes: Axes, zone: ExclusionZone) -> None:
-    """Length and width of the zone, and how far it reaches beyond the bridge to each side."""
+    """Draw how far the zone reaches beyond the bridge to each side."""
     low_x, low_y, high_x, high_y = zone.whole.bounds()
     bridge = zone.plan.bounds()
     middle_x, middle_y = (bridge[0] + bridge[2]) / 2.0, (bridge[1] + bridge[3]) / 2.0

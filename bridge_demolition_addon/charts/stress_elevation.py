@@ -1,4 +1,4 @@
-"""Stress contours: an elevation of the shards at one moment, each as dark as it is stressed."""
+"""Stress elevation: the shards at one moment as seen from the side, each as dark as it is stressed."""
 
 from __future__ import annotations
 

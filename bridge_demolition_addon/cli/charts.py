@@ -1,4 +1,4 @@
-"""``bda charts``: the charts to choose charges by, as pictures in a folder."""
+"""``bda charts``: draw the charts to choose charges by, as pictures in a folder."""
 
 import argparse
 from functools import partial

@@ -50,7 +50,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Run the scenarios, say how far they are, and then where the results are."""
+    """Run the scenarios, show how far they are, and print where the results are."""
     scenarios = [read_scenario(path) for path in arguments.scenarios]
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, progress: Progress) -> None:
-    """Run scenarios one after the other, none of them if any has to be refused; and compare them if that is wanted."""
+    """Run scenarios one after the other, none of them if any has to be refused, and compare them if wanted."""
     comparison = arguments.output / COMPARISON_FOLDER
     folders = study_folders(arguments.scenarios, arguments.output)
     if arguments.report and comparison in folders:

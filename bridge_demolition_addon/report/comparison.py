@@ -1,4 +1,4 @@
-"""Several runs side by side."""
+"""Comparison of several runs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .run_folder import Run
 
 
 def comparison(runs: Sequence[Run], version: str) -> Document:
-    """Main findings of several runs in one table, and their courses in common charts.
+    """Return the main findings of several runs in one table, and their courses in common charts.
 
     Runs without results are named and left out of what needs them.
     """
@@ -33,8 +33,8 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
     if shared := shared_beginning(runs):
         notices.append(Paragraph(f"The names of all folders begin with {shared}, which is left out here."))
     if moving := [name for name, run in whole if rest_of(run.results).moving_at_end]:
-        told = "Shards still move at the end of {}: their throws, footprints and piles are not final."
-        notices.append(Paragraph(told.format(", ".join(moving)), is_notice=True))
+        notice = "Shards still move at the end of {}: their throws, footprints and piles are not final."
+        notices.append(Paragraph(notice.format(", ".join(moving)), is_notice=True))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
@@ -45,13 +45,13 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
 
 
 def unique_names(runs: Sequence[Run]) -> list[str]:
-    """Names of the runs without what they share, and with numbers where two folders are called the same."""
+    """Return the names of the runs without what they share, with numbers where two folders are called the same."""
     names = [run.name.removeprefix(shared_beginning(runs)) for run in runs]
     return [f"{name} ({row + 1})" if names.count(name) > 1 else name for row, name in enumerate(names)]
 
 
 def shared_beginning(runs: Sequence[Run]) -> str:
-    """Whole words that all names of runs begin with: bridge_ of bridge_mid_span and bridge_near_end.
+    """Return the whole words that all names of runs begin with: bridge_ of bridge_mid_span and bridge_near_end.
 
     Without it the names are as short as columns and legends want them.
     """
@@ -118,5 +118,5 @@ def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
         if histories
     ]
     debris = [(name, debris_of(run.results)) for name, run in runs]
-    told = "Debris at the end in plan, and the bridge before."
-    return [*blocks, Picture(partial(debris_maps, runs=debris), told, debris_maps_height_mm(debris))]
+    caption = "Debris at the end in plan, and the bridge before."
+    return [*blocks, Picture(partial(debris_maps, runs=debris), caption, debris_maps_height_mm(debris))]

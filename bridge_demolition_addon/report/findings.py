@@ -1,4 +1,4 @@
-"""The main findings of a run, one number each: the summary of a report, and the columns of a comparison."""
+"""Main findings of a run, one number each: the summary of a report, and the columns of a comparison."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Finding:
 
 
 def findings(run: Run) -> list[Finding]:
-    """Main findings of a run that has results, always in the same order; the value is None where there is none."""
+    """Return the main findings of a run that has results, always in the same order, the value None where unknown."""
     results = run.results
     debris, rest = debris_of(results), rest_of(results)
     broken = int((~results.frames.intact[-1]).sum())

@@ -1,4 +1,4 @@
-"""Areas for a site plan: as DXF in local metres, and as GeoJSON where it is known where on earth the bridge is."""
+"""Write areas for a site plan: as DXF in local metres, and as GeoJSON in degrees where the site is known."""
 
 from __future__ import annotations
 

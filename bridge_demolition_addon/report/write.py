@@ -1,4 +1,4 @@
-"""From the folders of runs to a report: a page, a PDF, tables and site plans."""
+"""Write the report of a run, or of several: a page, a PDF, tables and site plans."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for l
 
 
 class Progress(Protocol):
-    """Whoever wants to know how far a report is."""
+    """Shows how far a report is."""
 
     def stage(self, text: str) -> None:
-        """Say what is done now."""
+        """Name what begins now."""
 
     def part(self, done: int, total: int, text: str) -> None:
-        """Say how many parts of a stage are done."""
+        """Give how many parts of a stage are done."""
 
 
 def write_report(
@@ -54,7 +54,7 @@ def write_report(
     trajectories
         Whether the map of the debris shows the paths of the shards.
     progress
-        Told about stages, pictures and pages.
+        Shows stages, pictures and pages.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def write_report(
 
 
 def add_on_version() -> str:
-    """Version of this program."""
+    """Return the version of this program."""
     try:
         return version("bridge-demolition-addon")
     except PackageNotFoundError:  # an extension inside Blender, or a plain copy

@@ -1,4 +1,4 @@
-"""What pictures of a demolition are to show."""
+"""Camera targets: what pictures of a demolition are to show."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ middle half as far."""
 
 
 def points_to_see(scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
-    """Points (n, 3) in m that a camera is to see: the bridge, what works on it, and the ground where members fall.
+    """Return the points that a camera is to see: the bridge, what works on it, and the ground where members fall.
 
     Parameters
     ----------
@@ -25,6 +25,11 @@ def points_to_see(scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
         What happens.
     members
         All members of the scenario.
+
+    Returns
+    -------
+    (n, 3) float
+        In m.
     """
     (first, right, _), (last, left, top) = extent(members)
     room = _DEBRIS_HEIGHTS * top
@@ -44,7 +49,7 @@ def _of_the_ball(scenario: Scenario, members: Sequence[Member]) -> Iterator[tupl
 
 
 def _of_jackhammers(scenario: Scenario, members: Sequence[Member]) -> Iterator[tuple[float, float, float]]:
-    """Upper ends of the chisels at the top of their strokes, at both ends of their paths."""
+    """Yield the upper ends of the chisels at the top of their strokes, at both ends of their paths."""
     for hammer in scenario.jackhammers:
         surface = surface_height(scenario, members, hammer.path_m[0])
         (tip,) = chisel_tip_positions(hammer, surface, np.array([hammer.start_time_s]))

@@ -1,4 +1,4 @@
-"""What contours show: a quantity of every body, frame by frame, and its place within a range of values."""
+"""Contours: a quantity of every body, frame by frame, and its place within a range of values."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class Scale:
     logarithmic: bool = False
 
     def shares(self, values: np.ndarray) -> np.ndarray:
-        """Shares (n,) of values (n,), nan where there is no value; all 0 in a range without an extent."""
+        """Return shares (n,) of values (n,), nan where there is no value; all 0 in a range without an extent."""
         values = np.asarray(values, float)
         low, high = self.low, self.high
         if not low < high:
@@ -113,7 +113,7 @@ class Scale:
         return np.clip((values - low) / (high - low), 0.0, 1.0)
 
     def ticks(self, most: int = 6) -> np.ndarray:
-        """Round values within the range, from low to high, no more than `most` of them."""
+        """Return round values within the range, from low to high, no more than `most` of them."""
         if not self.low < self.high:
             return np.array([self.low])
         if self.logarithmic:
@@ -135,7 +135,7 @@ class Unit:
 
 
 def unit_of(quantity: Quantity, high: float) -> Unit:
-    """The unit for a quantity whose largest magnitude is `high`, in N or Pa."""
+    """Return the unit for a quantity whose largest magnitude is `high`, in N or Pa."""
     if quantity in STRESSES:
         return Unit("N/mm²", 1e6) if high >= 1e4 else Unit("kPa", 1e3)
     return Unit("MN", 1e6) if high >= 1e6 else Unit("kN", 1e3) if high >= 1e3 else Unit("N", 1.0)
@@ -143,18 +143,18 @@ def unit_of(quantity: Quantity, high: float) -> Unit:
 
 @dataclass(frozen=True, slots=True)
 class ContourFrame:
-    """One frame's colours.
+    """Colours of one frame.
 
     Attributes
     ----------
     frame, time_s
         Which.
-    values
-        (n,) N or Pa; nan where a body has no value.
+    values : (n,) float
+        N or Pa; nan where a body has no value.
     scale
         The range.
-    screen_colours
-        (n, 3) as a screen has them.
+    screen_colours : (n, 3) float
+        As a screen has them.
     """
 
     frame: int
@@ -183,7 +183,7 @@ class ContourSeries:
 
     @classmethod
     def of_results(cls, results: Results) -> ContourSeries:
-        """The contours of a finished recording."""
+        """Return the contours of a finished recording."""
         series = cls(results.inventory)
         for frame in results.frames:
             series.append(frame)
@@ -208,22 +208,22 @@ class ContourSeries:
         self._frames.append(frame)
 
     def row_at(self, frame: int) -> int | None:
-        """The row of a frame, or of the recorded one before it; the first before all, None where none is recorded."""
+        """Return the row of a frame or of the last recorded one before it, else the first; None without any."""
         if frame in self._rows:
             return self._rows[frame]
         return max(bisect.bisect_right(self.frames, frame) - 1, 0) if self._frames else None
 
     def frame(self, row: int) -> Frame:
-        """The frame of a row as it was recorded."""
+        """Return the frame of a row as it was recorded."""
         return self._frames[row]
 
     def values(self, row: int, quantity: Quantity, *, peak: bool = False) -> np.ndarray:
-        """Values (n,) of a row, N or Pa; nan for bodies that do not move and where nothing is known."""
+        """Return the values (n,) of a row, N or Pa; nan for bodies that do not move and where nothing is known."""
         self._fill(quantity, peak)
         return self._values[quantity, peak][row]
 
     def show(self, row: int, settings: ContourSettings) -> ContourFrame:
-        """The colours of a row."""
+        """Return the colours of a row."""
         values = self.values(row, settings.quantity, peak=settings.peak)
         scale = self._scale(row, settings)
         frame = self._frames[row]
@@ -231,7 +231,7 @@ class ContourSeries:
         return ContourFrame(int(frame.number), float(frame.time_s), values, scale, painted)
 
     def extent(self, row: int | None, quantity: Quantity, *, peak: bool = False) -> tuple[float, float]:
-        """Lowest and highest value, N or Pa, of a row, or of all rows for None; 0 always lies between them.
+        """Return the lowest and highest value, N or Pa, of a row, or of all rows for None; 0 is always among them.
 
         As in 2019 a range has 0 in it, so that what is free of load has the colour of that.
         """
@@ -266,7 +266,7 @@ class ContourSeries:
 
 
 def _means(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
-    """Values (n,) of a frame."""
+    """Return the values (n,) of a frame."""
     match quantity:
         case Quantity.SIGNED_2019:
             return loads.body_signed_2019_n
@@ -281,7 +281,7 @@ def _means(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
 
 
 def _peaks(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
-    """Largest values (n,) within a frame, as far as they are recorded."""
+    """Return the largest values (n,) within a frame, as far as they are recorded."""
     match quantity:
         case Quantity.SIGNED_2019:
             return abs(_means(quantity, loads))
@@ -294,6 +294,6 @@ def _peaks(quantity: Quantity, loads: FrameLoads) -> np.ndarray:
 
 
 def _round_step(step: float) -> float:
-    """The next larger of 1, 2 and 5 times a power of ten."""
+    """Return the next larger of 1, 2 and 5 times a power of ten."""
     power = 10.0 ** math.floor(math.log10(step))
     return next(power * digit for digit in (1.0, 2.0, 5.0, 10.0) if power * digit >= step * (1.0 - 1e-9))

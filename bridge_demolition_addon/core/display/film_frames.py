@@ -1,4 +1,4 @@
-"""Which recorded frame each picture of a film shows, in real time or slowed down."""
+"""Film frames: which recorded frame each picture of a film shows, in real time or slowed down."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from ..errors import OutputError
 
 
 def film_rows(times_s: np.ndarray, pictures_per_second: float, slowness: float = 1.0) -> np.ndarray:
-    """Rows (p,) of recorded frames, one for every picture of a film from the first frame to the last.
+    """Return the rows (p,) of recorded frames, one for every picture of a film from the first frame to the last.
 
     The film shows the frame whose time is nearest. So it keeps time where frames are of different lengths, as around a
     detonation, and where it is slowed down it shows frames several times, as nothing is known between them.
 
     Parameters
     ----------
-    times_s
-        (k,) simulated times of the frames, rising.
+    times_s : (k,) float
+        Simulated times of the frames, rising.
     pictures_per_second
         Of the film.
     slowness

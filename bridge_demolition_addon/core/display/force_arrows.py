@@ -11,12 +11,12 @@ _HEAD_SLOPE = 0.35
 
 
 def body_forces(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 3) in m, and resultants of connections and contacts (n, 3) in N, of all bodies."""
+    """Return centres (n, 3) in m, and resultants of connections and contacts (n, 3) in N, of all bodies."""
     return frame.positions_m, frame.loads.body_forces_n
 
 
 def contact_forces(frame: Frame, frame_s: float) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 3) in m, and mean forces of all contacts (n, 3) in N, over a frame of `frame_s`."""
+    """Return centres (n, 3) in m, and mean forces of all contacts (n, 3) in N, over a frame of `frame_s`."""
     impulses = frame.loads.body_contact_impulses_ns
     return frame.positions_m, impulses / frame_s if frame_s > 0.0 else np.zeros_like(impulses)
 
@@ -24,7 +24,7 @@ def contact_forces(frame: Frame, frame_s: float) -> tuple[np.ndarray, np.ndarray
 def connection_forces(
     frame: Frame, first: Frame, pairs: np.ndarray, points_m: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where connections that hold are, (h, 3) in m, and their forces on their first bodies (h, 3) in N.
+    """Return where connections that hold are, (h, 3) in m, and their forces on their first bodies, (h, 3) in N.
 
     Connections move with their first bodies: `pairs` (m, 2) are the bodies, `points_m` (m, 3) their positions in the
     frame `first`.
@@ -37,12 +37,12 @@ def connection_forces(
 
 
 def arrows(starts: np.ndarray, forces: np.ndarray, metres_per_newton: float, least_m: float = 0.0) -> np.ndarray:
-    """Arrows as lines: ends (6 k, 3) of three lines each, for the k forces that make an arrow longer than `least_m`.
+    """Return arrows as lines: ends (6 k, 3) of three lines each, for the k forces whose arrow exceeds `least_m`.
 
     Parameters
     ----------
-    starts, forces
-        (n, 3) in m, and (n, 3) in N; a force that is not known has no arrow.
+    starts, forces : (n, 3) float
+        In m and in N; a force that is not known has no arrow.
     metres_per_newton
         Scale.
     least_m
@@ -59,7 +59,7 @@ def arrows(starts: np.ndarray, forces: np.ndarray, metres_per_newton: float, lea
 
 
 def _across(directions: np.ndarray) -> np.ndarray:
-    """Unit vectors (n, 3) at right angles to others, level where that can be."""
+    """Return unit vectors (n, 3) at right angles to others, level where that can be."""
     upright = abs(directions[:, 2]) > 0.99
     across = np.cross(directions, np.where(upright[:, None], (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
     return across / np.linalg.norm(across, axis=1, keepdims=True)

@@ -1,4 +1,4 @@
-"""How a bridge comes down: heights of its spans, how far the collapse is, and when all is at rest."""
+"""Collapse: heights of the spans, how far the collapse is, and when all is at rest."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class Span:
     ----------
     name
         What it is called.
-    bodies
+    bodies : (b,) int
         Indices of its shards.
-    heights_m, lowest_m
-        (k,) height of its centre of mass, and of the lowest centre of its shards.
+    heights_m, lowest_m : (k,) float
+        Height of its centre of mass, and of the lowest centre of its shards.
     """
 
     name: str
@@ -37,12 +37,12 @@ class Span:
 
     @property
     def drop_m(self) -> float:
-        """How far its centre of mass came down."""
+        """Height by which its centre of mass came down."""
         return float(self.heights_m[0] - self.heights_m[-1])
 
 
 def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Span, ...]:
-    """Spans of the deck, told apart by where their shards were at first.
+    """Return the spans of the deck, divided by where their shards were at first.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Sp
 
 
 def collapse_progress(results: Results) -> np.ndarray:
-    """How far the collapse is at each recorded step, (k,) from 0 to 1, and a little below 0 where shards rise.
+    """Return how far the collapse is at each recorded step, (k,) from 0 to 1, a little below 0 where shards rise.
 
     The part of the height of the shards' centre of mass above the ground that is lost: 0 stands as it did, 1 would be
     all of it flat on the ground.
@@ -98,7 +98,7 @@ class ShardRest:
 
 
 def rest_of(results: Results) -> ShardRest:
-    """When the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
+    """Return when the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
     shards = results.inventory.of_kind("shard")
     moving = np.linalg.norm(results.frames.velocities_m_s[:, shards], axis=2) > REST_SPEED_M_S
     at_times = np.flatnonzero(moving.any(axis=1))

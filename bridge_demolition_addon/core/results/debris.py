@@ -27,14 +27,14 @@ class Debris:
 
     Attributes
     ----------
-    bodies
-        (d,) indices of the shards.
-    throws_m
-        (d,) horizontal distance of each from where it was at first, between centres of mass.
-    reaches_m
-        (d,) how far each sticks out of the bridge's first outline in plan, 0 for one that lies within it.
-    masses_kg
-        (d,) their masses.
+    bodies : (d,) int
+        Indices of the shards.
+    throws_m : (d,) float
+        Horizontal distance of each from where it was at first, between centres of mass.
+    reaches_m : (d,) float
+        How far each sticks out of the bridge's first outline in plan, 0 for one that lies within it.
+    masses_kg : (d,) float
+        Their masses.
     area
         What they cover in plan.
     outline
@@ -53,7 +53,7 @@ class Debris:
 
 
 def debris_of(results: Results) -> Debris:
-    """The debris at the last recorded step."""
+    """Return the debris at the last recorded step."""
     shards = results.inventory.of_kind("shard")
     first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
     bodies = shards[travel(first[shards], last[shards]) > MOVED_M]
@@ -72,7 +72,7 @@ def debris_of(results: Results) -> Debris:
 
 
 def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: Sequence[float] = PERCENTS) -> np.ndarray:
-    """Smallest of the values (d,) up to which each of the percents (p,) of the mass lies, (p,)."""
+    """Return the smallest of the values (d,) up to which each of the percents (p,) of the mass lies, (p,)."""
     if not len(values):
         return np.full(len(percents), np.nan)
     order = np.argsort(values, kind="stable")
@@ -88,10 +88,10 @@ class HeightMap:
 
     Attributes
     ----------
-    xs_m, ys_m
-        (i,) and (j,) middles of the cells.
-    heights_m
-        (j, i) height of the highest surface over the middle of each cell; nan where there is none.
+    xs_m, ys_m : (i,) and (j,) float
+        Middles of the cells.
+    heights_m : (j, i) float
+        Height of the highest surface over the middle of each cell; nan where there is none.
     """
 
     xs_m: np.ndarray
@@ -108,7 +108,7 @@ class HeightMap:
 
 
 def height_map(results: Results, bodies: np.ndarray, step: int = -1, cells: int = 200) -> HeightMap:
-    """Heights of the convex hulls of bodies (d,) over the longer side of their plan cut into so many cells.
+    """Return the heights of the convex hulls of bodies (d,); the longer side of their plan is cut into `cells`.
 
     A body whose hull is flat has no upper side, and is left out.
     """
@@ -139,7 +139,7 @@ _UPRIGHT = 1e-9
 
 
 def _upper_side(normals: np.ndarray, offsets: np.ndarray, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
-    """Heights (j, i) of the upper side of a convex body n·x ≤ d over a grid; nan beside it."""
+    """Return the heights (j, i) of the upper side of a convex body n·x ≤ d over a grid; nan beside it."""
     over_faces = offsets[:, None, None] - normals[:, 0, None, None] * xs - normals[:, 1, None, None] * ys[:, None]
     rising = normals[:, 2]
     up, down, upright = rising > _UPRIGHT, rising < -_UPRIGHT, abs(rising) <= _UPRIGHT

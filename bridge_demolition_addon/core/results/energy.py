@@ -19,12 +19,12 @@ class Energy:
 
     Attributes
     ----------
-    times_s
-        (k,) times.
-    potential_j
-        (k,) above the heights at the lowest of all steps, so that it is never negative.
-    translation_j, rotation_j
-        (k,) of the motion of centres of mass, and of rotation about them.
+    times_s : (k,) float
+        Times.
+    potential_j : (k,) float
+        Above that of the lowest of all steps, so that it is never negative.
+    translation_j, rotation_j : (k,) float
+        Of the motion of centres of mass, and of rotation about them.
     """
 
     times_s: np.ndarray
@@ -34,12 +34,12 @@ class Energy:
 
     @property
     def kinetic_j(self) -> np.ndarray:
-        """(k,) both parts of it."""
+        """Both parts of the kinetic energy, (k,)."""
         return self.translation_j + self.rotation_j
 
     @property
     def dissipated_j(self) -> np.ndarray:
-        """(k,) what is missing of the first step's energy: into impacts, friction, damping and breaking.
+        """Energy lost since the first step, (k,): into impacts, friction, damping and breaking.
 
         Negative where something else than gravity does work, such as charges, a prescribed motion, or the solver
         itself as it presses bodies apart.
@@ -49,36 +49,37 @@ class Energy:
 
 
 def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> Energy:
-    """Energies of the bodies that can move.
+    """Return the energies of the bodies that can move.
 
-    Those of rotation are reckoned with the moments of inertia that Bullet gives its bodies, so that they are the
+    Those of rotation are calculated with the moments of inertia that Bullet gives its bodies, so that they are the
     simulation's own; see `moments_of_inertia`.
     """
-    masses = results.inventory.masses_kg
-    potentials = gravity_m_s2 * results.frames.positions_m[:, :, 2] @ masses
-    spins = np.einsum("knji,knj->kni", results.frames.rotations, results.frames.angular_velocities_rad_s)
+    masses, frames = results.inventory.masses_kg, results.frames
+    potentials = gravity_m_s2 * frames.positions_m[:, :, 2] @ masses
+    spins = np.einsum("knji,knj->kni", frames.rotations, frames.angular_velocities_rad_s)
     return Energy(
-        times_s=results.frames.time_s,
+        times_s=frames.time_s,
         potential_j=potentials - potentials.min(),
-        translation_j=0.5 * (results.frames.velocities_m_s**2).sum(axis=2) @ masses,
+        translation_j=0.5 * (frames.velocities_m_s**2).sum(axis=2) @ masses,
         rotation_j=0.5 * (spins**2 * moments_of_inertia(results)).sum(axis=(1, 2)),
     )
 
 
 def moments_of_inertia(results: Results) -> np.ndarray:
-    """Moments of inertia (n, 3) about each body's own axes as Bullet reckons with them, kg·m².
+    """Return the moments of inertia (n, 3) about each body's own axes as Bullet uses them, kg·m².
 
     A ball is a sphere. Bullet takes a convex hull for the box around it, in the body's own axes: for a shard up to
     twice what its true shape has.
     """
-    moments = np.zeros((len(results.inventory.masses_kg), 3))
-    for body in np.flatnonzero(results.inventory.masses_kg > 0.0):
-        corners = results.inventory.vertices_of(body)
+    inventory, masses = results.inventory, results.inventory.masses_kg
+    moments = np.zeros((len(masses), 3))
+    for body in np.flatnonzero(masses > 0.0):
+        corners = inventory.vertices_of(body)
         if not len(corners):
             continue
         squares = np.ptp(corners, axis=0) ** 2
-        if results.inventory.body_kinds[body] == "ball":
-            moments[body] = _SPHERE * results.inventory.masses_kg[body] * squares.max() / 4.0
+        if inventory.body_kinds[body] == "ball":
+            moments[body] = _SPHERE * masses[body] * squares.max() / 4.0
         else:
-            moments[body] = results.inventory.masses_kg[body] * (squares.sum() - squares) / 12.0
+            moments[body] = masses[body] * (squares.sum() - squares) / 12.0
     return moments

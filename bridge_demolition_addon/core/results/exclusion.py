@@ -1,4 +1,4 @@
-"""The exclusion zone: plan area, designed drop, predicted debris and a buffer.
+"""Exclusion zone: plan area, designed drop, predicted debris and a buffer.
 
 These are the four areas that BS 6187:2011, *Code of practice for full and partial demolition*, makes up an exclusion
 zone from. How wide the buffer has to be is for the engineer to say: the simulation knows neither pieces smaller than
@@ -23,7 +23,7 @@ _CIRCLE_SEGMENTS = 64
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExclusionZone:
-    """The areas of an exclusion zone, each on its own, and the whole.
+    """Areas of an exclusion zone, each on its own, and the whole.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class ExclusionZone:
 
     @property
     def largest_distance_m(self) -> float:
-        """How far the zone reaches from the bridge's plan at most."""
+        """Largest distance of the zone's edge from the bridge's plan."""
         corners = np.concatenate(outlines(self.whole))
         return float(distances_outside(self.plan, corners).max())
 
@@ -55,7 +55,7 @@ class ExclusionZone:
 
 
 def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
-    """The exclusion zone of a run."""
+    """Return the exclusion zone of a run."""
     shards = results.inventory.of_kind("shard")
     plan = footprint(results, shards, 0)
     drop = widened(plan, settings.designed_drop_m)
@@ -64,7 +64,7 @@ def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
 
 
 def widened(area: CrossSection, distance_m: float) -> CrossSection:
-    """An area with everything nearer to it than a distance."""
+    """Return an area with everything nearer to it than a distance."""
     if distance_m <= 0.0:
         return area
     return area.offset(distance_m, JoinType.Round, circular_segments=_CIRCLE_SEGMENTS)

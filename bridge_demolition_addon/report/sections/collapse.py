@@ -14,17 +14,17 @@ from ..run_folder import Run
 
 
 def collapse_section(run: Run) -> Section:
-    """How the bridge came down."""
+    """Return how the bridge came down."""
     results = run.results
     bridge = run.scenario.bridge if run.scenario else None  # there is none where all is of files or objects
     lengths = bridge.span_lengths_m if bridge else ()
     spans, progress, energy = spans_of(results, lengths), collapse_progress(results), energy_of(results)
-    told = (
+    definitions = (
         "Progress is the part of the height of the shards' common centre of mass above the ground that is lost: 100 % "
         f"would be all of it flat on the ground. At rest is what moves more slowly than {REST_SPEED_M_S:g} m/s."
     )
     blocks: list[Block] = [
-        Paragraph(told),
+        Paragraph(definitions),
         facts("Course of the collapse", _course(rest_of(results), progress), "collapse"),
     ]
     if spans:

@@ -1,4 +1,4 @@
-"""The first section of a report: what was run, where its numbers come from, and how far to trust them."""
+"""First section of a report: what was run, where its numbers come from, and how far to trust them."""
 
 from __future__ import annotations
 

@@ -25,15 +25,15 @@ _SHORTEST_MAP_MM, _TALLEST_MAP_MM = 75.0, 150.0
 
 
 def debris_section(run: Run, *, trajectories: bool) -> Section:
-    """Where the debris went."""
+    """Return where the debris went."""
     results, zones = run.results, run.scenario.zones if run.scenario else ()
     debris = debris_of(results)
-    told = (
+    words = (
         f"Debris is every shard that ended more than {MOVED_M:g} m from where it began. The throw is the horizontal "
         "distance between the first and the last place of its centre of mass; its reach is how far it sticks out of "
         "the bridge's first outline in plan."
     )
-    blocks: list[Block] = [Paragraph(told)]
+    blocks: list[Block] = [Paragraph(words)]
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)
         blocks += _debris_blocks(results, debris, heights, zones, trajectories)
@@ -44,16 +44,16 @@ def debris_section(run: Run, *, trajectories: bool) -> Section:
 
 
 def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]) -> Section:
-    """The exclusion zone, or why there is none."""
+    """Return the exclusion zone, or why there is none."""
     if zone is None:
-        told = (
+        words = (
             "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to scenario_as_run.toml in "
             "the folder of the run, and make the report again to have the zone drawn here."
         )
-        return Section("Exclusion zone", (Paragraph(told, is_notice=True),))
+        return Section("Exclusion zone", (Paragraph(words, is_notice=True),))
     settings = run.scenario.exclusion
     low_x, low_y, high_x, high_y = zone.bounds_m
-    told = (
+    words = (
         "Plan area of the bridge, designed drop area, predicted debris area, and a buffer around all of them, as "
         "BS 6187 makes up an exclusion zone. Predicted debris is all that shards and balls covered at any time of this "
         f"one run. The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's."
@@ -69,7 +69,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
         ("Farthest from the bridge's plan", f"{zone.largest_distance_m:.2f} m"),
     ]
     blocks: list[Block] = [
-        Paragraph(told),
+        Paragraph(words),
         Picture(
             partial(exclusion_map, zone=zone, zones=run.scenario.zones),
             "Exclusion zone in plan, with its reach beyond the bridge to each side.",
@@ -85,7 +85,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
 
 
 def zone_of(run: Run) -> ExclusionZone | None:
-    """The exclusion zone where the scenario asks for one."""
+    """Return the exclusion zone where the scenario asks for one."""
     if run.results is None or run.scenario is None or run.scenario.exclusion is None:
         return None
     if not len(run.results.inventory.of_kind("shard")):
@@ -94,7 +94,7 @@ def zone_of(run: Run) -> ExclusionZone | None:
 
 
 def corner_table(zone: ExclusionZone) -> DataTable:
-    """Corners of the exclusion zone, for its CSV file."""
+    """Return the corners of the exclusion zone, for its CSV file."""
     columns = (Column("ring", "ring"), Column("x (m)", "x_m", ".3f"), Column("y (m)", "y_m", ".3f"))
     rows = [
         (number, round(float(x), 4), round(float(y), 4))
@@ -210,12 +210,12 @@ def _zone_blocks(run: Run, zones: Sequence[Zone]) -> list[Block]:
         Column("mass within at the end (t)", "mass_within_t", ".2f"),
         Column("there before", "bodies_there_before", "d"),
     )
-    told = (
+    words = (
         "A zone is entered when the convex hull of a shard or ball first reaches into it. Between two frames bodies "
         "are taken to move and turn evenly, and the moment is found to a millisecond. Bodies that were in a zone "
         "from the beginning are counted apart."
     )
-    return [Paragraph(told), DataTable("zones", "Zones", columns, [_zone_row(results, watch) for watch in watches])]
+    return [Paragraph(words), DataTable("zones", "Zones", columns, [_zone_row(results, watch) for watch in watches])]
 
 
 def _zone_row(results: Results, watch: ZoneWatch) -> tuple:
@@ -232,6 +232,6 @@ def _zone_row(results: Results, watch: ZoneWatch) -> tuple:
 
 
 def _map_height(bounds: Sequence[float]) -> float:
-    """Height of a map of an area with these bounds, with room for axes and legend, mm."""
+    """Return the height of a map of an area with these bounds, with room for axes and legend, mm."""
     width, height = bounds[2] - bounds[0], bounds[3] - bounds[1]
     return float(np.clip(25.0 + 150.0 * height / max(width, 1e-9), _SHORTEST_MAP_MM, _TALLEST_MAP_MM))

@@ -1,4 +1,4 @@
-"""Forces and stresses in a report: histories, the most loaded, the hits of the ball, contours, and what broke."""
+"""Forces and stresses in a report: histories, the most loaded, the hits of the ball, and what broke."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _BEYOND_THE_FORCE = (
 
 
 def force_section(run: Run) -> Section:
-    """Loads, hits and breaking of a run that has results."""
+    """Return loads, hits and breaking of a run that has results."""
     results = run.results
     known = np.isfinite(results.frames.loads.body_sums_n).any()
     blocks: list[Block] = []
@@ -47,13 +47,13 @@ def force_section(run: Run) -> Section:
         blocks.append(Paragraph("Forces were not recorded in this run.", is_notice=True))
     blocks += _hit_blocks(run)
     if known:
-        blocks += _contour_blocks(run)
+        blocks += _stress_blocks(run)
     blocks += _breaking_blocks(run)
     return Section("Forces and stresses", tuple(blocks))
 
 
 def logged_section(run: Run) -> Section:
-    """What the logs of a killed run still tell of forces and breaking."""
+    """Return what the logs of a killed run still hold of forces and breaking."""
     blocks: list[Block] = []
     forces: LoggedForces | None = run.logged_forces
     if forces is not None:
@@ -75,15 +75,13 @@ def _loaded_bodies(results: Results) -> DataTable:
         Column("resultant then (kN)", "peak_force_kN", ".1f"),
         Column("time (s)", "time_s", ".3f"),
     )
+    inventory, frames = results.inventory, results.frames
     rows = []
-    for peak in most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard")):
-        numbers = (
-            peak.force_n / 1e3,
-            results.frames.loads.body_peaks_n[peak.step, peak.row] / 1e3,
-            results.frames.time_s[peak.step],
-        )
-        names = (str(results.inventory.body_names[peak.row]), str(results.inventory.body_members[peak.row]))
-        rows.append((*names, float(results.inventory.masses_kg[peak.row]), *map(float, numbers)))
+    for peak in most_loaded(frames.loads.body_peak_sums_n, inventory.of_kind("shard")):
+        resultant_n = frames.loads.body_peaks_n[peak.step, peak.row]
+        numbers = (inventory.masses_kg[peak.row], peak.force_n / 1e3, resultant_n / 1e3, frames.time_s[peak.step])
+        names = (str(inventory.body_names[peak.row]), str(inventory.body_members[peak.row]))
+        rows.append((*names, *map(float, numbers)))
     return DataTable("most_loaded_shards", "The ten most loaded shards", columns, rows)
 
 
@@ -143,16 +141,16 @@ def _hit_blocks(run: Run) -> list[Block]:
         ("hertz_peak_force_N", 1e-6),
     )
     rows = [(hit["ball"], *(scale * hit[key] if key in hit else None for key, scale in scales)) for hit in hits]
-    told = (
+    notes = (
         "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the impulse "
         "spread over Hertz's or the given contact time. Hertz: the force of an elastic hit, which steel and concrete "
         "cannot reach, an upper bound for a ball that flies into something. Where falling debris pushes the ball "
         "while it touches, the impulse is larger than the speed explains, and Hertz's force says nothing."
     )
-    return [DataTable("hits_of_the_ball", "Hits of the ball", columns, rows), Paragraph(told)]
+    return [DataTable("hits_of_the_ball", "Hits of the ball", columns, rows), Paragraph(notes)]
 
 
-def _contour_blocks(run: Run) -> list[Block]:
+def _stress_blocks(run: Run) -> list[Block]:
     results, moments = run.results, []
     if run.impact_s is not None:
         moments.append(
@@ -161,14 +159,14 @@ def _contour_blocks(run: Run) -> list[Block]:
     peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if peaks:
         moments.append((peaks[0].step, "in the frame of the largest load"))
-    told = (
+    caption = (
         "Equivalent stress of the shards {}, {:.3f} s, seen from the side, nearer shards in front: the mean over each "
         "shard, in the sub-step of the frame in which its loads were largest."
     )
     return [
         Picture(
             partial(stress_elevation, results=results, step=step),
-            told.format(words, results.frames.time_s[step]),
+            caption.format(words, results.frames.time_s[step]),
             85.0,
         )
         for step, words in moments
