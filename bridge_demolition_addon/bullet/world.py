@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import itertools
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from enum import Enum
 
 import bpy
@@ -57,6 +58,45 @@ class WorldState(Enum):
     KNOWN = "the world of the last call"
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _BoundWorld:
+    """A world that was checked: n bodies, m connections of which e exist in it, c of these keep bodies from colliding.
+
+    Attributes
+    ----------
+    dynamics : int
+        Address of the btDiscreteDynamicsWorld.
+    bodies, connections : (n,) uint64, (m,) uint64
+        Addresses; 0 for a connection that does not exist.
+    exists : (m,) bool
+        Whether each connection exists; kept up to date.
+    removed : (n,) bool
+        Bodies that were taken out of the simulation; kept up to date.
+    thresholds : (e,) float
+        Breaking thresholds for sub-steps of normal length, N·s.
+    forbids_collision : (m,) bool
+        Whether each connection keeps its bodies from colliding; kept up to date.
+    ignored, ignored_rows : IgnoredCollisions, (m,) int
+        How these are let collide, and the rows of connections in it.
+    fingerprints : Fingerprints
+        How a connection that was freed is told.
+    contacts : ContactReader
+        Reads the contacts.
+    """
+
+    dynamics: int
+    bodies: np.ndarray
+    connections: np.ndarray
+    exists: np.ndarray
+    removed: np.ndarray
+    thresholds: np.ndarray
+    forbids_collision: np.ndarray
+    ignored: IgnoredCollisions
+    ignored_rows: np.ndarray
+    fingerprints: Fingerprints
+    contacts: ContactReader
+
+
 class BulletWorld:
     """Bodies and connections of a scene as arrays over Bullet's own memory.
 
@@ -69,10 +109,6 @@ class BulletWorld:
     layout
         Byte offsets; those of this platform unless given.
 
-    Attributes
-    ----------
-    removed
-        (n,) bodies that `remove_bodies` took away.
     """
 
     def __init__(
@@ -86,12 +122,9 @@ class BulletWorld:
         self.bodies = tuple(bodies)
         self.connections = tuple(connections)
         self._layout = layout or platform_layout()
-        self._dynamics = 0
         self._token = 0
-        self._body_addresses = np.zeros(len(self.bodies), np.uint64)
-        self._connection_addresses = np.zeros(len(self.connections), np.uint64)
-        self._exists = np.zeros(len(self.connections), bool)
-        self.removed = np.zeros(len(self.bodies), bool)
+        self._bound: _BoundWorld | None = None
+        self._threshold_factor, self._holds_connections = 1.0, False
         self._feedback = _aligned_doubles(len(self.connections))
 
     def bind(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
@@ -107,14 +140,19 @@ class BulletWorld:
             A body is not part of Blender's simulation.
         """
         dynamics = self._find_dynamics_world()
-        known = dynamics == self._dynamics and self._is_marked(dynamics)
-        self._dynamics = 0
+        if self._is_bound_to(dynamics):
+            return WorldState.KNOWN
+        self._bound = None
         if not dynamics:
             return WorldState.ABSENT
-        if not known:
-            self._adopt(dynamics, depsgraph)
-        self._dynamics = dynamics
-        return WorldState.KNOWN if known else WorldState.NEW
+        self._bound = self._check(dynamics, depsgraph)
+        self._prepare()
+        return WorldState.NEW
+
+    @property
+    def removed(self) -> np.ndarray:
+        """Bodies (n,) that `remove_bodies` took out of the simulation."""
+        return self._bound.removed
 
     def call_around_substeps(
         self, before: Callable[[float], None], after: Callable[[float], None] | None = None
@@ -127,7 +165,7 @@ class BulletWorld:
         world = self._layout.world
         for field, action in ((world.before_step, before), (world.after_step, after)):
             address = ctypes.cast(_callback(action), ctypes.c_void_p).value if action else 0
-            write_pointers(self._dynamics + field, address)
+            write_pointers(self._bound.dynamics + field, address)
 
     def take_substep(self) -> float:
         """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
@@ -135,23 +173,23 @@ class BulletWorld:
         Bullet writes the length at every sub-step and never reads it back, so that taking it out tells frames that
         were simulated from frames that Blender played back from its cache.
         """
-        address = self._dynamics + self._layout.world.step
+        address = self._bound.dynamics + self._layout.world.step
         substep = float(gather_doubles(np.array([address]))[0, 0])
         write_doubles(np.array([address]), 0.0)
         return substep
 
     def places(self) -> tuple[np.ndarray, np.ndarray]:
         """Origins (n, 3) in m and rotation matrices (n, 3, 3) of all bodies."""
-        transforms = gather_doubles(self._body_addresses + np.uint64(self._layout.body.transform), 15)
+        transforms = gather_doubles(self._bound.bodies + np.uint64(self._layout.body.transform), 15)
         return transforms[:, 12:15], transforms[:, :12].reshape(-1, 3, 4)[:, :, :3]
 
     def velocities(self) -> np.ndarray:
         """Linear velocities (n, 3) of all bodies, m/s."""
-        return gather_doubles(self._body_addresses + np.uint64(self._layout.body.linear_velocity), 3)
+        return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.linear_velocity), 3)
 
     def spins(self) -> np.ndarray:
         """Angular velocities (n, 3) of all bodies, rad/s."""
-        return gather_doubles(self._body_addresses + np.uint64(self._layout.body.angular_velocity), 3)
+        return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.angular_velocity), 3)
 
     def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray | None = None) -> None:
         """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
@@ -165,7 +203,7 @@ class BulletWorld:
             if values is None:
                 continue
             sums = np.column_stack([np.bincount(bodies, column, count) for column in values.T])[named]
-            fields = self._body_addresses[named] + np.uint64(self._layout.body.total_force + offset)
+            fields = self._bound.bodies[named] + np.uint64(self._layout.body.total_force + offset)
             write_vectors(fields, gather_doubles(fields, 3) + sums)
 
     def wake(self, bodies: np.ndarray) -> None:
@@ -175,19 +213,19 @@ class BulletWorld:
         they get it here.
         """
         named = self._named(bodies)
-        states = gather_integers(self._body_addresses[named] + np.uint64(self._layout.body.activation))
-        drowsy = self._body_addresses[named[(states == ASLEEP) | (states == WANTS_SLEEP)]]
+        states = gather_integers(self._bound.bodies[named] + np.uint64(self._layout.body.activation))
+        drowsy = self._bound.bodies[named[(states == ASLEEP) | (states == WANTS_SLEEP)]]
         write_integers(drowsy + np.uint64(self._layout.body.activation), AWAKE)
         write_doubles(drowsy + np.uint64(self._layout.body.deactivation_time), 0.0)
         sleeping = named[states == ASLEEP]
         if not len(sleeping):
             return
-        weights = gather_doubles(self._body_addresses[sleeping] + np.uint64(self._layout.body.gravity), 3)
+        weights = gather_doubles(self._bound.bodies[sleeping] + np.uint64(self._layout.body.gravity), 3)
         self.add_forces(sleeping, weights)
 
     def asleep(self) -> np.ndarray:
         """Whether each body (n,) is asleep; what can never move is not."""
-        states = gather_integers(self._body_addresses + np.uint64(self._layout.body.activation))
+        states = gather_integers(self._bound.bodies + np.uint64(self._layout.body.activation))
         return np.isin(states, list(SLEEPING)) & self.can_move()
 
     def contacts(self) -> Contacts:
@@ -198,27 +236,27 @@ class BulletWorld:
         LayoutError
             Memory is not as expected.
         """
-        contacts = self._contact_reader.read()
+        contacts = self._bound.contacts.read()
         # Two bodies that rest on each other keep their last contact when both are removed.
-        return contacts.without(self.removed) if self.removed.any() else contacts
+        return contacts.without(self._bound.removed) if self._bound.removed.any() else contacts
 
     def applied_impulses(self) -> np.ndarray:
         """The one number (m,) that Bullet keeps of each connection: the impulse of its last solver row, N·s."""
         impulses = np.zeros(len(self.connections))
-        addresses = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.applied_impulse)
-        impulses[self._exists] = gather_doubles(addresses)[:, 0]
+        addresses = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.applied_impulse)
+        impulses[self._bound.exists] = gather_doubles(addresses)[:, 0]
         return impulses
 
     def break_connections(self, rows: np.ndarray) -> None:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
-        rows = rows[self._exists[rows]]
-        write_bytes(self._connection_addresses[rows] + np.uint64(self._layout.constraint.enabled), 0)
+        rows = rows[self._bound.exists[rows]]
+        write_bytes(self._bound.connections[rows] + np.uint64(self._layout.constraint.enabled), 0)
         self._feedback[rows] = 0.0  # Bullet would leave the last load of one whose bodies are not simulated any more
 
     def weaken_connections(self, rows: np.ndarray, factor: float) -> None:
         """Multiply the breaking thresholds of connections (k,)."""
-        rows = rows[self._exists[rows]]
-        self._thresholds[(np.cumsum(self._exists) - 1)[rows]] *= factor
+        rows = rows[self._bound.exists[rows]]
+        self._bound.thresholds[(np.cumsum(self._bound.exists) - 1)[rows]] *= factor
         self._write_thresholds()
 
     def remove_bodies(self, rows: np.ndarray) -> None:
@@ -227,23 +265,23 @@ class BulletWorld:
         Deleting them would crash Blender, which still points at them. They stay, disabled, out of reach of all others:
         `OUT_OF_REACH_M` below their places.
         """
-        addresses, body = self._body_addresses[rows], self._layout.body
+        addresses, body = self._bound.bodies[rows], self._layout.body
         origins = addresses + np.uint64(body.transform + 96)
         write_vectors(origins, gather_doubles(origins, 3) - (0.0, 0.0, OUT_OF_REACH_M))
         for field in (body.linear_velocity, body.angular_velocity):
             write_vectors(addresses + np.uint64(field), np.zeros((len(rows), 3)))
         write_integers(addresses + np.uint64(body.activation), DISABLED)
-        self.removed[rows] = True
+        self._bound.removed[rows] = True
 
     def slow_down(self, bodies: np.ndarray, share: float) -> None:
         """Multiply the velocities and angular velocities of bodies (k,) by a share."""
         for offset in (self._layout.body.linear_velocity, self._layout.body.angular_velocity):
-            fields = self._body_addresses[bodies] + np.uint64(offset)
+            fields = self._bound.bodies[bodies] + np.uint64(offset)
             write_vectors(fields, share * gather_doubles(fields, 3))
 
     def can_move(self) -> np.ndarray:
         """Whether each body (n,) is free now: neither passive nor led by animation."""
-        return gather_doubles(self._body_addresses + np.uint64(self._layout.body.inverse_mass))[:, 0] > 0.0
+        return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.inverse_mass))[:, 0] > 0.0
 
     def hold_connections(self) -> None:
         """Let no connection break at its threshold, until `release_connections`."""
@@ -264,16 +302,16 @@ class BulletWorld:
     def intact(self) -> np.ndarray:
         """Whether each connection (m,) exists and has not broken."""
         intact = np.zeros(len(self.connections), bool)
-        addresses = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.enabled)
-        intact[self._exists] = (gather_integers(addresses) & 0xFF) != 0
+        addresses = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.enabled)
+        intact[self._bound.exists] = (gather_integers(addresses) & 0xFF) != 0
         return intact
 
     def let_broken_collide(self) -> None:
         """Let the bodies of connections that broke since the last call collide again."""
-        broken = self._forbids_collision & ~self.intact()
+        broken = self._bound.forbids_collision & ~self.intact()
         if broken.any():
-            self._ignored.restore(self._ignored_rows[broken])
-            self._forbids_collision &= ~broken
+            self._bound.ignored.restore(self._bound.ignored_rows[broken])
+            self._bound.forbids_collision[broken] = False
 
     def joint_feedback(self, sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Loads that connections put on their bodies in the last sub-step.
@@ -294,28 +332,29 @@ class BulletWorld:
     def first_is_body_a(self) -> np.ndarray:
         """Whether `object1` of each connection (m,) is Bullet's body A; True where the connection does not exist."""
         first = np.ones(len(self.connections), bool)
-        addresses = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.body_a)
+        addresses = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.body_a)
         body_a = gather_pointers(addresses)
-        by_object = dict(zip(self.bodies, self._body_addresses.tolist(), strict=True))
-        existing = [connection for connection, exists in zip(self.connections, self._exists, strict=True) if exists]
+        by_object = dict(zip(self.bodies, self._bound.bodies.tolist(), strict=True))
+        existing = [
+            connection for connection, exists in zip(self.connections, self._bound.exists, strict=True) if exists
+        ]
         expected = [by_object.get(connection.rigid_body_constraint.object1) for connection in existing]
-        first[self._exists] = [a == e for a, e in zip(body_a.tolist(), expected, strict=True)]
+        first[self._bound.exists] = [a == e for a, e in zip(body_a.tolist(), expected, strict=True)]
         return first
 
     def release(self) -> None:
         """Take our buffers out of the world again, where it is still the one that was prepared."""
         try:
-            dynamics = self._find_dynamics_world()
-            ours = dynamics and dynamics == self._dynamics and self._is_marked(dynamics)
+            ours = self._is_bound_to(self._find_dynamics_world())
         except (LayoutError, ReferenceError):  # the scene is gone, and its world with it
             ours = False
         if ours:
             self._forget_freed_connections()
             self._point_feedback_at(np.uint64(0))
-            for field in (self._layout.world.before_step, self._layout.world.after_step):
-                write_pointers(dynamics + field, 0)
-            write_pointers(dynamics + self._layout.world.user_info, 0)
-        self._dynamics = 0
+            world = self._layout.world
+            for field in (world.before_step, world.after_step, world.user_info):
+                write_pointers(self._bound.dynamics + field, 0)
+        self._bound = None
 
     def retire(self) -> None:
         """Make a world safe that objects are being taken out of; it must not be simulated any more.
@@ -325,15 +364,15 @@ class BulletWorld:
         LayoutError
             Memory is not as expected; nothing has been written but that no loads are read any more.
         """
-        dynamics = self._find_dynamics_world()
-        if not dynamics or dynamics != self._dynamics or not self._is_marked(dynamics):
+        if not self._is_bound_to(self._find_dynamics_world()):
             return
-        connections = self._connection_addresses[self._exists]
-        alive = self._fingerprints.still_there(connections)
+        bound = self._bound
+        connections = bound.connections[bound.exists]
+        alive = bound.fingerprints.still_there(connections)
         self._forget_freed_connections()
         self._point_feedback_at(np.uint64(0))
-        retire(self._layout, dynamics, self._body_addresses, connections, alive)
-        self._exists[:] = False
+        retire(self._layout, bound.dynamics, bound.bodies, connections, alive)
+        bound.exists[:] = False
 
     def _named(self, bodies: np.ndarray) -> np.ndarray:
         """Those of bodies (k,), each once and in order."""
@@ -341,7 +380,9 @@ class BulletWorld:
 
     def _forget_freed_connections(self) -> None:
         """Leave those alone that Blender has freed by now."""
-        self._exists[self._exists] = self._fingerprints.still_there(self._connection_addresses[self._exists])
+        self._bound.exists[self._bound.exists] = self._bound.fingerprints.still_there(
+            self._bound.connections[self._bound.exists]
+        )
 
     def _find_dynamics_world(self) -> int:
         """Address of the btDiscreteDynamicsWorld, 0 while there is none."""
@@ -362,39 +403,49 @@ class BulletWorld:
                 return read_pointer(candidate)
         raise LayoutError("no Bullet world where Blender should keep it")
 
+    def _is_bound_to(self, dynamics: int) -> bool:
+        """Whether this is the world that was prepared, and not one that Blender has made since."""
+        return self._bound is not None and dynamics == self._bound.dynamics and self._is_marked(dynamics)
+
     def _is_marked(self, dynamics: int) -> bool:
         if not (dynamics and self._token):
             return False
         return read_value(dynamics + self._layout.world.user_info, "Q") == self._token
 
-    def _adopt(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> None:
-        """Check a new world from end to end, and only then write our token and our buffers into it."""
-        substep_s = scene_time_step(self.scene).substep_s
-        checks.check_solver(self._layout, dynamics, self.scene.rigidbody_world, substep_s)
-        body_addresses = self._find_bodies(depsgraph)
-        connection_addresses = self._find_connections(depsgraph, body_addresses)
-        world = self._layout.world
+    def _check(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> _BoundWorld:
+        """Check a new world from end to end. Nothing is written."""
+        layout, world = self._layout, self._layout.world
+        checks.check_solver(layout, dynamics, self.scene.rigidbody_world, scene_time_step(self.scene).substep_s)
+        bodies = self._find_bodies(depsgraph)
+        connections = self._find_connections(depsgraph, bodies)
         for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
                 raise LayoutError("something else has its hand on Blender's Bullet world")
+        exists = connections != 0
         forbidding = [each.rigid_body_constraint.disable_collisions for each in self.connections]
-        forbids_collision = np.array(forbidding, bool) & (connection_addresses != 0)
-        ignored = IgnoredCollisions(self._layout, connection_addresses[forbids_collision], body_addresses)
-        self._body_addresses, self._connection_addresses = body_addresses, connection_addresses
-        self._exists = self._connection_addresses != 0
-        self._fingerprints = Fingerprints(self._layout, connection_addresses[self._exists])
-        self._forbids_collision, self._ignored = forbids_collision, ignored
-        self._thresholds = gather_doubles(self._threshold_fields())[:, 0]
+        forbids_collision = np.array(forbidding, bool) & exists
+        return _BoundWorld(
+            dynamics=dynamics,
+            bodies=bodies,
+            connections=connections,
+            exists=exists,
+            removed=np.zeros(len(bodies), bool),
+            thresholds=gather_doubles(connections[exists] + np.uint64(layout.constraint.breaking_threshold))[:, 0],
+            forbids_collision=forbids_collision,
+            ignored=IgnoredCollisions(layout, connections[forbids_collision], bodies),
+            ignored_rows=np.cumsum(forbids_collision) - 1,
+            fingerprints=Fingerprints(layout, connections[exists]),
+            contacts=ContactReader(layout, read_pointer(dynamics + world.dispatcher), bodies),
+        )
+
+    def _prepare(self) -> None:
+        """Write our token and our buffers into the world that was checked."""
         self._threshold_factor, self._holds_connections = 1.0, False
-        dispatcher = read_pointer(dynamics + self._layout.world.dispatcher)
-        self._contact_reader = ContactReader(self._layout, dispatcher, body_addresses)
-        self._ignored_rows = np.cumsum(forbids_collision) - 1
-        self.removed = np.zeros(len(self.bodies), bool)
         self._feedback[:] = 0.0
         starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)
-        self._point_feedback_at(starts[self._exists])
+        self._point_feedback_at(starts[self._bound.exists])
         self._token = next(_tokens)
-        write_pointers(dynamics + self._layout.world.user_info, self._token)
+        write_pointers(self._bound.dynamics + self._layout.world.user_info, self._token)
 
     def _find_bodies(self, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
         """Bullet's bodies (n,)."""
@@ -432,14 +483,14 @@ class BulletWorld:
         return np.array(addresses, np.uint64)
 
     def _threshold_fields(self) -> np.ndarray:
-        return self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.breaking_threshold)
+        return self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.breaking_threshold)
 
     def _write_thresholds(self) -> None:
-        values = np.inf if self._holds_connections else self._thresholds * self._threshold_factor
+        values = np.inf if self._holds_connections else self._bound.thresholds * self._threshold_factor
         write_doubles(self._threshold_fields(), values)
 
     def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
-        fields = self._connection_addresses[self._exists] + np.uint64(self._layout.constraint.joint_feedback)
+        fields = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.joint_feedback)
         write_pointers(fields, targets)
 
 

@@ -25,7 +25,7 @@ def launched(blocks, folder, frames, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0
         blocks.scene.frame_set(frame)
         if frame == first + 1:
             world = recording._world
-            address = world._body_addresses[[body]]
+            address = world._bound.bodies[[body]]
             write_vectors(address + np.uint64(world._layout.body.linear_velocity), np.array([velocity]))
             write_vectors(address + np.uint64(world._layout.body.angular_velocity), np.array([spin]))
     stop_recording()
