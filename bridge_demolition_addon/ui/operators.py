@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 from bpy_extras.io_utils import ExportHelper
 
-from ..core.errors import OutputError
+from ..core.errors import DemolitionError, OutputError
 from ..simulation.blender_events import running_recording
 from .sidebar import path_property
 
@@ -23,6 +23,22 @@ class Refusing:
         if reason := cls.why_not(context):
             cls.poll_message_set(reason)
         return not reason
+
+
+class Action(Refusing):
+    """Base of operators that act in one go."""
+
+    def act(self, context: bpy.types.Context) -> str | None:
+        """Do the work, and return a sentence on what was done, if there is any to report."""
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            done = self.act(context)
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        if done:
+            self.report({"INFO"}, done)
+        return {"FINISHED"}
 
 
 class FileWriter(ExportHelper):
@@ -69,3 +85,19 @@ def absolute(path: str) -> Path:
     if path.startswith("//") and not bpy.data.filepath:
         raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
     return Path(bpy.path.abspath(path))
+
+
+def write_file(path: Path, content: bytes, *, new_folder: bool = False) -> None:
+    """Write a file, and make its folder where there is none if that is wanted.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    try:
+        if new_folder:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

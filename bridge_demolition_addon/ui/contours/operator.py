@@ -10,13 +10,13 @@ from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
-from ..operators import Refusing, absolute, recording_runs, refused
+from ..operators import Action, Refusing, absolute, recording_runs, refused
 from . import view as contour_view
 
 _TICK_S = 0.01
 
 
-class BDA_OT_load_results(Refusing, bpy.types.Operator):
+class BDA_OT_load_results(Action, bpy.types.Operator):
     """Show contours of an earlier recording of this scene, kept in a file results.npz"""
 
     bl_idname = "bda.load_results"
@@ -26,16 +26,12 @@ class BDA_OT_load_results(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return recording_runs() or (None if context.scene.bda.results_path else "Choose a file results.npz first")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
-        try:
-            results = load_results(absolute(scene.bda.results_path))
-            contours_of(scene).use_results(results)
-        except DemolitionError as error:
-            return refused(self, error)
+        results = load_results(absolute(scene.bda.results_path))
+        contours_of(scene).use_results(results)
         contour_view.follow(scene)
-        self.report({"INFO"}, f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies")
-        return {"FINISHED"}
+        return f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
 
 
 class BDA_OT_render_contours(Refusing, bpy.types.Operator):
@@ -119,7 +115,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BDA_OT_toggle_symbols(Refusing, bpy.types.Operator):
+class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
     """Hide the empties of all connections and force objects, or show them; they work all the same"""
 
     bl_idname = "bda.toggle_symbols"
@@ -132,10 +128,9 @@ class BDA_OT_toggle_symbols(Refusing, bpy.types.Operator):
             return "This scene has neither connections nor force objects"
         return None
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str | None:
         scene, layer = context.scene, context.view_layer
         hide_symbols(layer, scene, hidden=not symbols_are_hidden(layer, scene))
-        return {"FINISHED"}
 
 
 CLASSES = (BDA_OT_load_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)

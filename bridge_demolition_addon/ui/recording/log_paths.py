@@ -5,12 +5,12 @@ from bpy.props import StringProperty
 
 from ...core.errors import OutputError
 from ...core.results.files import DEBRIS_LOG, FORCE_LOG
-from ..operators import FileWriter, Refusing, absolute, recording_runs, refused
+from ..operators import Action, FileWriter, absolute, recording_runs
 
 _SUFFIX = ".csv"
 
 
-class _LogPathOperator(Refusing, FileWriter):
+class _LogPathOperator(Action, FileWriter):
     """Base of the operators that ask for a log's file; each names the setting and the file's usual name."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -27,15 +27,11 @@ class _LogPathOperator(Refusing, FileWriter):
     def usual_path(self, context: bpy.types.Context) -> str:
         return getattr(context.scene.bda, self.setting) or self.usual_name
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str | None:
         path = bpy.path.ensure_ext(self.filepath, _SUFFIX) if self.filepath else ""
-        try:
-            if path and absolute(path).is_dir():
-                raise OutputError(f"{path}: expected a file for the log, found a folder")
-        except OutputError as error:
-            return refused(self, error)
+        if path and absolute(path).is_dir():
+            raise OutputError(f"{path}: expected a file for the log, found a folder")
         setattr(context.scene.bda, self.setting, path)
-        return {"FINISHED"}
 
 
 class BDA_OT_set_debris_log(_LogPathOperator, bpy.types.Operator):

@@ -7,10 +7,10 @@ import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ...core.blast.models import BlastModel
-from ...core.errors import DemolitionError, OutputError
+from ...core.errors import OutputError, SimulationError
 from ...core.results.files import FORCE_CHART
 from ...core.results.summary import first_hit_s
-from ..operators import Refusing, absolute, recording_runs, refused
+from ..operators import Action, absolute, recording_runs
 from ..recording import last_recording
 from ..viewport import look_at_selected, select_only
 
@@ -21,7 +21,7 @@ _SURROUNDINGS = 3.0
 """How many times as far away as needed the view stays from a body that is shown."""
 
 
-class BDA_OT_go_to_body(Refusing, bpy.types.Operator):
+class BDA_OT_go_to_body(Action, bpy.types.Operator):
     """Go to that frame, select the body and look at it"""
 
     bl_idname = "bda.go_to_body"
@@ -35,19 +35,17 @@ class BDA_OT_go_to_body(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return recording_runs() or (None if context.mode == "OBJECT" else "Go to object mode first")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str | None:
         body = context.view_layer.objects.get(self.body)
         if body is None:
-            self.report({"ERROR"}, f"{self.body!r} is not in this scene any more")
-            return {"CANCELLED"}
+            raise SimulationError(f"{self.body!r} is not in this scene any more")
         context.scene.frame_set(self.frame)
         select_only(context, [body])
         context.view_layer.objects.active = body
         look_at_selected(context, _SURROUNDINGS)
-        return {"FINISHED"}
 
 
-class _OfLastRecording(Refusing):
+class _OfLastRecording(Action):
     """Base of the buttons that work on the last recording."""
 
     @classmethod
@@ -61,14 +59,13 @@ class BDA_OT_open_results(_OfLastRecording, bpy.types.Operator):
     bl_idname = "bda.open_results"
     bl_label = "Open Folder"
 
-    def execute(self, _context: bpy.types.Context) -> set[str]:
+    def act(self, _context: bpy.types.Context) -> str | None:
         folder = last_recording.last().folder
         if not folder.is_dir():
-            return refused(self, OutputError(f"{folder}: is not there any more"))
+            raise OutputError(f"{folder}: is not there any more")
         if sys.platform.startswith("linux") and not shutil.which(_OPENER):
-            return refused(self, OutputError(f"{folder}: this system has no {_OPENER}, which opens folders"))
+            raise OutputError(f"{folder}: this system has no {_OPENER}, which opens folders")
         bpy.ops.wm.path_open(filepath=str(folder))
-        return {"FINISHED"}
 
 
 class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
@@ -77,7 +74,7 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
     bl_idname = "bda.draw_charts"
     bl_label = "Draw Charts"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str | None:
         # Loading matplotlib takes a second, which switching the extension on need not wait for.
         from ...charts.blast_design import ChartSettings, write_charts
         from ...charts.force_chart import plot_forces
@@ -88,15 +85,12 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
         try:
             paths = write_charts(folder, ChartSettings(model=model))
             plot_forces(last.results, folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary))
-        except DemolitionError as error:
-            return refused(self, error)
         except OSError as error:
-            return refused(self, OutputError(f"{folder}: cannot be written ({error.strerror})"))
-        self.report({"INFO"}, f"{len(paths) + 1} charts are in {folder}")
-        return {"FINISHED"}
+            raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
+        return f"{len(paths) + 1} charts are in {folder}"
 
 
-class BDA_OT_make_report(Refusing, bpy.types.Operator):
+class BDA_OT_make_report(Action, bpy.types.Operator):
     """Make a report, as a page and as a PDF, from the results in the folder"""
 
     bl_idname = "bda.make_report"
@@ -108,19 +102,16 @@ class BDA_OT_make_report(Refusing, bpy.types.Operator):
             return "Choose the folder with the results first"
         return recording_runs()
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str | None:
         # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.
         from ...report.write import write_report
 
         progress = _CursorProgress(context.window_manager)
         try:
             written = write_report([absolute(context.scene.bda.output_directory)], None, progress=progress)
-        except DemolitionError as error:
-            return refused(self, error)
         finally:
             progress.finish()
-        self.report({"INFO"}, f"Report: {written[0]} and {written[1].name}")
-        return {"FINISHED"}
+        return f"Report: {written[0]} and {written[1].name}"
 
 
 class _CursorProgress:

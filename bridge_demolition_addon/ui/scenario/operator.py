@@ -1,11 +1,8 @@
 """Loading, saving and building scenarios, and removing what was built."""
 
-from pathlib import Path
-
 import bpy
 from bpy.props import StringProperty
 
-from ...core.errors import DemolitionError, OutputError
 from ...core.scenario import Scenario
 from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import checked_model
@@ -13,7 +10,7 @@ from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.demolition import build_demolition
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...simulation.blender_events import contours_of
-from ..operators import FileWriter, Refusing, absolute, no_world, recording_runs, refused
+from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
 from ..viewport import look_at_selected, select_only
 from .prop import PRESETS, default_scenario
 from .values import scenario_of, show_scenario
@@ -21,7 +18,7 @@ from .values import scenario_of, show_scenario
 _SUFFIX = ".toml"
 
 
-class BDA_OT_load_scenario(Refusing, bpy.types.Operator):
+class BDA_OT_load_scenario(Action, bpy.types.Operator):
     """Show the scenario file's values in the panels, and its charges in the scene; nothing is built yet"""
 
     bl_idname = "bda.load_scenario"
@@ -32,16 +29,15 @@ class BDA_OT_load_scenario(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return None if context.scene.bda.scenario_path else "Choose a scenario file first"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            scenario = _load(context.scene.bda)
-        except DemolitionError as error:
-            return refused(self, error)
-        self.report({"INFO"}, f"Loaded {scenario.title}")
-        return {"FINISHED"}
+    def act(self, context: bpy.types.Context) -> str:
+        settings = context.scene.bda
+        scenario = read_scenario(absolute(settings.scenario_path))
+        show_scenario(settings, scenario)
+        settings.loaded_path = settings.scenario_path
+        return f"Loaded {scenario.title}"
 
 
-class BDA_OT_save_scenario(FileWriter, bpy.types.Operator):
+class BDA_OT_save_scenario(Action, FileWriter, bpy.types.Operator):
     """Save what the panels show, and the charges of the scene, as a scenario file"""
 
     bl_idname = "bda.save_scenario"
@@ -54,32 +50,27 @@ class BDA_OT_save_scenario(FileWriter, bpy.types.Operator):
     def usual_path(self, context: bpy.types.Context) -> str:
         return context.scene.bda.scenario_path or "scenario" + _SUFFIX
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         settings = context.scene.bda
-        try:
-            text = scenario_text(scenario_of(settings))
-            path = absolute(bpy.path.ensure_ext(self.filepath, _SUFFIX))
-            _write(path, text)
-        except DemolitionError as error:
-            return refused(self, error)
+        text = scenario_text(scenario_of(settings))
+        path = absolute(bpy.path.ensure_ext(self.filepath, _SUFFIX))
+        write_file(path, text.encode())
         settings.scenario_path = settings.loaded_path = str(path)
-        self.report({"INFO"}, f"Saved {path}")
-        return {"FINISHED"}
+        return f"Saved {path}"
 
 
-class BDA_OT_new_scenario(bpy.types.Operator):
+class BDA_OT_new_scenario(Action, bpy.types.Operator):
     """Set all values in the panels to their defaults, and remove the charges"""
 
     bl_idname = "bda.new_scenario"
     bl_label = "New Scenario"
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str | None:
         _show(context.scene.bda, default_scenario())
-        return {"FINISHED"}
 
 
-class BDA_OT_load_preset(bpy.types.Operator):
+class BDA_OT_load_preset(Action, bpy.types.Operator):
     """Show the values of this preset in the panels, and its charges in the scene"""
 
     bl_idname = "bda.load_preset"
@@ -88,15 +79,11 @@ class BDA_OT_load_preset(bpy.types.Operator):
 
     preset: StringProperty(name="Preset", description="Name of the preset")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            _show(context.scene.bda, read_scenario(PRESETS / (self.preset + _SUFFIX)))
-        except DemolitionError as error:
-            return refused(self, error)
-        return {"FINISHED"}
+    def act(self, context: bpy.types.Context) -> str | None:
+        _show(context.scene.bda, read_scenario(PRESETS / (self.preset + _SUFFIX)))
 
 
-class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
+class BDA_OT_build_scenario(Action, bpy.types.Operator):
     """Build the bridge that the panels show, its shards, connections, ground and ball in this scene"""
 
     bl_idname = "bda.build_scenario"
@@ -119,25 +106,21 @@ class BDA_OT_build_scenario(Refusing, bpy.types.Operator):
             select_only(context, selected)
         return done
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         settings = context.scene.bda
         is_new = settings.scenario_path not in ("", settings.loaded_path)
-        try:
-            scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-            model = checked_model(scenario)
-            build_demolition(context.scene, scenario, model)
-        except DemolitionError as error:
-            return refused(self, error)
+        scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
+        model = checked_model(scenario)
+        build_demolition(context.scene, scenario, model)
         if is_new:
             show_scenario(settings, scenario)
             settings.loaded_path = settings.scenario_path
         settings.title, settings.total_mass = scenario.title, ""
         settings.built_scenario = scenario_text(scenario)
-        self.report({"INFO"}, f"{len(model.shards)} shards, {len(model.connections)} connections")
-        return {"FINISHED"}
+        return f"{len(model.shards)} shards, {len(model.connections)} connections"
 
 
-class _Removal(Refusing):
+class _Removal(Action):
     """Base of the operators that remove something."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -155,18 +138,17 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
     bl_idname = "bda.remove_demolition"
     bl_label = "Remove Demolition"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
         if context.screen and context.screen.is_animation_playing:
             bpy.ops.screen.animation_cancel(restore_frame=False)
         contours_of(scene).forget()
         removed = remove_demolition(scene)
         scene.bda.built_scenario = scene.bda.title = scene.bda.total_mass = ""
-        self.report({"INFO"}, f"{removed} bodies removed")
         if scene.rigidbody_world:
             others = len(scene.rigidbody_world.collection.all_objects)
             self.report({"WARNING"}, f"The rigid-body world stays, as it has {others} bodies that were not built here")
-        return {"FINISHED"}
+        return f"{removed} bodies removed"
 
 
 class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
@@ -175,10 +157,8 @@ class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
     bl_idname = "bda.remove_loose_connections"
     bl_label = "Remove Loose Connections"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        removed = remove_loose_connections(context.scene)
-        self.report({"INFO"}, f"{removed} loose connections removed")
-        return {"FINISHED"}
+    def act(self, context: bpy.types.Context) -> str:
+        return f"{remove_loose_connections(context.scene)} loose connections removed"
 
 
 class BDA_MT_presets(bpy.types.Menu):
@@ -204,21 +184,7 @@ CLASSES = (
 )
 
 
-def _load(settings: bpy.types.PropertyGroup) -> Scenario:
-    scenario = read_scenario(absolute(settings.scenario_path))
-    show_scenario(settings, scenario)
-    settings.loaded_path = settings.scenario_path
-    return scenario
-
-
 def _show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
     """Show a scenario that comes from no file of the user's."""
     show_scenario(settings, scenario)
     settings.scenario_path = settings.loaded_path = ""
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

@@ -5,32 +5,34 @@ from dataclasses import Field
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
+from ...core.errors import ScenarioError
 from ...core.schema import is_optional, key_fields
+from ..operators import Action
 from .prop import INDEX, USE, all_tables, group_name
 
 LIST = "BDA_UL_tables"
 _MOST_NUMBERS = 3
 
 
-class _ListOperator:
+class _ListOperator(Action):
     """Base of the operators on one list."""
 
     bl_options = {"REGISTER", "UNDO"}
 
     path: StringProperty(name="List", description="Where the list is, from the scene: bda.scenario.fracture.members")
 
-    def _list(
-        self, context: bpy.types.Context
-    ) -> tuple[bpy.types.PropertyGroup, str, bpy.types.bpy_prop_collection] | None:
-        """Return the group that holds the list, the list's name and the list; report an error where there is none."""
+    def act(self, context: bpy.types.Context) -> None:
         owner, _, name = self.path.rpartition(".")
         try:
             group = context.scene.path_resolve(owner)
-            found = getattr(group, name)
-        except (ValueError, AttributeError):
-            self.report({"ERROR"}, f"{self.path}: there is no such list of tables")
-            return None
-        return group, name, found
+            tables = getattr(group, name)
+        except (ValueError, AttributeError) as error:
+            raise ScenarioError(f"{self.path}: there is no such list of tables") from error
+        setattr(group, name + INDEX, self.change(tables, getattr(group, name + INDEX)))
+
+    def change(self, tables: bpy.types.bpy_prop_collection, index: int) -> int:
+        """Change the list, and return the index of the table that is chosen now."""
+        return index
 
 
 class BDA_OT_add_table(_ListOperator, bpy.types.Operator):
@@ -39,13 +41,9 @@ class BDA_OT_add_table(_ListOperator, bpy.types.Operator):
     bl_idname = "bda.add_table"
     bl_label = "Add"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        if not (found := self._list(context)):
-            return {"CANCELLED"}
-        group, name, tables = found
+    def change(self, tables: bpy.types.bpy_prop_collection, index: int) -> int:
         tables.add()
-        setattr(group, name + INDEX, len(tables) - 1)
-        return {"FINISHED"}
+        return len(tables) - 1
 
 
 class BDA_OT_remove_table(_ListOperator, bpy.types.Operator):
@@ -54,17 +52,11 @@ class BDA_OT_remove_table(_ListOperator, bpy.types.Operator):
     bl_idname = "bda.remove_table"
     bl_label = "Remove"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        if not (found := self._list(context)):
-            return {"CANCELLED"}
-        group, name, tables = found
-        index = getattr(group, name + INDEX)
+    def change(self, tables: bpy.types.bpy_prop_collection, index: int) -> int:
         if index >= len(tables):
-            self.report({"ERROR"}, "Choose what to remove in the list first")
-            return {"CANCELLED"}
+            raise ScenarioError("Choose what to remove in the list first")
         tables.remove(index)
-        setattr(group, name + INDEX, max(min(index, len(tables) - 1), 0))
-        return {"FINISHED"}
+        return max(min(index, len(tables) - 1), 0)
 
 
 class BDA_OT_move_table(_ListOperator, bpy.types.Operator):
@@ -75,17 +67,12 @@ class BDA_OT_move_table(_ListOperator, bpy.types.Operator):
 
     direction: EnumProperty(name="Direction", items=[("UP", "Up", ""), ("DOWN", "Down", "")])
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        if not (found := self._list(context)):
-            return {"CANCELLED"}
-        group, name, tables = found
-        index = getattr(group, name + INDEX)
+    def change(self, tables: bpy.types.bpy_prop_collection, index: int) -> int:
         target = index + (-1 if self.direction == "UP" else 1)
         if not (0 <= index < len(tables) and 0 <= target < len(tables)):
-            return {"CANCELLED"}
+            return index
         tables.move(index, target)
-        setattr(group, name + INDEX, target)
-        return {"FINISHED"}
+        return target
 
 
 class BDA_UL_tables(bpy.types.UIList):

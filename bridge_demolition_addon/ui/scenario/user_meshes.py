@@ -12,17 +12,17 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ...core.bridge.mesh_files import exported
-from ...core.errors import DemolitionError, GeometryError, OutputError
+from ...core.errors import GeometryError, OutputError
 from ...core.fracture.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
-from ..operators import FileWriter, Refusing, absolute, refused
+from ..operators import Action, FileWriter, absolute, write_file
 from ..sidebar import path_property
 
 _CONCRETE_KG_M3 = 2400.0
 _MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
 
 
-class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
+class BDA_OT_add_selected_members(Action, bpy.types.Operator):
     """Add the selected meshes to the scenario as members, each in a file of a folder, and hide them"""
 
     bl_idname = "bda.add_selected_members"
@@ -47,15 +47,12 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         tables, selected = context.scene.bda.scenario.geometry, context.selected_objects
-        try:
-            done = {each.name: solid_of_object(each) for each in selected}
-            files = _new_files(absolute(self.directory), list(done), {absolute(each.file) for each in tables})
-            for name, path in files.items():
-                _write(path, exported(done[name].solid, _MESH_SUFFIX))
-        except DemolitionError as error:
-            return refused(self, error)
+        done = {each.name: solid_of_object(each) for each in selected}
+        files = _new_files(absolute(self.directory), list(done), {absolute(each.file) for each in tables})
+        for name, path in files.items():
+            write_file(path, exported(done[name].solid, _MESH_SUFFIX), new_folder=True)
         for name, path in files.items():
             table = next((each for each in tables if each.name == name), None) or tables.add()
             table.name, table.file = name, str(path)
@@ -66,11 +63,10 @@ class BDA_OT_add_selected_members(Refusing, bpy.types.Operator):
         for name, repaired in done.items():
             for repair in repaired.repairs:
                 self.report({"INFO"}, f"{name}: {repair}")
-        self.report({"INFO"}, f"{len(files)} members added from the selected meshes, which are hidden now")
-        return {"FINISHED"}
+        return f"{len(files)} members added from the selected meshes, which are hidden now"
 
 
-class BDA_OT_use_paint(Refusing, FileWriter, bpy.types.Operator):
+class BDA_OT_use_paint(Action, FileWriter, bpy.types.Operator):
     """Cut the bridge finer where the active mesh is painted: its active vertex group is written to a file"""
 
     bl_idname = "bda.use_paint"
@@ -90,24 +86,18 @@ class BDA_OT_use_paint(Refusing, FileWriter, bpy.types.Operator):
     def usual_path(self, context: bpy.types.Context) -> str:
         return f"{_file_name(context.active_object.name)} painted{_PAINT_SUFFIX}"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         body, fracture = context.active_object, context.scene.bda.scenario.fracture
         group = body.vertex_groups.active.name
-        try:
-            if not self.filepath:
-                raise OutputError("no file for the paint was given: choose one")
-            path = absolute(bpy.path.ensure_ext(self.filepath, _PAINT_SUFFIX))
-            points, weights = painted_points(body, group)
-            if not weights.any():
-                raise GeometryError(
-                    f"{body.name}: nothing is painted in vertex group {group!r}; paint where to cut finer."
-                )
-            _write(path, paint_text(points, weights).encode())
-        except DemolitionError as error:
-            return refused(self, error)
+        if not self.filepath:
+            raise OutputError("no file for the paint was given: choose one")
+        path = absolute(bpy.path.ensure_ext(self.filepath, _PAINT_SUFFIX))
+        points, weights = painted_points(body, group)
+        if not weights.any():
+            raise GeometryError(f"{body.name}: nothing is painted in vertex group {group!r}; paint where to cut finer.")
+        write_file(path, paint_text(points, weights).encode(), new_folder=True)
         fracture.use_painted_file, fracture.painted_file = True, str(path)
-        self.report({"INFO"}, f"{int((weights > 0.0).sum())} of {len(weights)} vertices are painted in {group!r}")
-        return {"FINISHED"}
+        return f"{int((weights > 0.0).sum())} of {len(weights)} vertices are painted in {group!r}"
 
 
 CLASSES = (BDA_OT_add_selected_members, BDA_OT_use_paint)
@@ -126,11 +116,3 @@ def _new_files(folder: Path, names: list[str], ours: set[Path]) -> dict[str, Pat
 
 def _file_name(name: str) -> str:
     return re.sub(r"[^\w .()+-]", "_", name)
-
-
-def _write(path: Path, content: bytes) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error
