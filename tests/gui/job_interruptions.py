@@ -10,15 +10,15 @@ from traces import EXTENSION, handlers, recording_runs, rows
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
     yield from build(person)
-    yield from start_anew_while_recording(person)
+    yield from restart_while_recording(person)
     yield from load_while_recording(person)
     yield from switch_off_while_playing(person)
     yield from quit_while_recording(person)
 
 
-def start_anew_while_recording(person: Person) -> Steps:
+def restart_while_recording(person: Person) -> Steps:
     """Go back to the start in the middle, make something heavier, and play again."""
-    folder = person.folder / "anew"
+    folder = person.folder / "restarted"
     yield from go_to_start(person)
     yield from register(person, folder)
     yield from play_until(person, 15)
@@ -31,7 +31,7 @@ def start_anew_while_recording(person: Person) -> Steps:
     yield 0.2
     last = person.scene.frame_current
     frames = sorted({int(row["frame"]) for row in rows(folder / "force_log.csv")})
-    person.expect("a changed simulation is recorded anew", frames, list(range(2, last + 1)))
+    person.expect("a changed simulation is recorded again", frames, list(range(2, last + 1)))
     yield from person.click("bda.unregister_handler")
     yield 2.0
     person.expect_reports("nothing but the recording is reported", "30 shards", "Recording to", "Results are in")

@@ -32,7 +32,7 @@ def steps(person: Person, upheaval: str, company: str) -> Steps:
         person.expect("preferences are as before", preferences_of_undo(), preferences)
         person.expect("no handler is registered twice", max(handlers().values(), default=1), 1)
         if upheaval not in ("new_file", "open_file"):
-            yield from play_anew(person)
+            yield from play_again(person)
         person.note(f"survived {number + 1}")
 
 
@@ -72,7 +72,7 @@ def play_on(person: Person) -> Steps:
     yield from play_or_pause(person)
 
 
-def play_anew(person: Person) -> Steps:
+def play_again(person: Person) -> Steps:
     """From the start it is simulated again."""
     yield from go_to_start(person)
     heights = []

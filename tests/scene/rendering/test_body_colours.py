@@ -216,7 +216,7 @@ def test_bodies_are_where_they_were_recorded_when_blender_has_forgotten_its_fram
         assert tuple(block.evaluated_get(graph).matrix_world.translation) == pytest.approx(
             results.frames.positions_m[row, 0]
         )
-    # As the simulation would be begun anew in a render, it has to rest there: Blender crashes otherwise.
+    # As the simulation would begin again in a render, it has to rest there: Blender crashes otherwise.
     assert len(render_film(scene, tmp_path / "film", FRAME_BY_FRAME, small_film(kind=FilmKind.PICTURES))) == FRAMES + 1
     assert scene.rigidbody_world.enabled
     contours_of(scene).hide()

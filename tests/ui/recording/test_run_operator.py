@@ -61,7 +61,7 @@ def test_run_records_all_frames_and_writes_results(extension, scene, tmp_path):
     assert scene.frame_current == FRAMES
 
 
-def test_run_simulates_anew_what_was_played_before(extension, scene, tmp_path):
+def test_run_simulates_again_what_was_played_before(extension, scene, tmp_path):
     for frame in range(1, FRAMES + 1):
         scene.frame_set(frame)
     assert extension.ops.bda.run() == {"FINISHED"}
