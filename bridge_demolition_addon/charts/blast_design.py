@@ -15,13 +15,12 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from ..core.blast.air import AMBIENT_PRESSURE_PA
 from ..core.blast.charge_sizing import smallest_charge_for_overpressure
 from ..core.blast.charges import Charge
 from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.models import BlastModel, blast_wave
 from ..core.blast.pulses import Pulses, blast_pulses, pressure_at
-from ..core.blast.wave import Burst
+from ..core.blast.wave import AMBIENT_PRESSURE_PA, Burst
 from ..core.errors import OutputError
 
 SPAN_M = 20.0

@@ -9,10 +9,9 @@ import numpy as np
 
 from ..geometry.hulls import ConvexHulls
 from .charges import Charge
-from .projection import lines_of_blast, projected_areas
+from .exposure import lines_of_blast, projected_areas, visible_shares
 from .pulses import Pulses, blast_pulses, impulse_between
 from .settings import BlastSettings
-from .shielding import visible_shares
 from .wave import scaled_distance
 
 

@@ -23,8 +23,7 @@ import numpy as np
 from numpy.polynomial import polynomial
 
 from ..arithmetic import exponential, logarithm, power
-from .air import SOUND_SPEED_M_S
-from .wave import Burst, Wave
+from .wave import SOUND_SPEED_M_S, Burst, Wave
 
 
 class Quantity(StrEnum):

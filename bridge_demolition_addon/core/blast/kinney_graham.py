@@ -9,8 +9,15 @@ from functools import cache
 import numpy as np
 
 from ..arithmetic import cube_root, power
-from .air import AMBIENT_PRESSURE_PA, SOUND_SPEED_M_S, reflected_overpressure, shock_speed
-from .wave import SMALLEST_SCALED_DISTANCE, Burst, Wave
+from .wave import (
+    AMBIENT_PRESSURE_PA,
+    SMALLEST_SCALED_DISTANCE,
+    SOUND_SPEED_M_S,
+    Burst,
+    Wave,
+    reflected_overpressure,
+    shock_speed,
+)
 
 GROUND_REFLECTION = 1.8
 """A charge on the ground acts like so many in the air: 2 on unyielding ground, less what goes into the crater

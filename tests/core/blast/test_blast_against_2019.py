@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.core.blast.exposure import lines_of_blast, projected_areas
 from bridge_demolition_addon.core.blast.models import blast_wave
-from bridge_demolition_addon.core.blast.projection import lines_of_blast, projected_areas
 from bridge_demolition_addon.core.blast.pulses import REPORT_DECAY, blast_pulses, impulse_between, pressure_at
 from bridge_demolition_addon.core.geometry.hulls import convex_hulls
 from bridge_demolition_addon.core.timing.time_step import TimeStep

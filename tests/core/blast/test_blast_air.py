@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.blast.air import (
+from bridge_demolition_addon.core.blast.kingery_bulmash import Quantity, evaluate
+from bridge_demolition_addon.core.blast.wave import (
     AMBIENT_PRESSURE_PA,
     SOUND_SPEED_M_S,
     reflected_overpressure,
     shock_speed,
 )
-from bridge_demolition_addon.core.blast.kingery_bulmash import Quantity, evaluate
 
 Z = np.geomspace(1.0, 20.0, 200)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.blast.projection import UPWARDS, lines_of_blast, projected_areas
+from bridge_demolition_addon.core.blast.exposure import UPWARDS, lines_of_blast, projected_areas
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.geometry.hulls import convex_hulls
 

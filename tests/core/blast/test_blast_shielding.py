@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.blast import shielding
-from bridge_demolition_addon.core.blast.shielding import visible_shares
+from bridge_demolition_addon.core.blast import exposure
+from bridge_demolition_addon.core.blast.exposure import visible_shares
 from bridge_demolition_addon.core.geometry.hulls import convex_hulls
 
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
@@ -120,7 +120,7 @@ def _enters(hulls, centres, rotations, points, body):
 
 @pytest.mark.parametrize("at_once", [70, 10_000, 1_000_000])
 def test_random_bodies_against_rays_walked_point_by_point(at_once, monkeypatch):
-    monkeypatch.setattr(shielding, "_PAIRS_AT_ONCE", at_once)
+    monkeypatch.setattr(exposure, "_PAIRS_AT_ONCE", at_once)
     random = np.random.default_rng(12)
     count = 14
     bodies = [random.normal(size=(10, 3)) for _ in range(count)]
