@@ -108,23 +108,14 @@ def _debris_blocks(
     results: Results, debris: Debris, heights: HeightMap, zones: Sequence[Zone], trajectories: bool
 ) -> list[Block]:
     low, high = np.array(debris.area.bounds()).reshape(2, 2)
-    middle = (
-        results.inventory.masses_kg[debris.bodies]
-        @ results.frames.positions_m[-1, debris.bodies]
-        / debris.masses_kg.sum()
-    )
+    mass = debris.masses_kg.sum()
+    middle = debris.masses_kg @ results.frames.positions_m[-1, debris.bodies] / mass
     solid = float(results.inventory.volumes_m3[debris.bodies].sum())
+    shards = len(results.inventory.of_kind("shard"))
+    extent = f"from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to {high[1]:.2f} m"
     rows = [
-        (
-            "Debris",
-            f"{len(debris.bodies)} of {len(results.inventory.of_kind('shard'))} shards, "
-            f"{debris.masses_kg.sum() / 1e3:.2f} t",
-        ),
-        (
-            "Footprint",
-            f"{debris.area.area():.1f} m², from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to "
-            f"{high[1]:.2f} m",
-        ),
+        ("Debris", f"{len(debris.bodies)} of {shards} shards, {mass / 1e3:.2f} t"),
+        ("Footprint", f"{debris.area.area():.1f} m², {extent}"),
         ("Bridge before", f"{debris.outline.area():.1f} m² in plan"),
         ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {middle[2]:.2f} m above the ground"),
         ("Highest point of the pile", f"{debris.highest_m:.2f} m above the ground"),
@@ -181,16 +172,12 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("y (m)", "y_m", ".2f"),
         Column("z (m)", "z_m", ".2f"),
     )
+    inventory, last_m = results.inventory, results.frames.positions_m[-1]
     rows = []
     for number, row in enumerate(np.argsort(-debris.throws_m, kind="stable")[:NAMED], start=1):
         body = debris.bodies[row]
-        names = (str(results.inventory.body_names[body]), str(results.inventory.body_members[body]))
-        numbers = (
-            debris.masses_kg[row],
-            debris.throws_m[row],
-            debris.reaches_m[row],
-            *results.frames.positions_m[-1, body],
-        )
+        names = (str(inventory.body_names[body]), str(inventory.body_members[body]))
+        numbers = (debris.masses_kg[row], debris.throws_m[row], debris.reaches_m[row], *last_m[body])
         rows.append((number, *names, *map(float, numbers)))
     return DataTable("largest_throws", "Largest throws", columns, rows)
 
