@@ -54,7 +54,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
         for shard, row in zip(shards, model.member_of_shard, strict=True):
             mark_member(shard, model.members[row].name, model.members[row].kind)
-        for row in model.held.nonzero()[0]:
+        for row in model.fixed.nonzero()[0]:
             shards[row].rigid_body.type = "PASSIVE"
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)

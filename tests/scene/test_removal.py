@@ -138,8 +138,8 @@ def test_supports_hold_their_shards(blender):
     scene, model = blender.context.scene, build_model(scenario)
     build_demolition(scene, scenario, model)
     shards = shards_of(scene)
-    assert [body.rigid_body.type == "PASSIVE" for body in shards] == model.held.tolist()
-    assert model.held.any() and not model.held.all()
+    assert [body.rigid_body.type == "PASSIVE" for body in shards] == model.fixed.tolist()
+    assert model.fixed.any() and not model.fixed.all()
     places = [body.location.copy() for body in shards]
     for each in connections_of(scene):
         each.rigid_body_constraint.enabled = False
@@ -150,5 +150,5 @@ def test_supports_hold_their_shards(blender):
         (body.evaluated_get(graph).matrix_world.translation - place).length
         for body, place in zip(shards, places, strict=True)
     ]
-    assert max(np.array(moved)[model.held]) == 0.0
-    assert max(np.array(moved)[~model.held]) > 0.01  # overhanging ends of the deck come down
+    assert max(np.array(moved)[model.fixed]) == 0.0
+    assert max(np.array(moved)[~model.fixed]) > 0.01  # overhanging ends of the deck come down

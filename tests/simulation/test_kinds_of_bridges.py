@@ -86,7 +86,7 @@ def test_held_abutments_do_not_move_and_carry_the_deck(blender, tmp_path):
     scenario = scenario_of(bridge, supports=[Support(member="abutment")])
     model, results = played(blender.context.scene, scenario, tmp_path)
     shards = results.inventory.of_kind("shard")
-    held = shards[model.held]
+    held = shards[model.fixed]
     assert len(held) and (results.frames.positions_m[-1, held] == results.frames.positions_m[0, held]).all()
     assert (results.inventory.masses_kg[held] == 0.0).all()
     moved = np.linalg.norm(results.frames.positions_m[-1, shards] - results.frames.positions_m[0, shards], axis=1)

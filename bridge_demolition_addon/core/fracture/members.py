@@ -34,15 +34,15 @@ class CutMembers:
 
     Attributes
     ----------
-    shards
+    shards : tuple of TriangleMesh
         The n shards' closed meshes, in the bridge's coordinates, without gaps.
-    member_of_shard
-        (n,) index of the member that each shard was cut from.
-    masses_kg
-        (n,) mass of each shard.
-    centres_m
-        (n, 3) centre of mass of each shard.
-    faces
+    member_of_shard : (n,) int
+        Index of the member that each shard was cut from.
+    masses_kg : (n,) float
+        Mass of each shard.
+    centres_m : (n, 3) float
+        Centre of mass of each shard.
+    faces : SharedFaces
         What neighbouring shards have in common.
     """
 
@@ -58,11 +58,11 @@ def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDen
 
     Parameters
     ----------
-    scenario
+    scenario : Scenario
         Says how many shards, and how they are cut.
-    members
+    members : sequence of Member
         What is cut.
-    density
+    density : PointDensity, optional
         Where the points lie closer, in place of what the scenario says.
 
     Raises
@@ -203,30 +203,56 @@ def _counts(
     density: PointDensity | None,
 ) -> np.ndarray:
     """How many shards each member (k,) gets: its points, what is said of it, or its share of what is left."""
-    wanted = scenario.fracture.shards
+    settings = scenario.fracture
     amounts = np.array([_amount(member.solid, density, scenario.seed) for member in members])
-    counts = np.array([len(points) for points in own_points])
-    for rule in {id(rule): rule for rule in rules if rule}.values():
-        such = np.array([each is rule for each in rules]) & (counts == 0)
-        if rule.shards is not None:
-            counts[such] = rule.shards
-        elif rule.share is not None and such.any():
-            counts[such] = shards_per_member(amounts[such], max(int(such.sum()), round(rule.share * wanted)))
-    open_ones = counts == 0
-    left = wanted - int(counts.sum())
-    if not open_ones.any() and left:
-        raise GeometryError(
-            f"fracture.shards is {wanted}: expected {wanted - left}, as every member has points or a number of its own"
-        )
-    if open_ones.all():
+    counts = _explicit_counts(rules, own_points)
+    counts = _shared_counts(counts, settings, rules, amounts)
+    return _distribute_rest(counts, amounts, settings.shards)
+
+
+def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequence[np.ndarray]) -> np.ndarray:
+    """Shards (k,) of members that have points of their own, or a given number; 0 of any other."""
+    given = [rule.shards or 0 if rule else 0 for rule in rules]
+    return np.array([len(points) or number for points, number in zip(own_points, given, strict=True)])
+
+
+def _shared_counts(
+    counts: np.ndarray, settings: FractureSettings, rules: Sequence[MemberFracture | None], amounts: np.ndarray
+) -> np.ndarray:
+    """The counts (k,), with those of members (k,) that together get a given share of all shards."""
+    counts = counts.copy()
+    for rule in settings.members:
+        alike = np.array([each is rule for each in rules]) & (counts == 0)
+        if rule.share is not None and alike.any():
+            together = max(int(alike.sum()), round(rule.share * settings.shards))
+            counts[alike] = shards_per_member(amounts[alike], together)
+    return counts
+
+
+def _distribute_rest(counts: np.ndarray, amounts: np.ndarray, wanted: int) -> np.ndarray:
+    """The counts (k,), with the rest of the wanted shards distributed by volume among members that have none yet.
+
+    Raises
+    ------
+    GeometryError
+        There are too few shards left, or some that no member may have.
+    """
+    is_open, taken = counts == 0, int(counts.sum())
+    if is_open.all():
         return shards_per_member(amounts, wanted)
-    if open_ones.any():
-        if left < open_ones.sum():
-            raise GeometryError(
-                f"fracture.shards is {wanted}: expected at least {wanted - left + int(open_ones.sum())}, as "
-                f"{wanted - left} are for members with points or a number of their own and the others need one each"
-            )
-        counts[open_ones] = shards_per_member(amounts[open_ones], left)
+    if not is_open.any():
+        if taken == wanted:
+            return counts
+        raise GeometryError(
+            f"fracture.shards is {wanted}: expected {taken}, as every member has points or a number of its own"
+        )
+    if wanted - taken < is_open.sum():
+        raise GeometryError(
+            f"fracture.shards is {wanted}: expected at least {taken + int(is_open.sum())}, as {taken} are for members "
+            "with points or a number of their own and the others need one each"
+        )
+    counts = counts.copy()
+    counts[is_open] = shards_per_member(amounts[is_open], wanted - taken)
     return counts
 
 

@@ -22,14 +22,14 @@ class FractureOptions:
 
     Attributes
     ----------
-    density
+    density : PointDensity, optional
         Where the points lie closer; evenly by default.
-    noise
+    noise : float
         How far points are moved at random, in any direction, as a part of a shard's mean size (volume / shards)^(1/3):
         points drawn at random stay as random as they are, given ones lose their order.
-    stretch
+    stretch : (3,) float
         How long shards are along x, y and z, relative to each other.
-    recursion
+    recursion : Recursion, optional
         Which shards are cut once more.
     """
 

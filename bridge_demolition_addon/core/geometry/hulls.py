@@ -23,20 +23,20 @@ class ConvexHulls:
 
     Attributes
     ----------
-    normals
-        (f, 3) outward unit normals; the faces of a body follow each other.
-    areas
-        (f,) face areas, m².
-    face_vectors
-        (3, f) normals times areas, m².
-    offsets
-        (f,) distances of the faces from the body's centre of mass along their normals, m.
-    starts
-        (n + 1,) where the faces of each body begin, and the number of all.
-    vertices
-        (v, 3) from the bodies' centres of mass, m; those of a body follow each other.
-    vertex_starts
-        (n + 1,) where the vertices of each body begin, and the number of all.
+    normals : (f, 3) float
+        Outward unit normals; the faces of a body follow each other.
+    areas : (f,) float
+        Face areas, m².
+    face_vectors : (3, f) float
+        Normals times areas, m².
+    offsets : (f,) float
+        Distances of the faces from the body's centre of mass along their normals, m.
+    starts : (n + 1,) int
+        Where the faces of each body begin, and the number of all.
+    vertices : (v, 3) float
+        From the bodies' centres of mass, m; those of a body follow each other.
+    vertex_starts : (n + 1,) int
+        Where the vertices of each body begin, and the number of all.
     """
 
     normals: np.ndarray
@@ -67,9 +67,9 @@ def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = Non
 
     Parameters
     ----------
-    bodies
-        Vertices (v, 3) of each body, m, in its own axes from its centre of mass.
-    names
+    bodies : n arrays (v, 3) float
+        Vertices of each body, m, in its own axes from its centre of mass.
+    names : sequence of str, optional
         What each body is called where it is refused; by default its number.
 
     Raises

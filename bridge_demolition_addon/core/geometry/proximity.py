@@ -54,15 +54,15 @@ def boxes_that_meet(lower: np.ndarray, upper: np.ndarray, distance: float = 0.0)
 
     Parameters
     ----------
-    lower, upper
-        (n, 3) corners of the boxes.
-    distance
+    lower, upper : (n, 3) float
+        Corners of the boxes.
+    distance : float
         In the unit of the corners.
 
     Returns
     -------
-    numpy.ndarray
-        (k, 2) the smaller index first, in ascending order.
+    (k, 2) int
+        The smaller index first, in ascending order.
     """
     found = [np.zeros((0, 2), np.int64)]
     if len(lower) > 1:
@@ -99,15 +99,17 @@ def nearest_points(points: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarr
 
     Parameters
     ----------
-    points
-        (n, 3).
-    count
+    points : (n, 3) float
+        .
+    count : int
         How many for each; all others where there are no more.
 
     Returns
     -------
-    tuple of numpy.ndarray
-        (n, c) indices of the nearest, and (n, c) how far away they are.
+    indices : (n, c) int
+        Of the nearest.
+    distances : (n, c) float
+        How far away they are.
     """
     count = min(count, max(len(points) - 1, 0))
     indices, distances = np.zeros((len(points), count), np.int64), np.zeros((len(points), count))
@@ -129,14 +131,14 @@ class _Grid:
 
     Attributes
     ----------
-    points
+    points : (n, 3) float
         The points.
-    keys
-        (n,) numbers of their cells.
-    steps
-        (9,) differences of these numbers to the rows of cells beside and around one.
-    order, sorted_keys
-        (n,) points in ascending order of their cells, and the numbers of these.
+    keys : (n,) int
+        Numbers of their cells.
+    steps : (9,) int
+        Differences of these numbers to the rows of cells beside and around one.
+    order, sorted_keys : (n,) int
+        Points in ascending order of their cells, and the numbers of these.
     """
 
     points: np.ndarray

@@ -10,17 +10,17 @@ def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.nda
 
     Parameters
     ----------
-    pairs
-        (m, 2) indices of the connected bodies.
-    forces
-        (m, 3) force on the first body of each pair, N; the second gets the opposite (Newton's third law).
-    body_count
+    pairs : (m, 2) int
+        Indices of the connected bodies.
+    forces : (m, 3) float
+        Force on the first body of each pair, N; the second gets the opposite (Newton's third law).
+    body_count : int
         Number of bodies n.
 
     Returns
     -------
-    numpy.ndarray
-        (n, 3) in N.
+    (n, 3) float
+        In N.
     """
     first, second = pairs.T
     components = [
@@ -44,17 +44,17 @@ def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, cent
 
     Parameters
     ----------
-    points
-        (m, 3) where the connections sit, m.
-    forces, torques
-        (m, 3) force on a body in N, and the torque of the whole load about that body's centre in N·m.
-    centres
-        (m, 3) that body's centre, m.
+    points : (m, 3) float
+        Where the connections sit, m.
+    forces, torques : (m, 3) float
+        Force on a body in N, and the torque of the whole load about that body's centre in N·m.
+    centres : (m, 3) float
+        That body's centre, m.
 
     Returns
     -------
-    numpy.ndarray
-        (m, 3) in N·m: the torque less what the force makes by its lever arm.
+    (m, 3) float
+        In N·m: the torque less what the force makes by its lever arm.
     """
     (x, y, z), (a, b, c) = (points - centres).T, forces.T
     return torques - np.column_stack(

@@ -24,9 +24,9 @@ class Elasticity:
 
     Attributes
     ----------
-    young_modulus_pa
+    young_modulus_pa : float
         Young's modulus.
-    poisson_ratio
+    poisson_ratio : float
         Poisson's ratio.
     """
 
@@ -47,13 +47,13 @@ class Hit:
 
     Attributes
     ----------
-    first_step, last_step
+    first_step, last_step : int
         Rows of the first and the last of these steps.
-    start_s, end_s
+    start_s, end_s : float
         When the first of them began and the last ended.
-    impulse_ns
-        (3,) impulse on the body over all of them.
-    raw_peak_force_n, raw_step_s
+    impulse_ns : (3,) float
+        Impulse on the body over all of them.
+    raw_peak_force_n, raw_step_s : float
         Largest impulse of one step divided by the step, and that step: it grows as the step shrinks.
     """
 
@@ -76,13 +76,13 @@ def hits(impulses_ns: np.ndarray, steps_s: np.ndarray, start_s: float = 0.0, res
 
     Parameters
     ----------
-    impulses_ns
-        (k, 3) sum of the contact impulses on the body in each step.
-    steps_s
-        (k,) length of each step; sub-steps, or frames where nothing finer was recorded.
-    start_s
+    impulses_ns : (k, 3) float
+        Sum of the contact impulses on the body in each step.
+    steps_s : (k,) float
+        Length of each step; sub-steps, or frames where nothing finer was recorded.
+    start_s : float
         When the first step begins.
-    resting_force_n
+    resting_force_n : float
         A step belongs to a hit when its force is above this. With 0 every contact does, and a body that comes to rest
         is being hit for ever; a few times its weight tells the two apart.
 
@@ -121,7 +121,7 @@ class Contact:
 
     Attributes
     ----------
-    mass_kg, radius_m, modulus_pa
+    mass_kg, radius_m, modulus_pa : float
         1/m = 1/m₁ + 1/m₂, 1/R = 1/R₁ + 1/R₂ and 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂.
     """
 
@@ -211,11 +211,11 @@ class ImpactEstimate:
 
     Attributes
     ----------
-    contact_time_s
+    contact_time_s : float
         Given, or by Hertz.
-    half_sine_peak_force_n
+    half_sine_peak_force_n : float
         From the recorded impulse and the contact time.
-    hertz_peak_force_n
+    hertz_peak_force_n : float
         Of an elastic hit at the same speed: an upper bound.
     """
 
@@ -231,13 +231,13 @@ def estimate(
 
     Parameters
     ----------
-    impulse_ns
+    impulse_ns : float
         Magnitude of the impulse.
-    speed_m_s
+    speed_m_s : float
         Speed of approach along the line of contact before the hit, above 0.
-    contact
+    contact : Contact
         The two bodies.
-    contact_time_s
+    contact_time_s : float, optional
         Where it is known from a measurement; without it, Hertz's.
     """
     time_s = hertz_contact_time(contact, speed_m_s) if contact_time_s is None else contact_time_s

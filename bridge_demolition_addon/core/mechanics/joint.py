@@ -3,14 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from .strength import Strength
 
 TYPES = ("FIXED", "POINT", "HINGE", "GENERIC", "GENERIC_SPRING")
 """Kinds of connections that can be built."""
 
-MOTIONS = ("move x", "move y", "move z", "turn x", "turn y", "turn z")
-"""How one body can move against the other: along and about the axes of the world, as they are built."""
+
+class Motion(StrEnum):
+    """How one body can move against the other: along and about the axes of the world, as they are built."""
+
+    MOVE_X = "move x"
+    MOVE_Y = "move y"
+    MOVE_Z = "move z"
+    TURN_X = "turn x"
+    TURN_Y = "turn y"
+    TURN_Z = "turn z"
+
+    @property
+    def turns(self) -> bool:
+        """Whether the body turns about an axis, instead of moving along it."""
+        return self in (Motion.TURN_X, Motion.TURN_Y, Motion.TURN_Z)
+
+
+MOTIONS = tuple(motion.value for motion in Motion)
+"""What a scenario calls these motions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,9 +37,9 @@ class Springs:
 
     Attributes
     ----------
-    stiffness_n_m, damping_ns_m
+    stiffness_n_m, damping_ns_m : float
         Along each free axis.
-    turning_stiffness_nm_rad, turning_damping_nms_rad
+    turning_stiffness_nm_rad, turning_damping_nms_rad : float
         About each free axis.
     """
 
@@ -30,6 +48,12 @@ class Springs:
     turning_stiffness_nm_rad: float = 0.0
     turning_damping_nms_rad: float = 0.0
 
+    def of(self, motion: Motion) -> tuple[float, float]:
+        """Return stiffness and damping of the spring in a motion."""
+        if motion.turns:
+            return self.turning_stiffness_nm_rad, self.turning_damping_nms_rad
+        return self.stiffness_n_m, self.damping_ns_m
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Joint:
@@ -37,16 +61,16 @@ class Joint:
 
     Attributes
     ----------
-    type
+    type : str
         One of `TYPES`: FIXED holds everything, POINT a point, HINGE all but the rotation about the vertical, GENERIC
         all but what is free, and GENERIC_SPRING has springs in what is free.
-    free
+    free : tuple of str
         The `MOTIONS` that a GENERIC or GENERIC_SPRING connection lets happen.
-    springs
+    springs : Springs
         Of a GENERIC_SPRING connection.
-    breaking_force_n
+    breaking_force_n : float, optional
         Force that breaks the connection; None where no single force does.
-    strength
+    strength : Strength, optional
         Stresses that break it; None where no stress does.
     """
 

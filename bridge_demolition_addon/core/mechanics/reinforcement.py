@@ -27,13 +27,15 @@ def parting(
 
     Parameters
     ----------
-    first_points, second_points, first_velocities, second_velocities
-        (t, 3) places in m and velocities in m/s of the points on both bodies, which were one before the crack.
+    first_points, second_points, first_velocities, second_velocities : (t, 3) float
+        Places in m and velocities in m/s of the points on both bodies, which were one before the crack.
 
     Returns
     -------
-    tuple of numpy.ndarray
-        (t,) distance in m, (t,) its rate in m/s, (t, 3) unit vector from the first point to the second.
+    distances, rates : (t,) float
+        In m and m/s.
+    directions : (t, 3) float
+        Unit vectors from the first point to the second.
     """
     gaps, speeds = second_points - first_points, second_velocities - first_velocities
     distances = length(gaps)
@@ -59,11 +61,11 @@ def tie_forces(
 
     Parameters
     ----------
-    held_n
-        (t,) what it held on with before.
-    speeds_m_s, masses_kg, yield_forces_n
-        (t,) rate at which its points part, the mass it may take for its own, and the force at which it gives way.
-    substep_s
+    held_n : (t,) float
+        What it held on with before.
+    speeds_m_s, masses_kg, yield_forces_n : (t,) float
+        Rate at which its points part, the mass it may take for its own, and the force at which it gives way.
+    substep_s : float
         Length of the sub-step.
     """
     stopping = masses_kg * speeds_m_s / substep_s

@@ -22,19 +22,19 @@ within 73° of a direction are what a cut across that direction goes through."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cuts:
+class SectionCuts:
     """Two cuts for each of m connections, through its first and through its second shard.
 
     Attributes
     ----------
-    starts
-        (2 m + 1,) where the faces of each cut begin, and the number of all: first all cuts through first shards.
-    faces
-        (e,) connections whose faces are in a cut.
-    signs
-        (e,) 1 where the load of that connection's first body counts, -1 where its opposite does.
-    cosines
-        (e,) between the normals of a face and of its cut.
+    starts : (2 m + 1,) int
+        Where the faces of each cut begin, and the number of all: first all cuts through first shards.
+    faces : (e,) int
+        Connections whose faces are in a cut.
+    signs : (e,) float
+        1 where the load of that connection's first body counts, -1 where its opposite does.
+    cosines : (e,) float
+        Between the normals of a face and of its cut.
     """
 
     starts: np.ndarray
@@ -43,15 +43,19 @@ class Cuts:
     cosines: np.ndarray
 
     @classmethod
-    def between(cls, pairs: np.ndarray, normals: np.ndarray, areas: np.ndarray, is_shard: np.ndarray) -> Cuts:
+    def between(cls, pairs: np.ndarray, normals: np.ndarray, areas: np.ndarray, is_shard: np.ndarray) -> SectionCuts:
         """The cuts of connections.
 
         Parameters
         ----------
-        pairs, normals, areas
-            (m, 2) connected bodies, (m, 3) unit vectors from the first to the second, (m,) areas in m².
-        is_shard
-            (n,) bodies with faces all around. Through any other, such as the ground, a cut has one face only.
+        pairs : (m, 2) int
+            Connected bodies.
+        normals : (m, 3) float
+            Unit vectors from the first body to the second.
+        areas : (m,) float
+            In m².
+        is_shard : (n,) bool
+            Bodies with faces all around. Through any other, such as the ground, a cut has one face only.
         """
         count = len(pairs)
         # A half is a connection as one of its bodies sees it: first those of the first bodies, then of the second.
@@ -85,17 +89,17 @@ class Cuts:
 
         Parameters
         ----------
-        rows
-            (k,) which connections.
-        intact
-            (m,) what still holds; a broken face is in no cut.
-        forces, moments, points
-            (m, 3) on the first body of each connection, about the connection's own point, which is also given, in the
-            axes of the world; N, N·m, m.
-        axes
-            (k, 3, 3) of the sections of those connections, as columns.
-        areas, second_moments
-            (m,) and (m, 2, 2) of all faces, each in its own axes, m² and m⁴.
+        rows : (k,) int
+            Which connections.
+        intact : (m,) bool
+            What still holds; a broken face is in no cut.
+        forces, moments, points : (m, 3) float
+            On the first body of each connection, about the connection's own point, which is also given, in the axes of
+            the world; N, N·m, m.
+        axes : (k, 3, 3) float
+            Of the sections of those connections, as columns.
+        areas, second_moments : (m,), (m, 2, 2) float
+            Of all faces, each in its own axes, m² and m⁴.
 
         Returns
         -------
@@ -126,10 +130,12 @@ def worst_around(pairs: np.ndarray, used: np.ndarray, is_shard: np.ndarray) -> n
 
     Parameters
     ----------
-    pairs, used
-        (k, 2) connected bodies, and (k,) utilisations.
-    is_shard
-        (n,) bodies that count; connections to any other, such as the ground, do not compete over it.
+    pairs : (k, 2) int
+        Connected bodies.
+    used : (k,) float
+        Utilisations.
+    is_shard : (n,) bool
+        Bodies that count; connections to any other, such as the ground, do not compete over it.
     """
     most = np.full(len(is_shard), -np.inf)
     np.maximum.at(most, pairs.ravel(), np.repeat(used, 2))

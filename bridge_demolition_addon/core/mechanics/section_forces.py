@@ -23,14 +23,14 @@ class SectionForces:
 
     Attributes
     ----------
-    axial_n
-        (m,) along x, tension positive, N.
-    shear_n
-        (m, 2) along y and z, N.
-    torsion_nm
-        (m,) about x, N·m.
-    bending_nm
-        (m, 2) about y and z, N·m. About y it pulls where z is positive, about z where y is negative.
+    axial_n : (m,) float
+        Along x, tension positive, N.
+    shear_n : (m, 2) float
+        Along y and z, N.
+    torsion_nm : (m,) float
+        About x, N·m.
+    bending_nm : (m, 2) float
+        About y and z, N·m. About y it pulls where z is positive, about z where y is negative.
     """
 
     axial_n: np.ndarray
@@ -47,13 +47,13 @@ def section_axes(normals: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    normals
-        (m, 3) unit vectors from the first body to the second.
+    normals : (m, 3) float
+        Unit vectors from the first body to the second.
 
     Returns
     -------
-    numpy.ndarray
-        (m, 3, 3) rotations: x, y and z of each section are its columns.
+    (m, 3, 3) float
+        Rotations: x, y and z of each section are its columns.
     """
     x = np.asarray(normals, dtype=float)
     level = length(x[:, :2]) < _LEVEL_CUT
@@ -67,11 +67,10 @@ def section_forces(axes: np.ndarray, forces: np.ndarray, moments: np.ndarray) ->
 
     Parameters
     ----------
-    axes
-        (m, 3, 3) from `section_axes` or `rotations.carried_axes`.
-    forces, moments
-        (m, 3) on the first body of each connection, about the connection's own point, in the axes of the world, N and
-        N·m.
+    axes : (m, 3, 3) float
+        From `section_axes` or `rotations.carried_axes`.
+    forces, moments : (m, 3) float
+        On the first body of each connection, about the connection's own point, in the axes of the world, N and N·m.
     """
     force, moment = (transformed_back(axes, each) for each in (forces, moments))
     return SectionForces(force[:, 0], force[:, 1:], moment[:, 0], moment[:, 1:])

@@ -25,13 +25,13 @@ class Strength:
 
     Attributes
     ----------
-    compression_pa, tension_pa
+    compression_pa, tension_pa : float or (m,) float
         Axial force by area.
-    shear_pa
+    shear_pa : float or (m,) float
         Shear force by area: the mean over the section, which codes of practice give their shear strengths for.
-    torsion_pa
+    torsion_pa : float or (m,) float
         Torsional moment by torsion modulus: the shear stress at the edge of an uncracked section.
-    bending_pa
+    bending_pa : float or (m,) float
         Bending moment by elastic section modulus: the stress that an uncracked section would have at its edge.
 
     Raises
@@ -94,12 +94,12 @@ class Sections:
 
     Attributes
     ----------
-    areas_m2
-        (m,) area.
-    directions
-        (m, 2, 2) the principal axes of bending are its columns, in the section's y and z.
-    bending_moduli_m3, torsion_moduli_m3
-        (m, 2) elastic moduli about these axes, and (m,) for torsion: moment by stress at the edge.
+    areas_m2 : (m,) float
+        Area.
+    directions : (m, 2, 2) float
+        The principal axes of bending are its columns, in the section's y and z.
+    bending_moduli_m3, torsion_moduli_m3 : (m, 2), (m,) float
+        Elastic moduli about these axes, and for torsion: moment by stress at the edge.
     """
 
     areas_m2: np.ndarray
@@ -114,9 +114,9 @@ class Ductility:
 
     Attributes
     ----------
-    strength_share
+    strength_share : float or (m,) float
         Part of the strength that is left, from 0, nothing, to 1.
-    elongation_m
+    elongation_m : float or (m,) float
         How far the two sides of the crack may part before it lets go. It is a length and not a share of one: the
         distance between two shards depends on how finely the bridge is cut, the width of a crack does not.
 
@@ -145,11 +145,11 @@ def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Secti
 
     Parameters
     ----------
-    areas
-        (m,) in m².
-    second_moments
-        (m, 2, 2) about the section's y and z axes through its centre, m⁴: ∫ z² dA and ∫ y² dA on the diagonal,
-        -∫ y z dA beside it; positive definite.
+    areas : (m,) float
+        In m².
+    second_moments : (m, 2, 2) float
+        About the section's y and z axes through its centre, m⁴: ∫ z² dA and ∫ y² dA on the diagonal, -∫ y z dA beside
+        it; positive definite.
 
     References
     ----------
@@ -186,17 +186,17 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
 
     Parameters
     ----------
-    forces
+    forces : SectionForces
         Of m connections.
-    sections
+    sections : Sections
         Of the same connections.
-    strength
+    strength : Strength
         Of all, or of each of them.
 
     Returns
     -------
-    numpy.ndarray
-        (m,) nan where the section has no area, or the forces are nan.
+    (m,) float
+        Nan where the section has no area, or the forces are nan.
     """
     axial = forces.axial_n / sections.areas_m2
     moments = transformed_back(sections.directions, forces.bending_nm)

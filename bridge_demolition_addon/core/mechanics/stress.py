@@ -21,21 +21,21 @@ def average_stress(
 
     Parameters
     ----------
-    bodies
-        (k,) the body that each load acts on.
-    forces
-        (k, 3) force on that body, N.
-    points
-        (k, 3) where it acts, m.
-    centres
-        (n, 3) centres of mass of all bodies, m.
-    volumes
-        (n,) volumes of all bodies, m³.
+    bodies : (k,) int
+        The body that each load acts on.
+    forces : (k, 3) float
+        Force on that body, N.
+    points : (k, 3) float
+        Where it acts, m.
+    centres : (n, 3) float
+        Centres of mass of all bodies, m.
+    volumes : (n,) float
+        Volumes of all bodies, m³.
 
     Returns
     -------
-    numpy.ndarray
-        (n, 3, 3) symmetric, Pa; nan for a body without a volume, and for one with a load that is nan.
+    (n, 3, 3) float
+        Symmetric, Pa; nan for a body without a volume, and for one with a load that is nan.
 
     References
     ----------
@@ -63,19 +63,19 @@ def average_stress_of_moments(
 
     Parameters
     ----------
-    bodies
-        (k,) the body that each moment acts on.
-    moments
-        (k, 3) moment on that body about the connection's point, N·m.
-    normals
-        (k, 3) unit normal of the connection's face, pointing either way.
-    volumes
-        (n,) volumes of all bodies, m³.
+    bodies : (k,) int
+        The body that each moment acts on.
+    moments : (k, 3) float
+        Moment on that body about the connection's point, N·m.
+    normals : (k, 3) float
+        Unit normal of the connection's face, pointing either way.
+    volumes : (n,) float
+        Volumes of all bodies, m³.
 
     Returns
     -------
-    numpy.ndarray
-        (n, 3, 3) symmetric, Pa, to be added to `average_stress`.
+    (n, 3, 3) float
+        Symmetric, Pa, to be added to `average_stress`.
 
     References
     ----------

@@ -18,17 +18,19 @@ def rules_of_pairs(
 
     Parameters
     ----------
-    rules
+    rules : sequence of ConnectionBetween
         The rules.
-    members, member_of_shard
-        The members, and (n,) the index of the member of each shard.
-    pairs
-        (k, 2) indices of shards, or -1 for the ground.
+    members : sequence of Member
+        All members.
+    member_of_shard : (n,) int
+        Index of the member of each shard.
+    pairs : (k, 2) int
+        Indices of shards, or -1 for the ground.
 
     Returns
     -------
-    numpy.ndarray
-        (k,) 0 for a pair that follows none, 1 for the first rule, and so on.
+    (k,) int
+        0 for a pair that follows none, 1 for the first rule, and so on.
 
     Raises
     ------

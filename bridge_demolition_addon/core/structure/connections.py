@@ -28,16 +28,16 @@ class Connections:
 
     Attributes
     ----------
-    pairs
-        (m, 2) indices of the connected shards; the second is `GROUND` for a foundation.
-    points
-        (m, 3) where each connection sits, m: the centre of the face that the two share, or half-way between their
-        centres of mass where they share none.
-    areas
-        (m,) area of the shared face, m²; 0 where the two share none.
-    normals
-        (m, 3) unit vectors from the first body to the second, at right angles to the shared face; without one, along
-        the line between their centres of mass, and upwards where these coincide.
+    pairs : (m, 2) int
+        Indices of the connected shards; the second is `GROUND` for a foundation.
+    points : (m, 3) float
+        Where each connection sits, m: the centre of the face that the two share, or half-way between their centres of
+        mass where they share none.
+    areas : (m,) float
+        Area of the shared face, m²; 0 where the two share none.
+    normals : (m, 3) float
+        Unit vectors from the first body to the second, at right angles to the shared face; without one, along the line
+        between their centres of mass, and upwards where these coincide.
     """
 
     pairs: np.ndarray
@@ -60,13 +60,15 @@ def connect(
 
     Parameters
     ----------
-    centres
-        (n, 3) centres of mass of the shards, m.
-    faces
+    centres : (n, 3) float
+        Centres of mass of the shards, m.
+    faces : SharedFaces
         All faces that two shards share.
-    pairs, distances
-        (k, 2) neighbouring shards and (k,) how far apart they are, in m or in any other order of preference.
-    limit_per_shard
+    pairs : (k, 2) int
+        Neighbouring shards.
+    distances : (k,) float
+        How far apart they are, in m or in any other order of preference.
+    limit_per_shard : int
         How many connections a shard may have.
     """
     pairs = limited(pairs, distances, limit_per_shard, len(centres))
@@ -96,9 +98,9 @@ def neighbours_by_count(centres: np.ndarray, count: int) -> tuple[np.ndarray, np
 
     Parameters
     ----------
-    centres
-        (n, 3) centres of mass, m.
-    count
+    centres : (n, 3) float
+        Centres of mass, m.
+    count : int
         How many of its nearest each shard is connected with; it may be among the nearest of more.
     """
     others, distances = nearest_points(centres, count)

@@ -28,17 +28,17 @@ def second_moments(
 
     Parameters
     ----------
-    shards
+    shards : sequence of TriangleMesh
         All shards.
-    first
-        (m,) the first shard of each face.
-    areas, centres, normals
-        (m,) area, (m, 3) centre and (m, 3) unit normal, out of the first shard; a face without area has no moments.
+    first : (m,) int
+        The first shard of each face.
+    areas, centres, normals : (m,), (m, 3), (m, 3) float
+        Area, centre and unit normal, out of the first shard; a face without area has no moments.
 
     Returns
     -------
-    numpy.ndarray
-        (m, 2, 2) about the section's y and z axes (`section_forces.section_axes`), m⁴: ∫ z² dA and ∫ y² dA on the
+    (m, 2, 2) float
+        About the section's y and z axes (`section_forces.section_axes`), m⁴: ∫ z² dA and ∫ y² dA on the
         diagonal, -∫ y z dA beside it.
     """
     in_plane = section_axes(normals)[:, :, 1:]

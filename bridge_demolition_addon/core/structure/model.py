@@ -18,7 +18,7 @@ from . import connections as connecting
 from .connection_rules import rules_of_pairs
 from .connections import Connections
 from .face_sections import second_moments
-from .supports import held_shards
+from .supports import fixed_shards
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,24 +27,24 @@ class Model:
 
     Attributes
     ----------
-    members
+    members : tuple of Member
         Members of the bridge before they were cut.
-    shards
+    shards : tuple of TriangleMesh
         The n shards' closed meshes, in the bridge's coordinates.
-    member_of_shard
-        (n,) index of the member that each shard was cut from.
-    masses_kg
-        (n,) mass of each shard.
-    centres_m
-        (n, 3) centre of mass of each shard.
-    connections
+    member_of_shard : (n,) int
+        Index of the member that each shard was cut from.
+    masses_kg : (n,) float
+        Mass of each shard.
+    centres_m : (n, 3) float
+        Centre of mass of each shard.
+    connections : Connections
         Connections between shards and to the ground.
-    joint_of_connection
-        (m,) what each connection has in common with others: index of one of the scenario's joints.
-    second_moments_m4
-        (m, 2, 2) second moments of area of the connections' faces; 0 for one without a face.
-    held
-        (n,) whether each shard never moves, as supports hold it; no connection lies between two of these.
+    joint_of_connection : (m,) int
+        What each connection has in common with others: index of one of the scenario's joints.
+    second_moments_m4 : (m, 2, 2) float
+        Second moments of area of the connections' faces; 0 for one without a face.
+    fixed : (n,) bool
+        Whether each shard never moves, as supports hold it; no connection lies between two of these.
     """
 
     members: tuple[Member, ...]
@@ -55,7 +55,7 @@ class Model:
     connections: Connections
     joint_of_connection: np.ndarray
     second_moments_m4: np.ndarray
-    held: np.ndarray
+    fixed: np.ndarray
 
     @property
     def density_kg_m3(self) -> float:
@@ -68,9 +68,9 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
 
     Parameters
     ----------
-    scenario
+    scenario : Scenario
         What to build.
-    members
+    members : sequence of Member, optional
         What is cut into shards, without overlap; by default all members that the scenario names.
 
     Raises
@@ -85,9 +85,9 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     rules_of = partial(rules_of_pairs, rules, members, cut.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
     connections = _connections(scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)])
-    held = held_shards(scenario.supports, members, shards, cut.member_of_shard)
-    # The ground, at index -1, is held as well.
-    moves = ~np.append(held, True)[connections.pairs].all(axis=1)
+    fixed = fixed_shards(scenario.supports, members, shards, cut.member_of_shard)
+    # The ground, at index -1, is fixed as well.
+    moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
     connections = connections.only(moves)
     return Model(
         members=members,
@@ -100,7 +100,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         second_moments_m4=second_moments(
             shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
         ),
-        held=held,
+        fixed=fixed,
     )
 
 

@@ -1,4 +1,4 @@
-"""Which shards never move, because their member, or the face they are part of, is held."""
+"""Which shards never move, because their member, or the face they are part of, is fixed."""
 
 from __future__ import annotations
 
@@ -28,28 +28,30 @@ _SAME_LEANING = 1e-6
 """Difference of two cosines below which faces look the same way."""
 
 
-def held_shards(
+def fixed_shards(
     supports: Sequence[Support], members: Sequence[Member], shards: Sequence[TriangleMesh], member_of_shard: np.ndarray
 ) -> np.ndarray:
-    """Whether each shard is held, (n,) bool.
+    """Whether each shard is fixed, (n,) bool.
 
     Parameters
     ----------
-    supports
-        What is held.
-    members
+    supports : sequence of Support
+        What is fixed.
+    members : sequence of Member
         The k members.
-    shards, member_of_shard
-        The n shards before gaps are made, and the index of each one's member.
+    shards : n TriangleMesh
+        Before gaps are made.
+    member_of_shard : (n,) int
+        Index of the member of each shard.
 
     Raises
     ------
     ScenarioError
         A member is not there.
     GeometryError
-        Every shard is held, so that nothing is left to move.
+        Every shard is fixed, so that nothing is left to move.
     """
-    held = np.zeros(len(shards), dtype=bool)
+    fixed = np.zeros(len(shards), dtype=bool)
     for support in supports:
         chosen = [index for index, each in enumerate(members) if support.member in (each.name, each.kind)]
         if not chosen:
@@ -61,13 +63,13 @@ def held_shards(
         for index in chosen:
             own = np.flatnonzero(member_of_shard == index)
             if support.face == "all":
-                held[own] = True
+                fixed[own] = True
             else:
                 parts = [shards[shard] for shard in own]
-                held[own] |= on_outermost_face(members[index].solid, parts, np.array(DIRECTIONS[support.face]))
-    if len(held) and held.all():
+                fixed[own] |= on_outermost_face(members[index].solid, parts, np.array(DIRECTIONS[support.face]))
+    if len(fixed) and fixed.all():
         raise GeometryError("Every shard is held by supports, so that nothing is left to move; hold fewer members.")
-    return held
+    return fixed
 
 
 def on_outermost_face(solid: TriangleMesh, shards: Sequence[TriangleMesh], direction: np.ndarray) -> np.ndarray:

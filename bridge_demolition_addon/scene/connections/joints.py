@@ -7,10 +7,20 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...core.mechanics.joint import MOTIONS, Joint
+from ...core.mechanics.joint import Joint, Motion
 from ...core.timing.time_step import TimeStep
 from .breaking_settings import set_strength
 from .breaking_thresholds import set_breaking_force
+
+_BLENDER_NAMES = {
+    Motion.MOVE_X: ("lin_x", "x"),
+    Motion.MOVE_Y: ("lin_y", "y"),
+    Motion.MOVE_Z: ("lin_z", "z"),
+    Motion.TURN_X: ("ang_x", "ang_x"),
+    Motion.TURN_Y: ("ang_y", "ang_y"),
+    Motion.TURN_Z: ("ang_z", "ang_z"),
+}
+"""How the names of Blender's properties for the limits and for the spring of each motion end."""
 
 
 def set_joints(
@@ -46,15 +56,12 @@ def _set_type(constraint: bpy.types.RigidBodyConstraint, joint: Joint) -> None:
     # weight that hangs from it. A spring of the second kind, with no springs in it, has no such start. The springs of
     # the first kind give way twice as far as their stiffness says.
     constraint.type, constraint.spring_type = "GENERIC_SPRING", "SPRING2"
-    springs = joint.springs
-    along = ("lin", "", springs.stiffness_n_m, springs.damping_ns_m)
-    about = ("ang", "ang_", springs.turning_stiffness_nm_rad, springs.turning_damping_nms_rad)
-    for motion in MOTIONS:
-        verb, axis = motion.split()
-        limit, spring, stiffness, damping = along if verb == "move" else about
-        setattr(constraint, f"use_limit_{limit}_{axis}", motion not in joint.free)
-        setattr(constraint, f"limit_{limit}_{axis}_lower", 0.0)
-        setattr(constraint, f"limit_{limit}_{axis}_upper", 0.0)
-        setattr(constraint, f"use_spring_{spring}{axis}", motion in joint.free and stiffness > 0.0)
-        setattr(constraint, f"spring_stiffness_{spring}{axis}", stiffness)
-        setattr(constraint, f"spring_damping_{spring}{axis}", damping)
+    for motion, (limit, spring) in _BLENDER_NAMES.items():
+        is_free = motion in joint.free
+        stiffness, damping = joint.springs.of(motion)
+        setattr(constraint, f"use_limit_{limit}", not is_free)
+        setattr(constraint, f"limit_{limit}_lower", 0.0)
+        setattr(constraint, f"limit_{limit}_upper", 0.0)
+        setattr(constraint, f"use_spring_{spring}", is_free and stiffness > 0.0)
+        setattr(constraint, f"spring_stiffness_{spring}", stiffness)
+        setattr(constraint, f"spring_damping_{spring}", damping)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...bullet.world import BulletWorld
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
-from ...core.mechanics.section_cuts import Cuts, worst_around
+from ...core.mechanics.section_cuts import SectionCuts, worst_around
 from ...core.mechanics.section_forces import SectionForces, section_forces
 from ...core.mechanics.strength import rectangular_sections, strength_at, utilisation
 from ...core.results.frames import BallHistory
@@ -85,7 +85,7 @@ class SubstepRecorder:
             world.hold_connections()
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
-        self._cuts = Cuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
+        self._cuts = SectionCuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._breaks: list[Breaks] = []

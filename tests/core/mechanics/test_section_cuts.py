@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.mechanics.section_cuts import Cuts, worst_around
+from bridge_demolition_addon.core.mechanics.section_cuts import SectionCuts, worst_around
 from bridge_demolition_addon.core.mechanics.section_forces import section_axes
 from bridge_demolition_addon.core.mechanics.strength import Strength, rectangular_sections, utilisation
 
@@ -26,7 +26,7 @@ INTACT = np.ones(4, bool)
 
 
 def cut_sections(rows, forces, moments, intact=INTACT):
-    cuts = Cuts.between(PAIRS, DIRECTIONS, AREAS, IS_SHARD)
+    cuts = SectionCuts.between(PAIRS, DIRECTIONS, AREAS, IS_SHARD)
     rows = np.array(rows)
     axes = section_axes(DIRECTIONS[rows])
     return cuts.sections(rows, intact, forces, moments, POINTS, axes, AREAS, SECOND_MOMENTS)
@@ -76,7 +76,7 @@ def test_through_what_is_no_shard_goes_one_face():
 def test_slanted_faces_count_with_what_they_show():
     pairs = np.array([(0, 1), (0, 2), (0, 3)])
     slanted = np.array([(1.0, 0, 0), (0.6, 0.8, 0), (0.0, 1.0, 0)])
-    cuts = Cuts.between(pairs, slanted, np.array([1.0, 1.0, 1.0]), np.ones(4, bool))
+    cuts = SectionCuts.between(pairs, slanted, np.array([1.0, 1.0, 1.0]), np.ones(4, bool))
     zero = np.zeros((3, 3))
     row = np.array([0])
     _, areas, _ = cuts.sections(
@@ -88,7 +88,7 @@ def test_slanted_faces_count_with_what_they_show():
 def test_no_rows_and_no_connections():
     loads, areas, moments = cut_sections(np.zeros(0, int), np.zeros((4, 3)), np.zeros((4, 3)))
     assert len(areas) == len(moments) == len(loads.axial_n) == 0
-    empty = Cuts.between(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.ones(2, bool))
+    empty = SectionCuts.between(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.ones(2, bool))
     assert empty.starts.tolist() == [0]
 
 

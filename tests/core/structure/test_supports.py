@@ -23,15 +23,15 @@ def names_of(model, shards):
 
 
 def test_nothing_is_held_without_supports():
-    assert not build_model(SCENARIO).held.any()
+    assert not build_model(SCENARIO).fixed.any()
 
 
 def test_whole_members_are_held_and_keep_no_connection_among_themselves():
     free, model = build_model(SCENARIO), build_model(replace(SCENARIO, supports=[Support(member="pier")]))
     columns = {f"pier {pier} column {column}" for pier in (1, 2) for column in (1, 2)}
-    assert names_of(model, model.held) == columns
-    assert names_of(model, ~model.held) == {"deck", "pier 1 cap", "pier 2 cap"}
-    held = np.append(model.held, True)
+    assert names_of(model, model.fixed) == columns
+    assert names_of(model, ~model.fixed) == {"deck", "pier 1 cap", "pier 2 cap"}
+    held = np.append(model.fixed, True)
     assert not held[model.connections.pairs].all(axis=1).any()
     # What lies between a held shard and one that moves stays: the caps on the columns.
     assert model.connections.areas[held[model.connections.pairs].any(axis=1)].sum() == pytest.approx(4 * 0.49, rel=1e-7)
@@ -41,7 +41,7 @@ def test_whole_members_are_held_and_keep_no_connection_among_themselves():
 
 def test_a_name_holds_one_member():
     model = build_model(replace(SCENARIO, supports=[Support(member="pier 2 cap")]))
-    assert names_of(model, model.held) == {"pier 2 cap"}
+    assert names_of(model, model.fixed) == {"pier 2 cap"}
 
 
 @pytest.mark.parametrize(
@@ -52,8 +52,8 @@ def test_shards_on_a_face_are_held(face, axis, place):
     reach = np.array([abs(shard.vertices[:, axis] - place).min() for shard in model.shards])
     deck = model.member_of_shard == 0
     # Shards of the deck that reach the face; all of them reach its top, and so are held by it.
-    assert np.array_equal(model.held, deck & (reach < 1e-9))
-    assert model.held.any()
+    assert np.array_equal(model.fixed, deck & (reach < 1e-9))
+    assert model.fixed.any()
 
 
 def test_the_end_of_a_skewed_deck_is_its_skewed_face():
@@ -62,7 +62,7 @@ def test_the_end_of_a_skewed_deck_is_its_skewed_face():
     model = build_model(scenario)
     tangent = np.sqrt(3)
     reach = np.array([abs(shard.vertices @ [1, -tangent, 0] - 30.5).min() for shard in model.shards])
-    assert model.held.any() and np.array_equal(model.held, (model.member_of_shard == 0) & (reach < 1e-6))
+    assert model.fixed.any() and np.array_equal(model.fixed, (model.member_of_shard == 0) & (reach < 1e-6))
 
 
 def test_faces_of_a_cube():
