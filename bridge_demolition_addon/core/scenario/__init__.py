@@ -7,13 +7,10 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
-from .ball import Ball, BallHit
-from .bodies import Ground, ShardSettings
-from .bridge import Bridge
-from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
-from .cable import BallCable
-from .connection_rules import ConnectionBetween
-from .connections import ConnectionSettings
+from .ball import Ball, BallCable, BallHit
+from .bodies import Ground, ShardSettings, Support
+from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
+from .connections import ConnectionBetween, ConnectionSettings
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
@@ -21,7 +18,6 @@ from .recording import PictureSettings, RecordingSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening
-from .supports import Support
 from .time import TimeSettings
 
 __all__ = [

@@ -9,7 +9,7 @@ from ..errors import ScenarioError
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, key, shown
 from ..timing.timeline import Timeline
 from .ball import Ball, BallHit
-from .bodies import Ground, ShardSettings
+from .bodies import Ground, ShardSettings, Support
 from .bridge import Bridge
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
@@ -18,7 +18,6 @@ from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening, check_times
-from .supports import Support
 from .time import MOST_FRAMES, TimeSettings
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..bridge.member import Member
 from ..errors import ScenarioError
-from ..scenario.connection_rules import GROUND_NAME, ConnectionBetween
+from ..scenario.connections import GROUND_NAME, ConnectionBetween
 
 
 def rules_of_pairs(

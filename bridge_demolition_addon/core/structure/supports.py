@@ -10,7 +10,7 @@ from ..bridge.member import Member
 from ..errors import GeometryError, ScenarioError
 from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.vectors import dot
-from ..scenario.supports import Support
+from ..scenario.bodies import Support
 
 DIRECTIONS = {
     "bottom": (0.0, 0.0, -1.0),
