@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..core.errors import LayoutError
+from ..core.geometry.vectors import dot, length
 from .layout import Layout
 from .memory import gather_doubles, gather_integers, gather_pointers, read, read_pointer, read_value
 
@@ -192,8 +193,8 @@ def _check_point(layout: Layout, address: int, frictions: list[float]) -> None:
     # Bullet multiplies the two.
     friction = min(frictions[0] * frictions[1], _LARGEST_FRICTION)
     checks: Mapping[str, bool] = {
-        "normal": abs(np.linalg.norm(normal) - 1.0) <= _UNIT,
-        "distance": abs(gap @ normal - doubles[point.distance // 8]) <= _UNIT * reach,
+        "normal": abs(length(normal) - 1.0) <= _UNIT,
+        "distance": abs(dot(gap, normal) - doubles[point.distance // 8]) <= _UNIT * reach,
         "friction": abs(doubles[point.friction // 8] - friction) <= _UNIT * (1.0 + friction),
         "normal impulse": 0.0 <= doubles[point.normal_impulse // 8] < np.inf,
     }
@@ -207,7 +208,7 @@ def _check_directions(values: np.ndarray) -> None:
     for impulse, start in ((7, 9), (8, 12)):
         used = values[values[:, impulse] != 0.0]
         directions, normals = used[:, start : start + 3], used[:, 3:6]
-        length = abs(np.einsum("ki,ki->k", directions, directions) - 1.0)
-        slope = abs(np.einsum("ki,ki->k", directions, normals))
-        if not (max(length.max(initial=0.0), slope.max(initial=0.0)) <= _UNIT):
+        excess = abs(dot(directions, directions) - 1.0)
+        slope = abs(dot(directions, normals))
+        if not (max(excess.max(initial=0.0), slope.max(initial=0.0)) <= _UNIT):
             raise LayoutError("lateral directions of a contact point: not as expected")

@@ -1,6 +1,6 @@
 """The Bullet world of a scene, bound to the scene's bodies and connections.
 
-Blender makes the world anew whenever a simulation starts again, often at the same address. A token in a field that
+Blender makes another world whenever a simulation starts again, often at the same address. A token in a field that
 Blender leaves unused tells a world that has been checked and prepared from one that has not.
 """
 
@@ -79,7 +79,7 @@ class _BoundWorld:
     ignored, ignored_rows : IgnoredCollisions, (m,) int
         How these are let collide, and the rows of connections in it.
     fingerprints : Fingerprints
-        How a connection that was freed is told.
+        Tells connections that were freed from those in use.
     contacts : ContactReader
         Reads the contacts.
     """
@@ -160,7 +160,7 @@ class BulletWorld:
         """Have functions called before and after every sub-step of this world, with the sub-step's length in s.
 
         They are called from whatever thread simulates, while Blender's data is in use: they must not touch bpy, and
-        must not raise. A world that Blender makes anew does not know them any more.
+        must not raise. Another world that Blender makes does not know them.
         """
         world = self._layout.world
         for field, action in ((world.before_step, before), (world.after_step, after)):
@@ -178,7 +178,7 @@ class BulletWorld:
         write_doubles(np.array([address]), 0.0)
         return substep
 
-    def places(self) -> tuple[np.ndarray, np.ndarray]:
+    def positions(self) -> tuple[np.ndarray, np.ndarray]:
         """Origins (n, 3) in m and rotation matrices (n, 3, 3) of all bodies."""
         transforms = gather_doubles(self._bound.bodies + np.uint64(self._layout.body.transform), 15)
         return transforms[:, 12:15], transforms[:, :12].reshape(-1, 3, 4)[:, :, :3]
@@ -187,7 +187,7 @@ class BulletWorld:
         """Linear velocities (n, 3) of all bodies, m/s."""
         return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.linear_velocity), 3)
 
-    def spins(self) -> np.ndarray:
+    def angular_velocities(self) -> np.ndarray:
         """Angular velocities (n, 3) of all bodies, rad/s."""
         return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.angular_velocity), 3)
 
@@ -263,7 +263,7 @@ class BulletWorld:
         """Take bodies (k,) out of the simulation for good; their connections have to be broken.
 
         Deleting them would crash Blender, which still points at them. They stay, disabled, out of reach of all others:
-        `OUT_OF_REACH_M` below their places.
+        `OUT_OF_REACH_M` below their positions.
         """
         addresses, body = self._bound.bodies[rows], self._layout.body
         origins = addresses + np.uint64(body.transform + 96)

@@ -138,7 +138,7 @@ class DirectBlast:
         start_s, self._elapsed_s = self._elapsed_s, self._elapsed_s + substep_s
         if self._explosion.is_quiet(start_s, self._elapsed_s):
             return
-        centres, rotations = self._world.places()
+        centres, rotations = self._world.positions()
         loads = self._explosion.loads(start_s, self._elapsed_s, centres[self._rows], rotations[self._rows])
         if not len(loads):
             return

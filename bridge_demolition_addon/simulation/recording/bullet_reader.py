@@ -87,7 +87,7 @@ class BulletReader:
         return self._frame(substep_s, loads), breaks
 
     def _frame(self, substep_s: float, loads: FrameLoads) -> Frame:
-        positions, rotations = self._world.places()
+        positions, rotations = self._world.positions()
         return Frame(
             number=self._scene.frame_current,
             time_s=self._substeps.elapsed_s,
@@ -95,7 +95,7 @@ class BulletReader:
             positions_m=positions,
             rotations=rotations,
             velocities_m_s=self._world.velocities(),
-            angular_velocities_rad_s=self._world.spins(),
+            angular_velocities_rad_s=self._world.angular_velocities(),
             asleep=self._world.asleep(),
             intact=self._world.intact(),
             blast_impulses_ns=np.zeros_like(positions),

@@ -37,7 +37,7 @@ class LoadReader:
         self._feedback_rows = 2 * rows + np.where(world.first_is_body_a(), side, 1 - side)
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
-        centres, rotations = world.places()
+        centres, rotations = world.positions()
         bodies = self._bodies
         self._local_points = transformed_back(rotations[bodies], points_m - centres[bodies])
         self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
@@ -52,7 +52,7 @@ class LoadReader:
 
     def read(self, substep_s: float) -> SubstepLoads:
         """Loads of the last sub-step, whose length is given in s."""
-        centres, rotations = self._world.places()
+        centres, rotations = self._world.positions()
         force, torque = self._world.joint_feedback(self._feedback_rows)
         points = carried_points(self._local_points, self._bodies, centres, rotations)
         moment = forces.moments_at(points, force, torque, centres[self._bodies])

@@ -19,7 +19,7 @@ from ...core.results.frames import BallHistory, Frame, FrameSeries
 from ...core.results.inventory import Inventory
 from ...scene.bodies import bodies_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
-from ...scene.connections.constraints import connections_of, loose_connections
+from ...scene.connections.constraints import connections_of
 from ...scene.inventory import take_inventory
 from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
@@ -29,38 +29,11 @@ from .bullet_reader import BulletReader
 from .logs import LogFiles, Logs
 from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader
-
-
-def check_recordable(scene: bpy.types.Scene) -> None:
-    """See whether a scene can be recorded as it is.
-
-    Raises
-    ------
-    SimulationError
-        It has no rigid-body world or one in which nothing moves, other units than metres, or connections without a
-        body.
-    """
-    if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
-        raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
-    if not scene.rigidbody_world.enabled:
-        raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
-    if scene.rigidbody_world.time_scale == 0.0:
-        raise SimulationError(f"the rigid-body world of scene {scene.name!r} has a speed of 0: set it to 1 first")
-    unit_scale = scene.unit_settings.scale_length
-    if unit_scale != 1.0:
-        raise SimulationError(
-            f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
-            "set the unit scale to 1 and build the scene in metres"
-        )
-    if loose := loose_connections(scene):
-        more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""
-        raise SimulationError(
-            f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
-        )
+from .recordable import check_recordable
 
 
 class Recording:
-    """What happens in one scene from its start frame on; a simulation that starts anew is recorded anew.
+    """Records one scene from its start frame on; a simulation that starts again is recorded from its beginning.
 
     Parameters
     ----------
@@ -69,7 +42,7 @@ class Recording:
     folder
         Folder for the logs, which has to exist once it is recorded.
     every_substep
-        Whether loads are taken down after every sub-step, or only after the last one of each frame.
+        Whether loads are read after every sub-step, or only after the last one of each frame.
     log_files
         Logs that do not go to the folder; all do by default.
 
@@ -127,7 +100,7 @@ class Recording:
         self._prepare_blast()
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Take down the frame.
+        """Record the frame.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""The second stage of connections that broke by their strength: ductile ties, put into Bullet as forces."""
+"""Reinforcement across the cracks of connections that broke by their strength, put into Bullet as forces."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from ...core.mechanics.strength import Ductility
 from ...core.results.inventory import Inventory
 
 
-class Ties:
-    """All ductile ties of a world.
+class Reinforcement:
+    """All reinforcement of a world that holds on across a crack: one tie for each connection that broke.
 
     Parameters
     ----------
@@ -41,18 +41,18 @@ class Ties:
         self._yield_n = ductility.strength_share * tension_pa * inventory.areas_m2
         self._rows = np.zeros(0, int)
         self._anchors = np.zeros((0, 2, 3))
-        self._held_n = np.zeros(0)
+        self._holding_n = np.zeros(0)
         self.forces_n = np.zeros((len(inventory.pairs), 3))
 
     def add(self, rows: np.ndarray, points_m: np.ndarray) -> None:
-        """Let connections (r,), broken just now at points (r, 3), go on as ties."""
-        places, rotations = self._world.places()
+        """Let connections (r,), broken just now at points (r, 3), hold on as ties."""
+        positions, rotations = self._world.positions()
         pairs = self._inventory.pairs[rows]
-        levers = points_m[:, None] - places[pairs]
+        levers = points_m[:, None] - positions[pairs]
         anchors = transformed_back(rotations[pairs], levers)
         self._rows = np.concatenate((self._rows, rows))
         self._anchors = np.concatenate((self._anchors, anchors))
-        self._held_n = np.concatenate((self._held_n, np.zeros(len(rows))))
+        self._holding_n = np.concatenate((self._holding_n, np.zeros(len(rows))))
 
     def before_substep(self, substep_s: float) -> None:
         """Let go what has stretched too far, and pull with the rest in the coming sub-step."""
@@ -60,17 +60,17 @@ class Ties:
         if not len(self._rows):
             return
         pairs = self._inventory.pairs[self._rows]
-        places, rotations = self._world.places()
+        positions, rotations = self._world.positions()
         levers = transformed(rotations[pairs], self._anchors)
-        points = places[pairs] + levers
-        speeds = self._world.velocities()[pairs] + np.cross(self._world.spins()[pairs], levers)
+        points = positions[pairs] + levers
+        speeds = self._world.velocities()[pairs] + np.cross(self._world.angular_velocities()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
         masses = effective_masses(self._inventory.masses_kg, pairs)
         yield_n = (self._remaining_strength * self._yield_n)[self._rows]
-        tensions, self._held_n = tie_forces(self._held_n, rates, masses, yield_n, substep_s)
+        tensions, self._holding_n = tie_forces(self._holding_n, rates, masses, yield_n, substep_s)
         holds = distances <= self._ductility.elongation_m
         pulls = np.where(holds, tensions, 0.0)[:, None] * directions
         self.forces_n[self._rows] = pulls
         both = np.stack((pulls, -pulls), axis=1).reshape(-1, 3)
         self._world.add_forces(pairs.ravel(), both, np.cross(levers.reshape(-1, 3), both))
-        self._rows, self._anchors, self._held_n = self._rows[holds], self._anchors[holds], self._held_n[holds]
+        self._rows, self._anchors, self._holding_n = self._rows[holds], self._anchors[holds], self._holding_n[holds]

@@ -1,4 +1,4 @@
-"""What is taken down after every sub-step: loads, breaking, and the hits of the ball."""
+"""What is recorded after every sub-step: loads, breaking, and the hits of the ball."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ...scene.connections.breaking_settings import Breaking
 from .blast import Blast
 from .events import Events
 from .load_reader import LoadReader
-from .reinforcement import Ties
+from .reinforcement import Reinforcement
 
 _SINGLE_PRECISION = 1e-6
 
@@ -44,7 +44,7 @@ class SubstepRecorder:
     breaking
         How connections break.
     events
-        What happens to them besides.
+        Removals, saw cuts and weakenings.
     blast
         What explodes, or None.
     threshold_step_s
@@ -55,9 +55,9 @@ class SubstepRecorder:
     elapsed_s
         Simulated time so far.
     seconds
-        Wall time that taking down has cost so far.
+        Wall time that recording has cost so far.
     error
-        What went wrong in a sub-step; nothing is taken down after it.
+        What went wrong in a sub-step; nothing is recorded after it.
     """
 
     def __init__(
@@ -76,10 +76,12 @@ class SubstepRecorder:
         self._events = events
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
-        self._ties = None
+        self._reinforcement = None
         if breaking.ductility:
             remaining = events.remaining_strength
-            self._ties = Ties(world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining)
+            self._reinforcement = Reinforcement(
+                world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining
+            )
         self._is_warming_up = breaking.warm_up_s > 0.0
         if self._is_warming_up:
             world.hold_connections()
@@ -103,8 +105,8 @@ class SubstepRecorder:
                 self._world.slow_down(self._shards, (1.0 - self._breaking.warm_up_damping) ** substep_s)
             self._events.before_substep(self.elapsed_s, substep_s)
             self._world.scale_thresholds(self._threshold_factor(substep_s))
-            if self._ties:
-                self._ties.before_substep(substep_s)
+            if self._reinforcement:
+                self._reinforcement.before_substep(substep_s)
             if self._blast:
                 self._blast.before_substep(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
@@ -113,15 +115,15 @@ class SubstepRecorder:
     def _threshold_factor(self, substep_s: float) -> float:
         """Impulse of a steady force in this sub-step over that in the one that thresholds were made for."""
         factor = substep_s / self._threshold_step_s
-        return 1.0 if abs(factor - 1.0) < _SINGLE_PRECISION else factor  # Blender reckons steps in single precision
+        return 1.0 if abs(factor - 1.0) < _SINGLE_PRECISION else factor  # Blender calculates steps in single precision
 
     def after_substep(self, substep_s: float) -> None:
-        """Take down a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
+        """Record a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
         if self.error:
             return
         began = time.perf_counter()
         try:
-            self._take_down(substep_s)
+            self._record(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
         self.seconds += time.perf_counter() - began
@@ -144,11 +146,11 @@ class SubstepRecorder:
         times, impulses, velocities = map(np.array, zip(*self._hits, strict=True))
         return BallHistory(self._balls, times, impulses, velocities)
 
-    def _take_down(self, substep_s: float) -> None:
+    def _record(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
         loads = self._reader.read(substep_s)
-        if self._ties:
-            loads.connection_forces_n[:] += self._ties.forces_n
+        if self._reinforcement:
+            loads.connection_forces_n[:] += self._reinforcement.forces_n
         self._frame.add(loads)
         self._break_overloaded(loads)
         self._note_breaks(loads)
@@ -166,13 +168,13 @@ class SubstepRecorder:
         if self._breaking.strength:
             rows = self._overloaded(loads)
             self._world.break_connections(rows)
-            if self._ties and len(rows):
-                self._ties.add(rows, loads.connection_points_m[rows])
+            if self._reinforcement and len(rows):
+                self._reinforcement.add(rows, loads.connection_points_m[rows])
 
     def _overloaded(self, loads: SubstepLoads) -> np.ndarray:
         """Connections (k,) to break: overloaded by themselves and as parts of their cuts, and each the worst around.
 
-        When one breaks, its neighbours share its load anew: they are judged again after the next sub-step.
+        When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
         """
         strength, inventory, left = self._breaking.strength, self._inventory, self._events.remaining_strength
         forces = self._section_forces(loads, np.arange(len(self._intact)))

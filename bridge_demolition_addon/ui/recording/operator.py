@@ -17,7 +17,8 @@ from ...core.sequence.rest import Rest
 from ...simulation.blender_events import running_recording, start_recording, stop_recording
 from ...simulation.playback import start_over
 from ...simulation.recording.logs import LogFiles
-from ...simulation.recording.recorder import Recording, check_recordable
+from ...simulation.recording.recordable import check_recordable
+from ...simulation.recording.recorder import Recording
 from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
 from ...simulation.run_summary import Subject, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast

@@ -35,11 +35,11 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         place = (np.array(bodies[i].location) + np.array(bodies[i + 1].location)) / 2
         blocks.connect(kind, tuple(place), bodies[i], bodies[i + 1], 2e4)
     errors = []
-    take_down = SubstepRecorder._take_down
+    record = SubstepRecorder._record
 
     def compare(recorder, substep_s):
         before = getattr(recorder, "velocities_before", np.zeros((33, 3)))
-        take_down(recorder, substep_s)
+        record(recorder, substep_s)
         after = recorder._world.velocities()
         one = LoadAccumulator(recorder._inventory.pairs, recorder._inventory.volumes_m3, recorder._reader.normals)
         one.add(recorder._reader.read(substep_s))
@@ -48,7 +48,7 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         errors.append(abs(masses * (after - before)[1:] - impulses).max() / largest_impulse(one.finish(), substep_s))
         recorder.velocities_before = after.copy()
 
-    monkeypatch.setattr(SubstepRecorder, "_take_down", compare)
+    monkeypatch.setattr(SubstepRecorder, "_record", compare)
     results = blocks.play(tmp_path, 60)
     assert len(errors) == 600
     assert (~results.frames.intact[-1]).any()

@@ -1,0 +1,36 @@
+"""Whether a scene can be recorded."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...core.errors import SimulationError
+from ...scene.connections.constraints import loose_connections
+
+
+def check_recordable(scene: bpy.types.Scene) -> None:
+    """Refuse a scene that cannot be recorded as it is.
+
+    Raises
+    ------
+    SimulationError
+        It has no rigid-body world or one in which nothing moves, other units than metres, or connections without a
+        body.
+    """
+    if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
+        raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+    if not scene.rigidbody_world.enabled:
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
+    if scene.rigidbody_world.time_scale == 0.0:
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} has a speed of 0: set it to 1 first")
+    unit_scale = scene.unit_settings.scale_length
+    if unit_scale != 1.0:
+        raise SimulationError(
+            f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
+            "set the unit scale to 1 and build the scene in metres"
+        )
+    if loose := loose_connections(scene):
+        more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""
+        raise SimulationError(
+            f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
+        )
