@@ -22,7 +22,7 @@ from ...simulation.recording.recorder import Recording
 from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
 from ...simulation.run_summary import Subject, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast
-from ..operators import Refusing, absolute, no_world, recording_runs, refused
+from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
 from ..scenario.values import scenario_of, table_of
 from . import last_recording, redraw, running
 
@@ -32,7 +32,7 @@ _subjects: WeakKeyDictionary[Recording, Subject] = WeakKeyDictionary()
 """What each recording is of."""
 
 
-class BDA_OT_register_handler(Refusing, bpy.types.Operator):
+class BDA_OT_register_handler(Action, bpy.types.Operator):
     """Go to the start frame, and record forces and debris from there while the timeline plays"""
 
     bl_idname = "bda.register_handler"
@@ -42,16 +42,12 @@ class BDA_OT_register_handler(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return why_not_recorded(context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            recording = new_recording(context.scene)
-            start_recording(recording)
-        except (DemolitionError, OSError) as error:
-            return refused(self, error)
+    def act(self, context: bpy.types.Context) -> str:
+        recording = new_recording(context.scene)
+        start_recording(recording)
         start_over(context.scene)
         redraw.follow_recording()
-        self.report({"INFO"}, f"Recording to {recording.folder}: play the timeline")
-        return {"FINISHED"}
+        return f"Recording to {recording.folder}: play the timeline"
 
 
 class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):

@@ -7,7 +7,7 @@ from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing
 from ...simulation.results_folder import withdraw_folder
-from ..operators import Refusing, no_world, recording_runs
+from ..operators import Action, Refusing, no_world, recording_runs
 from . import redraw, running
 from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded
 
@@ -109,7 +109,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         return end_with_results(self, playing.recording, stopped=stopped)
 
 
-class BDA_OT_bake(Refusing, bpy.types.Operator):
+class BDA_OT_bake(Action, bpy.types.Operator):
     """Keep the frames simulated so far as a bake: saved with the file, and played back instead of simulated"""
 
     bl_idname = "bda.bake"
@@ -125,13 +125,12 @@ class BDA_OT_bake(Refusing, bpy.types.Operator):
             return "Nothing has been simulated since the last change: run or play it first"
         return None
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         keep_played_frames(context.scene)
-        self.report({"INFO"}, f"Baked: {context.scene.rigidbody_world.point_cache.info}")
-        return {"FINISHED"}
+        return f"Baked: {context.scene.rigidbody_world.point_cache.info}"
 
 
-class BDA_OT_delete_bake(Refusing, bpy.types.Operator):
+class BDA_OT_delete_bake(Action, bpy.types.Operator):
     """Delete the bake, so that the scene is simulated again"""
 
     bl_idname = "bda.delete_bake"
@@ -142,12 +141,11 @@ class BDA_OT_delete_bake(Refusing, bpy.types.Operator):
         world = context.scene.rigidbody_world
         return None if world and world.point_cache.is_baked else "There is no bake"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> None:
         cache = context.scene.rigidbody_world.point_cache
         with bpy.context.temp_override(scene=context.scene, point_cache=cache):
             bpy.ops.ptcache.free_bake()
         context.scene.frame_set(cache.frame_start)
-        return {"FINISHED"}
 
 
 CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
