@@ -3,13 +3,12 @@
 x runs along the road from the axis of the first pier, y across it from its middle, z up from the ground.
 """
 
-from .layout import deck_outline, deck_top, deck_underside, pier_axes, slab_underside
+from .layout import deck_top, deck_underside, pier_axes, slab_underside
 from .parametric import bridge_density, bridge_members
 
 __all__ = [
     "bridge_density",
     "bridge_members",
-    "deck_outline",
     "deck_top",
     "deck_underside",
     "pier_axes",

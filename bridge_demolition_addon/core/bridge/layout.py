@@ -49,15 +49,6 @@ def deck_ends(bridge: Bridge) -> list[tuple[float, float]]:
     return list(pairwise([first, *joints, last]))[::2]
 
 
-def deck_outline(bridge: Bridge) -> np.ndarray:
-    """Corners of the road surface on plan, (4, 2) in m, counter-clockwise."""
-    first, last = deck_ends(bridge)[0][0], deck_ends(bridge)[-1][1]
-    half = bridge.deck.width_m / 2.0
-    corners = np.array([(first, -half), (last, -half), (last, half), (first, half)])
-    corners[:, 0] += corners[:, 1] * bridge.shift_across
-    return corners
-
-
 def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
     """A solid sheared along the road as the skew asks for; its volume and its sections along the road stay the same."""
     if bridge.skew_deg == 0.0:
