@@ -29,7 +29,7 @@ shards."""
 
 
 @dataclass(frozen=True, slots=True)
-class CutMembers:
+class FracturedMembers:
     """Shards of all members, one member after the other.
 
     Attributes
@@ -53,7 +53,9 @@ class CutMembers:
     faces: SharedFaces
 
 
-def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDensity | None = None) -> CutMembers:
+def fractured_members(
+    scenario: Scenario, members: Sequence[Member], density: PointDensity | None = None
+) -> FracturedMembers:
     """Members in shards as a scenario asks for; the same seed gives the same shards.
 
     Parameters
@@ -87,10 +89,10 @@ def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDen
             stretch=rule.stretch if rule and rule.stretch else settings.stretch,
             recursion=_recursion(settings),
         )
-        parts.append(_cut(member, int(counts[index]), own_points[index], int(seeds[index]), options))
+        parts.append(_fractured(member, int(counts[index]), own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
-    return CutMembers(
+    return FracturedMembers(
         shards=shards,
         member_of_shard=member_of_shard,
         masses_kg=np.concatenate([_masses(*each, settings.mass) for each in zip(members, parts, strict=True)]),
@@ -99,7 +101,7 @@ def cut_members(scenario: Scenario, members: Sequence[Member], density: PointDen
     )
 
 
-def shards_with_gaps(cut: CutMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
+def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
     """The shards with gaps between those of one member.
 
     Raises
@@ -107,11 +109,11 @@ def shards_with_gaps(cut: CutMembers, members: Sequence[Member], gap_m: float) -
     GeometryError
         Nothing is left of a shard.
     """
-    bounds = np.searchsorted(cut.member_of_shard, np.arange(len(members) + 1))
+    bounds = np.searchsorted(fractured.member_of_shard, np.arange(len(members) + 1))
     return tuple(
         shard
         for index, member in enumerate(members)
-        for shard in with_gaps(cut.shards[bounds[index] : bounds[index + 1]], member.solid, gap_m)
+        for shard in with_gaps(fractured.shards[bounds[index] : bounds[index + 1]], member.solid, gap_m)
     )
 
 
@@ -145,7 +147,7 @@ def _density(settings: FractureSettings) -> PointDensity | None:
     return densest(found) if found else None
 
 
-def _cut(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
+def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
     if member.volume_m3 / count < SHORTEST_LENGTH_M**3:
         raise GeometryError(
             f"{member.name}: {count} shards do not fit into {member.volume_m3:.4g} m³, as each would be smaller than "
@@ -155,13 +157,13 @@ def _cut(member: Member, count: int, points: np.ndarray, seed: int, options: Fra
         if len(points):
             return voronoi_cells(member.solid, points, seed, options)
         if 1 < len(member.parts) <= count:
-            return _cut_in_parts(member, count, seed, options)
+            return _fractured_in_parts(member, count, seed, options)
         return fracture(member.solid, count, seed, options)
     except GeometryError as error:
         raise GeometryError(f"{member.name}: {error}") from error
 
 
-def _cut_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:
+def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:
     """Each convex part of a member by itself, so that no shard reaches around a corner."""
     amounts = np.array([_amount(part, options.density, seed) for part in member.parts])
     seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))

@@ -148,7 +148,7 @@ def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: Frac
     """
     generator = np.random.default_rng(seed)
     points = random_points(solid, shard_count, generator, options.density)
-    return _cut_with(solid, points, generator, options)
+    return _fracture_around(solid, points, generator, options)
 
 
 def voronoi_cells(solid: TriangleMesh, points: np.ndarray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
@@ -177,7 +177,7 @@ def voronoi_cells(solid: TriangleMesh, points: np.ndarray, seed: int = 0, option
     outside = np.flatnonzero(~contains(solid, points))
     if len(outside):
         raise GeometryError(f"{len(outside)} of {len(points)} points lie outside the solid, the first is {outside[0]}.")
-    return _cut_with(solid, points, np.random.default_rng(seed), options)
+    return _fracture_around(solid, points, np.random.default_rng(seed), options)
 
 
 def joined_fractures(parts: Sequence[Fracture]) -> Fracture:
@@ -196,17 +196,17 @@ def joined_fractures(parts: Sequence[Fracture]) -> Fracture:
     )
 
 
-def _cut_with(
+def _fracture_around(
     solid: TriangleMesh, points: np.ndarray, generator: np.random.Generator, options: FractureOptions
 ) -> Fracture:
     stretch = None if options.stretch == PLAIN.stretch else np.array(options.stretch, dtype=float)
     if options.noise > 0.0:
         points = moved_points(solid, points, options.noise * cube_root(solid.volume / len(points)), generator)
     result = _fractured(solid, points, stretch)
-    return _cut_again(result, generator, options, stretch) if options.recursion else result
+    return _with_recursion(result, generator, options, stretch) if options.recursion else result
 
 
-def _cut_again(
+def _with_recursion(
     first: Fracture, generator: np.random.Generator, options: FractureOptions, stretch: np.ndarray | None
 ) -> Fracture:
     """A fracture of which some shards are cut once more; faces between their shards are found by where they touch."""

@@ -1,4 +1,4 @@
-"""Cuts through a member: the faces of one shard that look the same way, which carry a load together.
+"""Section cuts through a member: the faces of one shard that look the same way, which carry a load together.
 
 Between rigid bodies it is open in statics how several joints share a load, and a solver that knows no stiffness gives a
 face of a hand's breadth as much of it as one of a square metre. What all of them carry together is not open. So a face

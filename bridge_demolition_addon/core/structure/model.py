@@ -10,7 +10,7 @@ import numpy as np
 
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
-from ..fracture.members import cut_members, shards_with_gaps
+from ..fracture.members import fractured_members, shards_with_gaps
 from ..fracture.shards import SharedFaces
 from ..geometry.mesh import TriangleMesh
 from ..scenario import ConnectionSettings, Scenario
@@ -28,7 +28,7 @@ class Model:
     Attributes
     ----------
     members : tuple of Member
-        Members of the bridge before they were cut.
+        Members of the bridge before they were fractured.
     shards : tuple of TriangleMesh
         The n shards' closed meshes, in the bridge's coordinates.
     member_of_shard : (n,) int
@@ -79,21 +79,21 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         The bridge cannot be cut into that many shards.
     """
     members = prepared_members(scenario).members if members is None else tuple(members)
-    cut = cut_members(scenario, members)
-    shards, centres, faces = cut.shards, cut.centres_m, cut.faces
+    fractured = fractured_members(scenario, members)
+    shards, centres, faces = fractured.shards, fractured.centres_m, fractured.faces
     rules = scenario.connections.between
-    rules_of = partial(rules_of_pairs, rules, members, cut.member_of_shard)
+    rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
     connections = _connections(scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)])
-    fixed = fixed_shards(scenario.supports, members, shards, cut.member_of_shard)
+    fixed = fixed_shards(scenario.supports, members, shards, fractured.member_of_shard)
     # The ground, at index -1, is fixed as well.
     moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
     connections = connections.only(moves)
     return Model(
         members=members,
-        shards=shards_with_gaps(cut, members, scenario.fracture.margin_m),
-        member_of_shard=cut.member_of_shard,
-        masses_kg=cut.masses_kg,
+        shards=shards_with_gaps(fractured, members, scenario.fracture.margin_m),
+        member_of_shard=fractured.member_of_shard,
+        masses_kg=fractured.masses_kg,
         centres_m=centres,
         connections=connections,
         joint_of_connection=rules_of(connections.pairs),

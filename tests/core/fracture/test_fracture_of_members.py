@@ -8,7 +8,7 @@ from scenarios import I235
 
 from bridge_demolition_addon.core.bridge.preparation import prepared_members
 from bridge_demolition_addon.core.errors import GeometryError, ScenarioError
-from bridge_demolition_addon.core.fracture.members import cut_members
+from bridge_demolition_addon.core.fracture.members import fractured_members
 from bridge_demolition_addon.core.fracture.point_files import points_from_file
 from bridge_demolition_addon.core.geometry.mesh import volumes_and_centres
 from bridge_demolition_addon.core.scenario import Finer, FracturePoint, FractureSettings, MemberFracture
@@ -22,7 +22,7 @@ VOLUME = 1e-9
 
 
 def cut(**settings):
-    return cut_members(replace(I235, fracture=FractureSettings(**({"shards": 200} | settings))), MEMBERS)
+    return fractured_members(replace(I235, fracture=FractureSettings(**({"shards": 200} | settings))), MEMBERS)
 
 
 def counts(parts):
@@ -122,7 +122,7 @@ def test_more_shards_than_fit():
             pier_caps=None,
         )
         scenario = replace(I235, ball=None, bridge=tiny, fracture=FractureSettings(shards=60_000))
-        cut_members(scenario, prepared_members(scenario).members)
+        fractured_members(scenario, prepared_members(scenario).members)
 
 
 def test_one_shard_of_a_merged_bridge():
