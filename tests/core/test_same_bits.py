@@ -9,7 +9,7 @@ from places import EXAMPLES, ROOT
 from processes import run_program
 
 CORE = ROOT / "bridge_demolition_addon" / "core"
-ROOMS = ("blast", "bridge", "fracture", "geometry", "mechanics", "sequence", "structure", "timing")
+ROOMS = ("blast", "bridge", "fracture", "geometry", "mechanics", "results", "sequence", "structure", "timing")
 PACKAGE = CORE.parent
 FOLDERS = [*(CORE / room for room in ROOMS), PACKAGE / "bullet", PACKAGE / "simulation" / "recording"]
 MODULES = [path for folder in FOLDERS for path in sorted(folder.glob("*.py"))]

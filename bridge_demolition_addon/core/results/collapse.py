@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.vectors import length
 from .arrays import Results
 
 REST_SPEED_M_S = 0.1
@@ -74,7 +75,7 @@ def collapse_progress(results: Results) -> np.ndarray:
     masses = results.inventory.masses_kg[shards]
     if not masses.sum() > 0.0:
         return np.zeros(len(results.frames.time_s))
-    heights = results.frames.positions_m[:, shards, 2] @ masses / masses.sum()
+    heights = _mean_by_mass(results.frames.positions_m[:, shards, 2], masses)
     return 1.0 - heights / heights[0] if heights[0] > 0.0 else np.zeros(len(heights))
 
 
@@ -100,7 +101,7 @@ class ShardRest:
 def rest_of(results: Results) -> ShardRest:
     """Return when the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
     shards = results.inventory.of_kind("shard")
-    moving = np.linalg.norm(results.frames.velocities_m_s[:, shards], axis=2) > REST_SPEED_M_S
+    moving = length(results.frames.velocities_m_s[:, shards]) > REST_SPEED_M_S
     at_times = np.flatnonzero(moving.any(axis=1))
     if not len(at_times):
         return ShardRest(None, None, 0)
@@ -111,4 +112,9 @@ def rest_of(results: Results) -> ShardRest:
 
 def _span(results: Results, name: str, bodies: np.ndarray) -> Span:
     heights, masses = results.frames.positions_m[:, bodies, 2], results.inventory.masses_kg[bodies]
-    return Span(name, bodies, heights @ masses / masses.sum(), heights.min(axis=1))
+    return Span(name, bodies, _mean_by_mass(heights, masses), heights.min(axis=1))
+
+
+def _mean_by_mass(heights: np.ndarray, masses: np.ndarray) -> np.ndarray:
+    """Mean (k,) of heights (k, b), each body's counting by its mass (b,)."""
+    return (heights * masses).sum(axis=1) / masses.sum()

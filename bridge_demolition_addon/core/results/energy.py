@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.vectors import dot, transformed_back
 from ..units import STANDARD_GRAVITY_M_S2
 from .arrays import Results
 
@@ -55,12 +56,12 @@ def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> 
     simulation's own; see `moments_of_inertia`.
     """
     masses, frames = results.inventory.masses_kg, results.frames
-    potentials = gravity_m_s2 * frames.positions_m[:, :, 2] @ masses
-    spins = np.einsum("knji,knj->kni", frames.rotations, frames.angular_velocities_rad_s)
+    potentials = (gravity_m_s2 * frames.positions_m[:, :, 2] * masses).sum(axis=1)
+    spins = transformed_back(frames.rotations, frames.angular_velocities_rad_s)
     return Energy(
         times_s=frames.time_s,
         potential_j=potentials - potentials.min(),
-        translation_j=0.5 * (frames.velocities_m_s**2).sum(axis=2) @ masses,
+        translation_j=0.5 * (dot(frames.velocities_m_s, frames.velocities_m_s) * masses).sum(axis=1),
         rotation_j=0.5 * (spins**2 * moments_of_inertia(results)).sum(axis=(1, 2)),
     )
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.vectors import length
 from .arrays import Results
 
 
@@ -38,7 +39,7 @@ def contact_forces(results: Results) -> ContactForces:
     impulses = results.frames.loads.body_contact_impulses_ns
     known = durations > 0.0
     forces = np.divide(impulses, durations[:, None, None], out=np.zeros_like(impulses), where=known[:, None, None])
-    magnitudes = np.linalg.norm(forces, axis=2)
+    magnitudes = length(forces)
     return ContactForces(
         times_s=results.frames.time_s,
         total_n=magnitudes.sum(axis=1) / 2.0,

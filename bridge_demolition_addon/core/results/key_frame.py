@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.vectors import length
 from .arrays import Results
 from .motion import first_hit
 
@@ -61,7 +62,7 @@ def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:
 
 def _first_push(results: Results, ball: int, gravity_m_s2: np.ndarray) -> int | None:
     """Return the first recorded step in which contacts push a ball on a cable more than its rest would."""
-    resting_force = RESTING_WEIGHTS * results.inventory.masses_kg[ball] * np.linalg.norm(gravity_m_s2)
-    pushes = np.linalg.norm(results.frames.loads.body_contact_impulses_ns[:, ball], axis=1)
+    resting_force = RESTING_WEIGHTS * results.inventory.masses_kg[ball] * length(gravity_m_s2)
+    pushes = length(results.frames.loads.body_contact_impulses_ns[:, ball])
     steps = np.flatnonzero(pushes > resting_force * np.diff(results.frames.time_s, prepend=results.frames.time_s[0]))
     return int(steps[0]) if len(steps) else None

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ..arithmetic import cube_root
+from ..geometry.vectors import dot, length
 from ..mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
@@ -65,7 +67,7 @@ def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
     after = np.flatnonzero(results.frames.time_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
     if not warm_up_s or not len(after):
         return None
-    speeds = np.linalg.norm(results.frames.velocities_m_s[after[0], results.inventory.of_kind("shard")], axis=1)
+    speeds = length(results.frames.velocities_m_s[after[0], results.inventory.of_kind("shard")])
     return {"time_s": float(results.frames.time_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
 
 
@@ -75,13 +77,13 @@ def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | No
     found = []
     for column, ball in enumerate(results.balls.bodies):
         mass = results.inventory.masses_kg[ball]
-        radius = np.cbrt(0.75 / np.pi * results.inventory.volumes_m3[ball])
+        radius = cube_root(0.75 / np.pi * results.inventory.volumes_m3[ball])
         contact = Contact.between(STEEL, CONCRETE, mass, radius)
-        resting_force = RESTING_WEIGHTS * mass * np.linalg.norm(gravity_m_s2)
+        resting_force = RESTING_WEIGHTS * mass * length(gravity_m_s2)
         velocities = results.balls.velocities_m_s[:, column]
         for hit in hits(results.balls.impulses_ns[:, column], steps, results.frames.time_s[0], resting_force):
             before = velocities[hit.first_step - 1] if hit.first_step else np.zeros(3)
-            speed = -float(before @ hit.impulse_ns) / hit.impulse_magnitude_ns
+            speed = -float(dot(before, hit.impulse_ns)) / hit.impulse_magnitude_ns
             found.append(
                 {
                     "ball": str(results.inventory.body_names[ball]),
@@ -126,7 +128,7 @@ def _connections(results: Results) -> dict[str, Any]:
 def _blast(results: Results) -> dict[str, Any] | None:
     """Impulse of the blast on all bodies together and on the one that got most; None where there was none."""
     impulses = results.frames.blast_impulses_ns.sum(axis=0)
-    sizes = np.linalg.norm(impulses, axis=1)
+    sizes = length(impulses)
     if not sizes.any():
         return None
     loaded = np.flatnonzero(results.frames.blast_impulses_ns.any(axis=(1, 2)))
