@@ -6,7 +6,7 @@ import numpy as np
 
 
 def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
-    """Vector sum of the connection forces on every body.
+    """Return the vector sum of the connection forces on every body.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.nda
 
 
 def magnitude_sums(pairs: np.ndarray, magnitudes: np.ndarray, body_count: int) -> np.ndarray:
-    """Sum of the magnitudes (m,) of the forces between pairs of bodies, for every body (n,), in N.
+    """Return the sum of the magnitudes (m,) of the forces between pairs of bodies, for every body (n,), in N.
 
     The measure of how hard a body is held from all sides, where the resultant of a body at rest is only its weight.
     """
@@ -40,7 +40,7 @@ def magnitude_sums(pairs: np.ndarray, magnitudes: np.ndarray, body_count: int) -
 
 
 def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, centres: np.ndarray) -> np.ndarray:
-    """Moments of connections about their own points.
+    """Return the moments of connections about their own points.
 
     Parameters
     ----------

@@ -16,15 +16,14 @@ class ContactForces:
 
     Attributes
     ----------
-    times_s
-        (k,) times.
-    total_n
-        (k,) over all pairs of bodies in contact, as far as recorded: half the sum of the resultants of the contacts on
+    times_s : (k,) float
+    total_n : (k,) float
+        Over all pairs of bodies in contact, as far as recorded: half the sum of the resultants of the contacts on
         every body. Contacts that press a body from two sides cancel in its resultant, so that it is a lower bound.
-    largest_n
-        (k,) largest of these resultants on a shard.
-    ground_n
-        (k,) upward force of the ground by contacts; foundations that still hold are connections and not in it.
+    largest_n : (k,) float
+        Largest of these resultants on a shard.
+    ground_n : (k,) float
+        Upward force of the ground by contacts; foundations that still hold are connections and not in it.
     """
 
     times_s: np.ndarray
@@ -77,11 +76,11 @@ def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> 
 
     Parameters
     ----------
-    magnitudes_n
-        (k, n) largest load of each row in each step; nan where it is not known.
-    rows
+    magnitudes_n : (k, n) float
+        Largest load of each row in each step; nan where it is not known.
+    rows : (r,) int
         Which of the n rows are asked for.
-    count
+    count : int
         How many at most.
     """
     if not len(rows) or not len(magnitudes_n):

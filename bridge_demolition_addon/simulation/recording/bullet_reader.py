@@ -24,15 +24,16 @@ class BulletReader:
 
     Parameters
     ----------
-    scene, bodies, connections
-        The scene and what is simulated in it.
-    world
+    scene : bpy.types.Scene
+    bodies, connections : sequence of bpy.types.Object
+        What is simulated in it.
+    world : BulletWorld
         Its world, bound just now, before any time passes.
-    inventory
-        Its bodies and connections.
-    blast
-        What explodes, or None.
-    every_substep
+    inventory : Inventory
+        The same bodies and connections.
+    blast : Blast or None
+        What explodes.
+    every_substep : bool
         Whether loads are read after every sub-step, or only after the last one of each frame.
     """
 

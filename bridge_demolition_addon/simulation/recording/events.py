@@ -29,18 +29,17 @@ class Events:
 
     Parameters
     ----------
-    world
-        The bound world.
-    pairs
-        (m, 2) bodies of the connections.
-    events
+    world : BulletWorld
+    pairs : (m, 2) int
+        Bodies of the connections.
+    events : sequence of Event
         In order of time.
 
     Attributes
     ----------
-    remaining_strength
-        (m,) part of its strength that each connection has left.
-    applied
+    remaining_strength : (m,) float
+        Part of its strength that each connection has left.
+    applied : list of AppliedEvent
         What was applied so far.
     """
 

@@ -17,14 +17,13 @@ class LoadReader:
 
     Parameters
     ----------
-    world
-        The bound world.
-    pairs
-        (m, 2) bodies of the connections.
-    can_move
-        (n,) whether each body can move at all.
-    points_m, normals
-        (m, 3) where the connections are now, and unit vectors from their first to their second bodies.
+    world : BulletWorld
+    pairs : (m, 2) int
+        Bodies of the connections.
+    can_move : (n,) bool
+        Whether each body can move at all.
+    points_m, normals : (m, 3) float
+        Where the connections are now, and unit vectors from their first to their second bodies.
     """
 
     def __init__(
@@ -43,15 +42,15 @@ class LoadReader:
         self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
 
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        """Axes (r, 3, 3) of some connections (r,), turned with their bodies."""
+        """Return the axes (r, 3, 3) of some connections (r,), turned with their bodies."""
         return carried_axes(self._local_axes[rows], self._bodies[rows], rotations)
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
-        """Unit normals (m, 3) of the connections, turned with their bodies."""
+        """Return the unit normals (m, 3) of the connections, turned with their bodies."""
         return transformed(rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
 
     def read(self, substep_s: float) -> SubstepLoads:
-        """Loads of the last sub-step, whose length is given in s."""
+        """Return the loads of the last sub-step, whose length is given in s."""
         centres, rotations = self._world.positions()
         force, torque = self._world.joint_feedback(self._feedback_rows)
         points = carried_points(self._local_points, self._bodies, centres, rotations)

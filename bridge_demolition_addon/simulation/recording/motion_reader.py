@@ -26,9 +26,10 @@ class MomentumReader:
 
     Parameters
     ----------
-    scene, bodies
-        The scene and its bodies.
-    inventory
+    scene : bpy.types.Scene
+    bodies : sequence of bpy.types.Object
+        Its bodies.
+    inventory : Inventory
         The same bodies, without connections.
     """
 

@@ -37,13 +37,13 @@ class Recording:
 
     Parameters
     ----------
-    scene
+    scene : bpy.types.Scene
         Scene with a rigid-body world.
-    folder
+    folder : Path
         Folder for the logs, which has to exist once it is recorded.
-    every_substep
+    every_substep : bool
         Whether loads are read after every sub-step, or only after the last one of each frame.
-    log_files
+    log_files : LogFiles or None
         Logs that do not go to the folder; all do by default.
 
     Raises
@@ -55,12 +55,12 @@ class Recording:
     ----------
     scene, folder
         As given.
-    scene_uid
-        What tells the scene from others as long as Blender runs, also when it is gone.
-    error
-        Why the recording ended before its time, or None.
-    distrust
-        Why Bullet's memory is not read, or None. Then only the motion of bodies is recorded, and the net force on each
+    scene_uid : int
+        Number of the scene as long as Blender runs, also when the scene is gone.
+    error : Exception or None
+        Why the recording ended before its time.
+    distrust : LayoutError or None
+        Why Bullet's memory is not read. Then only the motion of bodies is recorded, and the net force on each
         from its change of momentum.
     """
 

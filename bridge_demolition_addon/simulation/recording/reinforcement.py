@@ -16,16 +16,20 @@ class Reinforcement:
 
     Parameters
     ----------
-    world
-        The bound world.
-    inventory
+    world : BulletWorld
+    inventory : Inventory
         Its bodies and connections.
-    ductility
+    ductility : Ductility
         What is left of a connection, and how far that stretches.
-    tension_pa
+    tension_pa : float
         Strength of the intact connections in tension.
-    remaining_strength
-        (m,) part of it that each connection has left, kept up to date by whoever gives it.
+    remaining_strength : (m,) float
+        Part of it that each connection has left, kept up to date by whoever gives it.
+
+    Attributes
+    ----------
+    forces_n : (m, 3) float
+        Force on the first body of each connection in the coming sub-step.
     """
 
     def __init__(

@@ -25,7 +25,17 @@ _SINGLE_PRECISION = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Breaks:
-    """Connections (b,) that broke in one sub-step, its time, and the loads they broke under, in their own axes."""
+    """Connections that broke in one sub-step.
+
+    Attributes
+    ----------
+    time_s : float
+        Simulated time at its end.
+    connections : (b,) int
+        Which connections.
+    loads : SectionForces
+        What they broke under, in their own axes.
+    """
 
     time_s: float
     connections: np.ndarray
@@ -33,30 +43,30 @@ class Breaks:
 
 
 class SubstepRecorder:
-    """Follows a world sub-step by sub-step and gathers each frame.
+    """Records a world sub-step by sub-step and adds up the loads of each frame.
 
     Parameters
     ----------
-    world
-        The bound world, before any time passes.
-    inventory
+    world : BulletWorld
+        Bound, before any time passes.
+    inventory : Inventory
         Its bodies and connections.
-    breaking
+    breaking : Breaking
         How connections break.
-    events
+    events : Events
         Removals, saw cuts and weakenings.
-    blast
-        What explodes, or None.
-    threshold_step_s
+    blast : Blast or None
+        What explodes.
+    threshold_step_s : float
         Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
 
     Attributes
     ----------
-    elapsed_s
+    elapsed_s : float
         Simulated time so far.
-    seconds
+    seconds : float
         Wall time that recording has cost so far.
-    error
+    error : Exception or None
         What went wrong in a sub-step; nothing is recorded after it.
     """
 
@@ -133,14 +143,14 @@ class SubstepRecorder:
         self.elapsed_s += duration_s
 
     def finish_frame(self) -> tuple[FrameLoads, list[Breaks]]:
-        """Loads of the frame and the connections that broke in it; the next frame begins."""
+        """Return the loads of the frame and what broke in it, and begin the next frame."""
         loads, breaks = self._frame.finish(), self._breaks
         self._frame.begin()
         self._breaks = []
         return loads, breaks
 
     def ball_history(self) -> BallHistory:
-        """Hits of the balls in every sub-step so far."""
+        """Return the hits of the balls in every sub-step so far."""
         if not self._hits:
             return BallHistory.unknown()
         times, impulses, velocities = map(np.array, zip(*self._hits, strict=True))
@@ -172,7 +182,7 @@ class SubstepRecorder:
                 self._reinforcement.add(rows, loads.connection_points_m[rows])
 
     def _overloaded(self, loads: SubstepLoads) -> np.ndarray:
-        """Connections (k,) to break: overloaded by themselves and as parts of their cuts, and each the worst around.
+        """Return the connections (k,) to break: overloaded by themselves and as parts of their cuts, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
         """
