@@ -20,8 +20,8 @@ from .gaps import with_gaps
 from .options import FractureOptions, Recursion
 from .point_files import paint_from_file, points_from_file
 from .seeds import random_points
-from .shards import Fracture, SharedFaces, fracture, joined_fractures, touching_faces, voronoi_cells
-from .shared_faces import joined_faces
+from .shards import Fracture, fracture, joined_fractures, voronoi_cells
+from .shared_faces import SharedFaces, joined_faces, touching_faces
 
 _DENSITY_SAMPLES = 4000
 """Points that the mean density of a member is taken over: it is off by some percent at most, and so is a number of

@@ -21,23 +21,8 @@ from ..geometry.seams import sewn
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
 from .options import PLAIN, FractureOptions
 from .seeds import moved_points, random_points
-from .shared_faces import (
-    SharedFaces,
-    joined_faces,
-    overlaps,
-    shared_faces,
-    touching_faces,
-)
+from .shared_faces import NO_FACES, SharedFaces, joined_faces, overlaps, shared_faces, touching_faces
 from .voronoi import convex_cells
-
-__all__ = [
-    "Fracture",
-    "SharedFaces",
-    "fracture",
-    "joined_fractures",
-    "touching_faces",
-    "voronoi_cells",
-]
 
 VOLUME_TOLERANCE = 1e-9
 """Part of the solid's volume by which the sum of the shards may differ from it."""
@@ -56,8 +41,6 @@ _BOX_MARGIN = 1e-3
 
 _SAME_CUT_M = 1e-7
 """How far apart the two sides of one cut may lie: it was made at once, and only rounding is between them."""
-
-_NO_FACES = SharedFaces(np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -221,7 +204,7 @@ def _with_recursion(
             parts.append(_fractured(shard, random_points(shard, recursion.shards, generator, options.density), stretch))
         else:
             one = slice(index, index + 1)
-            parts.append(Fracture((shard,), first.volumes[one], first.centres[one], first.points[one], _NO_FACES))
+            parts.append(Fracture((shard,), first.volumes[one], first.centres[one], first.points[one], NO_FACES))
     return joined_fractures(parts)
 
 

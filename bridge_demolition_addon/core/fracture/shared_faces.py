@@ -45,6 +45,10 @@ class SharedFaces:
         return len(self.areas)
 
 
+NO_FACES = SharedFaces(np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)))
+"""No pair of neighbours."""
+
+
 def shared_faces(
     pairs: np.ndarray, areas: np.ndarray, centres: np.ndarray, normals: np.ndarray, smallest_area: float = 0.0
 ) -> SharedFaces:
@@ -111,7 +115,7 @@ def touching_faces(
     pairs = boxes_that_meet(lower, upper, tolerance_m)
     if member is not None:
         pairs = pairs[np.asarray(member)[pairs[:, 0]] != np.asarray(member)[pairs[:, 1]]]
-    patches = [_no_patches()]
+    patches = [(NO_FACES.pairs, NO_FACES.areas, NO_FACES.centres, NO_FACES.normals)]
     surface = _Surface.of(meshes)
     for first in range(0, len(pairs), _PAIRS_PER_BLOCK):
         patches.append(_touching_patches(surface, pairs[first : first + _PAIRS_PER_BLOCK], lower, upper, tolerance_m))
@@ -182,10 +186,6 @@ def _touching_patches(
     real = areas > SMALLEST_AREA * np.maximum(surface.areas[first], surface.areas[second])
     touch = real & (np.abs(gap) <= tolerance)
     return pairs[row[touch]], areas[touch], centres[touch], surface.normals[first[touch]]
-
-
-def _no_patches() -> tuple[np.ndarray, ...]:
-    return np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3))
 
 
 def _facing_triangles(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..fracture.shards import SharedFaces
+from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.proximity import blocks, boxes_that_meet, nearest_points, points_within, ranges
 from ..geometry.vectors import dot, unit

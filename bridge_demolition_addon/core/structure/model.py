@@ -11,7 +11,7 @@ import numpy as np
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..fracture.members import fractured_members, shards_with_gaps
-from ..fracture.shards import SharedFaces
+from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh
 from ..scenario import ConnectionSettings, Scenario
 from . import connections as connecting

@@ -9,8 +9,8 @@ from manifold3d import CrossSection, Manifold
 
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.seeds import random_points
-from bridge_demolition_addon.core.fracture.shards import Fracture, fracture, touching_faces, voronoi_cells
-from bridge_demolition_addon.core.fracture.shared_faces import overlaps
+from bridge_demolition_addon.core.fracture.shards import Fracture, fracture, voronoi_cells
+from bridge_demolition_addon.core.fracture.shared_faces import overlaps, touching_faces
 from bridge_demolition_addon.core.geometry.mesh import TriangleMesh, joined_meshes, volumes_and_centres
 from bridge_demolition_addon.core.geometry.seams import sewn
 from bridge_demolition_addon.core.geometry.solids import (

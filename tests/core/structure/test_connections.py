@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.fracture.shards import touching_faces
+from bridge_demolition_addon.core.fracture.shared_faces import touching_faces
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.structure.connections import (
     GROUND,

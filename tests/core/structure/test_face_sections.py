@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.fracture.shards import fracture, touching_faces, voronoi_cells
+from bridge_demolition_addon.core.fracture.shards import fracture, voronoi_cells
+from bridge_demolition_addon.core.fracture.shared_faces import touching_faces
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.structure.face_sections import second_moments
 
