@@ -182,7 +182,7 @@ class SubstepRecorder:
                 self._reinforcement.add(rows, loads.connection_points_m[rows])
 
     def _overloaded(self, loads: SubstepLoads) -> np.ndarray:
-        """Return the connections (k,) to break: overloaded by themselves and as parts of their cuts, and each the worst around.
+        """Return the connections (k,) to break: overloaded alone and as parts of their cuts, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
         """
