@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
@@ -22,6 +21,7 @@ from ..core.blast.models import BlastModel, blast_wave
 from ..core.blast.pulses import Pulses, blast_pulses, pressure_at
 from ..core.blast.wave import AMBIENT_PRESSURE_PA, Burst
 from ..core.errors import OutputError
+from .style import blank_figure
 
 SPAN_M = 20.0
 PIERS = (("left end", -SPAN_M), ("mid pier", 0.0), ("right end", SPAN_M))
@@ -307,10 +307,8 @@ def _figure() -> tuple[Figure, Axes]:
 
 
 def _blank_figure(width_in: float, height_in: float) -> Figure:
-    # A figure of its own: pyplot would set up a window system inside Blender and keep every figure alive.
-    figure = Figure(figsize=(width_in, height_in), dpi=120, layout="constrained")
+    figure = blank_figure(width_in, height_in, dpi=120, layout="constrained")
     figure.get_layout_engine().set(w_pad=0.15, h_pad=0.1)
-    FigureCanvasAgg(figure)
     return figure
 
 

@@ -27,7 +27,7 @@ from .display.film import FilmRendering, FilmSettings
 from .playback import Playing
 from .recording.recorder import Recording
 from .results_folder import keep_results, prepared_folder
-from .run_summary import Subject, rest_watch, run_summary
+from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
 """Seconds of the slower film for a second of the simulation."""
@@ -102,13 +102,13 @@ def run_scenario(
     _prepare_view(scene, scenario, model)
     built_s = time.perf_counter() - began
     progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
-    subject = Subject.of(scene, scenario.title, scenario)
+    context = RunContext.of(scene, scenario.title, scenario)
     playing, interrupted = _simulate(scene, folder, scenario, progress)
     recording = playing.recording
     if recording.distrust:
         progress.stage(f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}")
     results = recording.results()
-    summary = run_summary(recording, results, subject, completed=not interrupted)
+    summary = run_summary(recording, results, context, completed=not interrupted)
     summary["density_kg_m3"] = model.density_kg_m3
     summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
     blender_s = playing.seconds - recording.seconds

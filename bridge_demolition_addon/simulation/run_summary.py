@@ -17,18 +17,18 @@ from .recording.recorder import Recording
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Subject:
-    """What is recorded, noted before that begins: undo or another file may take its scene away.
+class RunContext:
+    """What a summary needs of a scene, read before the recording: undo or another file may remove the scene.
 
     Attributes
     ----------
-    title
-        Of the results.
-    gravity
-        (3,) of the scene, m/s².
-    substep_s
+    title : str
+        Title of the results.
+    gravity : (3,) float
+        Gravity of the scene, m/s².
+    substep_s : float
         Length of a sub-step where time is not animated.
-    scenario
+    scenario : Scenario or None
         What the scene was built from; None where it was not.
     """
 
@@ -38,31 +38,31 @@ class Subject:
     scenario: Scenario | None
 
     @classmethod
-    def of(cls, scene: bpy.types.Scene, title: str, scenario: Scenario | None) -> Subject:
-        """Of a scene as it is now."""
+    def of(cls, scene: bpy.types.Scene, title: str, scenario: Scenario | None) -> RunContext:
+        """Return the context of a scene as it is now."""
         return cls(title, np.array(scene.gravity), scene_time_step(scene).substep_s, scenario)
 
 
-def run_summary(recording: Recording, results: Results, subject: Subject, *, completed: bool) -> dict[str, Any]:
+def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:
     """Return the totals of a recording that has ended.
 
     Parameters
     ----------
     recording, results
         The recording and what it has.
-    subject
+    context
         What it is of.
     completed
         Whether it went on for as long as it was meant to.
     """
-    scenario = subject.scenario
+    scenario = context.scenario
     contact_time_s = scenario.ball.contact_time_s if scenario and scenario.ball else None
     summary = {
-        "title": subject.title,
+        "title": context.title,
         "completed": completed,
         "blender": bpy.app.version_string,
-        "substep_s": subject.substep_s,
-        **summarise(results, subject.gravity, contact_time_s),
+        "substep_s": context.substep_s,
+        **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results)

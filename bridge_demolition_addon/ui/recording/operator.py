@@ -20,7 +20,7 @@ from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
 from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
-from ...simulation.run_summary import Subject, rest_watch, run_summary
+from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
 from ..scenario.values import scenario_of, table_of
@@ -28,7 +28,7 @@ from . import last_recording, redraw, running
 
 _TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
 
-_subjects: WeakKeyDictionary[Recording, Subject] = WeakKeyDictionary()
+_contexts: WeakKeyDictionary[Recording, RunContext] = WeakKeyDictionary()
 """What each recording is of."""
 
 
@@ -103,7 +103,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     prepared_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
     if scenario:
         (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
-    _subjects[recording] = Subject.of(scene, settings.title or scene.name, scenario)
+    _contexts[recording] = RunContext.of(scene, settings.title or scene.name, scenario)
     return recording
 
 
@@ -141,14 +141,14 @@ def _keep_recording(recording: Recording, *, completed: bool) -> None:
     except SimulationError:
         withdraw_folder(recording.folder)
         raise
-    summary = run_summary(recording, results, _subjects[recording], completed=completed)
+    summary = run_summary(recording, results, _contexts[recording], completed=completed)
     keep_results(recording.folder, results, summary)
     last_recording.keep(recording.folder, results, summary)
 
 
 def rest_to_stop_at(recording: Recording) -> Rest | None:
     """The rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
-    scenario = _subjects[recording].scenario
+    scenario = _contexts[recording].scenario
     return rest_watch(scenario) if scenario and scenario.time.stop_at_rest else None
 
 
