@@ -72,7 +72,7 @@ def shared_faces(
     moment = _summed(areas[:, None] * centres, row, len(unique))
     area_vector = _summed(areas[:, None] * turned, row, len(unique))
     sizes = length(area_vector)
-    # A face bent back on itself has no direction; such a pair is as good as none.
+    # A face bent back on itself has no direction, and is left out.
     kept = (total > smallest_area) & (sizes > 0)
     return SharedFaces(
         pairs=unique[kept].reshape(-1, 2),

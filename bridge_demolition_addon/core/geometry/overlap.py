@@ -74,7 +74,7 @@ def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[lis
     Returns
     -------
     solids : n solids
-        The very same where nothing was cut off.
+        The same objects where nothing was cut off.
     volumes : (n,) float
         What was cut off each, m³.
 

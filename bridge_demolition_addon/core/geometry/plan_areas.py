@@ -7,7 +7,6 @@ from collections.abc import Iterable
 import numpy as np
 from manifold3d import CrossSection, OpType
 
-from ..arithmetic import arctangent
 from .vectors import cross_2d, distance, dot
 
 
@@ -40,12 +39,12 @@ def distances_outside(area: CrossSection, points: np.ndarray) -> np.ndarray:
     if not area.num_contour():
         raise ValueError("an empty area has no distance to anything")
     distances = np.full(len(points), np.inf)
-    windings = np.zeros(len(points))
+    windings = np.zeros(len(points), int)
     for starts in outlines(area):
         ends = np.roll(starts, -1, axis=0)
         distances = np.minimum(distances, _distances_to_sides(points, starts, ends).min(axis=1))
         windings += _windings(points, starts, ends)
-    return np.where(windings > 0.5, 0.0, distances)
+    return np.where(windings > 0, 0.0, distances)
 
 
 def _distances_to_sides(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
@@ -58,6 +57,14 @@ def _distances_to_sides(points: np.ndarray, starts: np.ndarray, ends: np.ndarray
 
 
 def _windings(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """How often an outline winds around each of the points (p,)."""
-    first, second = starts - points[:, None], ends - points[:, None]
-    return arctangent(cross_2d(first, second), dot(first, second)).sum(axis=1) / (2.0 * np.pi)
+    """How often an outline winds around each of the points (p,), from the sides that a ray to the right meets.
+
+    References
+    ----------
+    D. Sunday (2021), Practical Geometry Algorithms: the winding number of a point in a polygon, without angles.
+    """
+    heights = points[:, None, 1]
+    is_left = cross_2d(ends - starts, points[:, None] - starts)
+    rises = (starts[:, 1] <= heights) & (heights < ends[:, 1]) & (is_left > 0.0)
+    falls = (ends[:, 1] <= heights) & (heights < starts[:, 1]) & (is_left < 0.0)
+    return rises.sum(axis=1) - falls.sum(axis=1)

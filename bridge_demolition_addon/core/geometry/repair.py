@@ -83,7 +83,7 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
 
 
 def _merged(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices at the very same place as one, which is no repair: STL has no shared vertices."""
+    """Vertices at exactly the same place as one, which is no repair: STL has no shared vertices."""
     unique, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
     return unique, index.ravel()[mesh.triangles]
 
