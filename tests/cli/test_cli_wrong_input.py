@@ -39,8 +39,9 @@ def with_more_in(table, line):
     return RIGHT.replace(f"[{table}]\n", f"[{table}]\n{line}\n")
 
 
+# What is expected of a value is pinned where the table of the scenario is tested.
 WRONG_FILES = {
-    "empty": ("", ["scenario.title is missing", "expected a text on one line"]),
+    "empty": ("", ["scenario.title is missing"]),
     "no TOML": ("width = = 3", ["not a TOML file", "line 1, column 9"]),
     "key given twice": (with_more_in("scenario", "seed = 1"), ["not a TOML file", "line 4"]),
     "table given twice": (RIGHT + "\n[ball]\n", ["not a TOML file", "line"]),
@@ -83,83 +84,83 @@ WRONG_FILES = {
     ),
     "missing key": (
         without("bridge.deck.width_m"),
-        ["bridge.deck.width_m is missing", "expected a number of at least"],
+        ["bridge.deck.width_m is missing"],
     ),
-    "missing title": (without("scenario.title"), ["scenario.title is missing", "expected a text on one line"]),
-    "missing heading": (without_table("scenario"), ["scenario.title is missing", "expected a text on one line"]),
-    "missing table": (without_table("time"), ["time is missing", "expected a table"]),
-    "missing inner table": (without_table("bridge.piers"), ["bridge.piers is missing", "expected a table"]),
-    "number for a table": ("ball = 5\n" + without_table("ball"), ["ball is 5", "expected a table"]),
-    "list for a table": (RIGHT.replace("[ball]", "[[ball]]"), ["ball is a list of length 1", "expected a table"]),
+    "missing title": (without("scenario.title"), ["scenario.title is missing"]),
+    "missing heading": (without_table("scenario"), ["scenario.title is missing"]),
+    "missing table": (without_table("time"), ["time is missing"]),
+    "missing inner table": (without_table("bridge.piers"), ["bridge.piers is missing"]),
+    "number for a table": ("ball = 5\n" + without_table("ball"), ["ball is 5"]),
+    "list for a table": (RIGHT.replace("[ball]", "[[ball]]"), ["ball is a list of length 1"]),
     "number for the heading": (
         "scenario = 5\n" + without_table("scenario"),
-        ["scenario is 5", "expected a table"],
+        ["scenario is 5"],
     ),
     "number for an inner table": (
         without_table("bridge.deck").replace("[bridge]\n", "[bridge]\ndeck = 5\n"),
-        ["bridge.deck is 5", "expected a table"],
+        ["bridge.deck is 5"],
     ),
     "text for a number": (
         with_value("ball.mass_kg", '"10 t"'),
-        ['ball.mass_kg is "10 t"', "expected a number above 0 (kg)"],
+        ['ball.mass_kg is "10 t"'],
     ),
-    "switch for a number": (with_value("ball.mass_kg", "true"), ["ball.mass_kg is true", "expected a number above 0"]),
-    "table for a number": (with_value("ball.mass_kg", "{}"), ["ball.mass_kg is a table", "expected a number above 0"]),
+    "switch for a number": (with_value("ball.mass_kg", "true"), ["ball.mass_kg is true"]),
+    "table for a number": (with_value("ball.mass_kg", "{}"), ["ball.mass_kg is a table"]),
     "date for a number": (
         with_value("ball.mass_kg", "2019-01-01"),
-        ["ball.mass_kg is 2019-01-01", "expected a number"],
+        ["ball.mass_kg is 2019-01-01"],
     ),
     "list for a number": (
         with_value("ball.mass_kg", "[1, 2]"),
-        ["ball.mass_kg is a list of length 2", "expected a number above 0 (kg)"],
+        ["ball.mass_kg is a list of length 2"],
     ),
     "fraction for a whole number": (
         with_value("fracture.shards", "200.0"),
-        ["fracture.shards is 200.0", "expected a whole number from 1 to 1000000"],
+        ["fracture.shards is 200.0"],
     ),
     "switch for a whole number": (
         with_value("fracture.shards", "true"),
-        ["fracture.shards is true", "expected a whole number from 1 to 1000000"],
+        ["fracture.shards is true"],
     ),
     "number for a switch": (
         with_value("connections.foundation", "1"),
-        ["connections.foundation is 1", "expected true or false"],
+        ["connections.foundation is 1"],
     ),
     "number for a text": (
         with_value("scenario.title", "235"),
-        ["scenario.title is 235", "expected a text on one line"],
+        ["scenario.title is 235"],
     ),
     "number for a list": (
         with_value("bridge.span_lengths_m", "13.0"),
-        ["bridge.span_lengths_m is 13.0", "expected a list of one or more numbers of at least 0.001 (m)"],
+        ["bridge.span_lengths_m is 13.0"],
     ),
-    "negative": (with_value("ball.mass_kg", "-5"), ["ball.mass_kg is -5", "expected a number above 0 (kg)"]),
-    "zero": (with_value("time.duration_s", "0"), ["time.duration_s is 0", "expected a number above 0 (s)"]),
-    "not a number": (with_value("ball.mass_kg", "nan"), ["ball.mass_kg is nan", "expected a number above 0 (kg)"]),
-    "infinite": (with_value("ball.mass_kg", "inf"), ["ball.mass_kg is inf", "expected a number above 0 (kg)"]),
+    "negative": (with_value("ball.mass_kg", "-5"), ["ball.mass_kg is -5"]),
+    "zero": (with_value("time.duration_s", "0"), ["time.duration_s is 0"]),
+    "not a number": (with_value("ball.mass_kg", "nan"), ["ball.mass_kg is nan"]),
+    "infinite": (with_value("ball.mass_kg", "inf"), ["ball.mass_kg is inf"]),
     "too large to store": (
         with_value("ball.mass_kg", "1e300"),
-        ["ball.mass_kg is 1e+300", "expected a number that single precision can hold"],
+        ["ball.mass_kg is 1e+300"],
     ),
     "hexadecimal of any length": (
         with_value("ball.mass_kg", "0x" + "f" * 5000),
-        ["ball.mass_kg is a whole number of more than 64 bits", "expected a number above 0 (kg)"],
+        ["ball.mass_kg is a whole number of more than 64 bits"],
     ),
     "no spans": (
         with_value("bridge.span_lengths_m", "[]"),
-        ["bridge.span_lengths_m is a list of length 0", "expected a list of one or more numbers"],
+        ["bridge.span_lengths_m is a list of length 0"],
     ),
     "negative span": (
         with_value("bridge.span_lengths_m", "[13.0, -13.0]"),
-        ["bridge.span_lengths_m[1] is -13.0", "expected a list of one or more numbers"],
+        ["bridge.span_lengths_m[1] is -13.0"],
     ),
     "target of three numbers": (
         with_value("ball.target_m", "[6.5, 0.0, 5.0]"),
-        ["ball.target_m is a list of length 3", "expected a list of 2 numbers (m)"],
+        ["ball.target_m is a list of length 3"],
     ),
     "unknown choice": (
         with_value("connections.type", '"WELD"'),
-        ['connections.type is "WELD"', 'expected one of "FIXED", "POINT", "HINGE"'],
+        ['connections.type is "WELD"'],
     ),
     "stretched out of all proportion": (
         with_value("fracture.stretch", "[1.0, 1e-30, 1.0]"),
@@ -167,78 +168,78 @@ WRONG_FILES = {
     ),
     "charge as heavy as the earth": (
         RIGHT + "\n[[charges]]\nplace_m = [0.0, 0.0, 1.0]\nmass_kg = 6e24\n",
-        ["charges.mass_kg is 6e+24", "expected a number from 0 to 1000000 (kg)"],
+        ["charges.mass_kg is 6e+24"],
     ),
     "bridge longer than single precision reaches": (
         with_value("bridge.span_lengths_m", "[13000.0]"),
         ["bridge.span_lengths_m add up to 13000", "expected at most 10000 (m)"],
     ),
-    "blank title": (with_value("scenario.title", '" "'), ['scenario.title is " "', "expected a text on one line"]),
+    "blank title": (with_value("scenario.title", '" "'), ['scenario.title is " "']),
     "title of two lines": (
         with_value("scenario.title", r'"a\nb"'),
-        [r'scenario.title is "a\nb"', "expected a text on one line"],
+        [r'scenario.title is "a\nb"'],
     ),
     "density and mass": (
         with_more_in("bridge", "density_kg_m3 = 2400"),
-        ["bridge.density_kg_m3 and bridge.mass_kg are given together", "expected exactly one of"],
+        ["bridge.density_kg_m3 and bridge.mass_kg are given together"],
     ),
     "neither density nor mass": (
         without("bridge.mass_kg"),
-        ["bridge.density_kg_m3 and bridge.mass_kg are all missing", "expected exactly one of"],
+        ["bridge.density_kg_m3 and bridge.mass_kg are all missing"],
     ),
     "two breaking forces": (
         with_more_in("connections", "breaking_force_n = 1"),
-        ["connections.breaking_force_n and connections.breaking_force_kgf are given together", "expected exactly one"],
+        ["connections.breaking_force_n and connections.breaking_force_kgf are given together"],
     ),
     "no breaking force": (
         without("connections.breaking_force_kgf"),
-        ["connections.breaking_force_kgf and connections.material are all missing", "expected exactly one"],
+        ["connections.breaking_force_kgf and connections.material are all missing"],
     ),
     "no search radius": (
         without("connections.search_radius_m"),
-        ["connections.search_radius_m is missing", 'expected a number above 0 (m) with method "vertex"'],
+        ["connections.search_radius_m is missing"],
     ),
     "search radius for faces": (
         with_value("connections.method", '"face"'),
-        ["connections.search_radius_m is 1.0", 'expected none with method "face"'],
+        ["connections.search_radius_m is 1.0"],
     ),
     "asleep without falling asleep": (
         with_value("shards.use_deactivation", "false"),
-        ["shards.start_deactivated is true", "expected false where shards.use_deactivation is false"],
+        ["shards.start_deactivated is true"],
     ),
     "pier cap as long as the span": (
         with_value("bridge.pier_caps.length_m", "13.0"),
-        ["bridge.pier_caps.length_m is 13.0", "expected less than the shortest span, 13.0 (m)"],
+        ["bridge.pier_caps.length_m is 13.0"],
     ),
     "column longer than the span": (
         with_value("bridge.piers.column_length_m", "14"),
-        ["bridge.piers.column_length_m is 14.0", "expected less than the shortest span, 13.0 (m)"],
+        ["bridge.piers.column_length_m is 14.0"],
     ),
     "columns wider than the cap": (
         with_value("bridge.piers.columns", "13"),
-        ["bridge.piers.column_width_m is 0.7", "expected at most 0.653846 (m)", "bridge.pier_caps.width_m"],
+        ["bridge.piers.column_width_m is 0.7", "bridge.pier_caps.width_m"],
     ),
     "columns wider than the deck": (
         without_table("bridge.pier_caps").replace("columns = 2", "columns = 13"),
-        ["bridge.piers.column_width_m is 0.7", "expected at most 0.653846 (m)", "bridge.deck.width_m"],
+        ["bridge.piers.column_width_m is 0.7", "bridge.deck.width_m"],
     ),
     "ball beside the deck": (
         with_value("ball.target_m", "[6.5, 4.3]"),
-        ["ball.target_m[1] is 4.3", "expected a place on the deck, from -4.25 to 4.25 (m)"],
+        ["ball.target_m[1] is 4.3"],
     ),
     "ball beyond the deck": (
         with_value("ball.target_m", "[13.6, 0.0]"),
-        ["ball.target_m[0] is 13.6", "expected a place on the deck, from -0.5 to 13.5 (m)"],
+        ["ball.target_m[0] is 13.6"],
     ),
     "ball let go too late": (
         with_value("ball.release_time_s", "5"),
-        ["ball.release_time_s is 5.0", "expected less than time.duration_s, 5.0 (s)"],
+        ["ball.release_time_s is 5.0"],
     ),
     "too many frames": (
         with_value("time.duration_s", "1e6"),
-        ["time.duration_s is 1000000.0", "expected 1 to 1000000"],
+        ["time.duration_s is 1000000.0"],
     ),
-    "no frame": (with_value("time.duration_s", "1e-9"), ["time.duration_s is 1e-09", "expected 1 to 1000000 frames"]),
+    "no frame": (with_value("time.duration_s", "1e-9"), ["time.duration_s is 1e-09"]),
 }
 
 

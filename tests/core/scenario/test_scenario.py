@@ -161,7 +161,7 @@ def test_frames_cover_the_duration():
         (
             BRIDGE,
             {"span_lengths_m": []},
-            "bridge.span_lengths_m is a list of length 0: expected a list of one or more ",
+            "bridge.span_lengths_m is a list of length 0: expected a list of one or more numbers of at least 0.001 (m)",
         ),
         (BRIDGE, {"span_lengths_m": [13, -1]}, "bridge.span_lengths_m[1] is -1: expected a list of one or more "),
         (BRIDGE, {"deck": 5}, "bridge.deck is 5: expected a table"),
@@ -203,13 +203,17 @@ def test_values_outside_their_limits_are_refused(table, values, text):
     "table, values, text",
     [
         (BRIDGE, {"mass_kg": 1}, "bridge.density_kg_m3 and bridge.mass_kg are given together: expected exactly one"),
-        (BRIDGE, {"density_kg_m3": None}, "bridge.density_kg_m3 and bridge.mass_kg are all missing"),
+        (
+            BRIDGE,
+            {"density_kg_m3": None},
+            "bridge.density_kg_m3 and bridge.mass_kg are all missing: expected exactly one",
+        ),
         (CONNECTIONS, {"breaking_force_n": 1}, "breaking_force_kgf are given together: expected exactly one of"),
         (CONNECTIONS, {"breaking_force_kgf": None}, "material are all missing: expected exactly one of"),
         (
             CONNECTIONS,
             {"search_radius_m": None},
-            "search_radius_m is missing: expected a number above 0 (m) with method",
+            'search_radius_m is missing: expected a number above 0 (m) with method "vertex"',
         ),
         (CONNECTIONS, {"method": "face"}, 'connections.search_radius_m is 1.0: expected none with method "face"'),
         (CONNECTIONS, {"neighbours": 4}, 'connections.neighbours is 4: expected none with method "vertex"'),
@@ -218,7 +222,11 @@ def test_values_outside_their_limits_are_refused(table, values, text):
             {"method": "nearest", "search_radius_m": None},
             "connections.neighbours is missing: expected a whole number of at least 1 with method",
         ),
-        (SCENARIO.shards, {"use_deactivation": False}, "shards.start_deactivated is true: expected false"),
+        (
+            SCENARIO.shards,
+            {"use_deactivation": False},
+            "shards.start_deactivated is true: expected false where shards.use_deactivation is false",
+        ),
         (
             BRIDGE,
             {"piers": replace(PIERS, column_length_m=10.5)},
