@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 from processes import run_bda, run_program
-from run_folders import flying_shards, keep_run
-from scenarios import SHORT_RUN
+from run_folders import TOLD, flying_shards, keep_run
+from scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.scenario import Exclusion
@@ -14,14 +14,24 @@ from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_t
 
 @pytest.fixture
 def folder(tmp_path):
-    return keep_run(tmp_path / "run", flying_shards(6, 13))
+    return keep_run(tmp_path / "run", flying_shards(6, 13), I235)
 
 
-def test_a_report_says_how_far_it_is_and_where_it_lies(folder, capsys):
-    assert main(["report", str(folder)]) == 0
-    printed = capsys.readouterr()
-    lines = printed.out.splitlines()
-    assert printed.err == ""
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The folder of a run with everything in it, and how its report was made where there is no Blender."""
+    folder = keep_run(tmp_path_factory.mktemp("made") / "run", flying_shards(6, 13), TOLD)
+    return folder, run_program("bda_without_blender", "report", folder)
+
+
+def test_a_report_needs_no_blender(made):
+    _, done = made
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_report_says_how_far_it_is_and_where_it_lies(made):
+    folder, done = made
+    lines = done.stdout.splitlines()
     assert any(line.endswith(" pictures drawn") for line in lines)
     assert any(line.endswith(" pages written") for line in lines)
     for name in ("report.html", "report.pdf", "exclusion_zone.dxf"):
@@ -53,11 +63,6 @@ def test_an_output_that_is_a_file_is_wrong_input(folder, tmp_path, capsys):
     assert main(["report", str(folder), "--output", str(tmp_path / "file"), "--quiet"]) == 2
     assert "the report cannot be written" in capsys.readouterr().err
     assert (tmp_path / "file").read_text() == "mine"
-
-
-def test_a_report_needs_no_blender(folder):
-    done = run_program("bda_without_blender", "report", folder, "--quiet")
-    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_a_run_ends_with_a_report_when_asked(tmp_path):

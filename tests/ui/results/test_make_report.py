@@ -2,10 +2,11 @@
 
 import pytest
 from run_folders import flying_shards, keep_run
+from scenarios import I235
 
 
 def test_the_button_makes_a_report_of_the_folder(extension, tmp_path):
-    folder = keep_run(tmp_path / "run", flying_shards(6, 13))
+    folder = keep_run(tmp_path / "run", flying_shards(6, 13), I235)
     assert not extension.ops.bda.make_report.poll()  # no folder yet
     extension.context.scene.bda.output_directory = str(folder)
     assert extension.ops.bda.make_report() == {"FINISHED"}
