@@ -37,6 +37,12 @@ def extension(blender: ModuleType) -> Iterator[ModuleType]:
     bridge_demolition_addon.unregister()
 
 
+@pytest.fixture
+def settings(extension: ModuleType):
+    """The extension's settings of the scene."""
+    return extension.context.scene.bda
+
+
 def pytest_configure(config: pytest.Config) -> None:
     # Blender reads this once, when bpy is imported. A person's own preferences and add-ons must
     # neither change a test nor be changed by one.

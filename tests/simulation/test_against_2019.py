@@ -1,6 +1,6 @@
 """Where the listing of 2019 departs from its own equations in Blender: forces, handlers, logs and fields.
 
-Its differences 1 to 6 concern formulas alone; ``tests/core/test_blast_against_2019.py`` has them.
+Its differences 1 to 6 concern formulas alone; ``tests/core/blast/test_blast_against_2019.py`` has them.
 """
 
 import csv
