@@ -84,7 +84,21 @@ def check_bodies(
         _check_place(layout, body.evaluated_get(depsgraph), address)
 
 
-def check_connections(layout: Layout, connections: Iterable[tuple[bpy.types.Object, int]], bodies: dict) -> None:
+def check_owners(layout: Layout, bodies: Iterable[tuple[bpy.types.Object, int, int]]) -> None:
+    """Each of Bullet's bodies points back at Blender's; nothing that may have been edited or recorded is looked at.
+
+    Parameters
+    ----------
+    bodies
+        As for `check_bodies`.
+    """
+    for body, holder, address in bodies:
+        _expect(f"user pointer of body {body.name!r}", read_pointer(address + layout.body.user_pointer), holder)
+
+
+def check_connections(
+    layout: Layout, connections: Iterable[tuple[bpy.types.Object, int]], bodies: dict, *, were_edited: bool = False
+) -> None:
     """Each connection has a known type, its own two bodies and its own breaking threshold.
 
     Parameters
@@ -93,9 +107,17 @@ def check_connections(layout: Layout, connections: Iterable[tuple[bpy.types.Obje
         Object and address of Bullet's btTypedConstraint.
     bodies
         Address of the btRigidBody of every body, by object.
+    were_edited
+        Whether settings may not be those that Bullet's constraints were made from: then only types are looked at.
     """
     for connection, address in connections:
-        _check_connection(layout, connection, address, bodies)
+        if were_edited:
+            types = {each for known in CONSTRAINT_TYPES.values() for each in known}
+            _expect_member(
+                f"type of connection {connection.name!r}", read_value(address + layout.constraint.type, "i"), types
+            )
+        else:
+            _check_connection(layout, connection, address, bodies)
 
 
 def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: int, gravity: np.ndarray) -> None:

@@ -20,7 +20,7 @@ from .memory import gather_pointers, read, read_pointer, read_value, write_point
 _MOST_IGNORED = 1_000_000
 
 
-class IgnoredCollisions:
+class CollisionPairs:
     """The entries that connections have in the lists of their bodies.
 
     Parameters
@@ -53,6 +53,15 @@ class IgnoredCollisions:
             entries = gather_pointers(body + self._list_offset) + 8 * self._slots[rows, side]
             there = gather_pointers(entries) == other
             write_pointers(entries[there], body[there])
+
+
+def let_collide(layout: Layout, first: int, second: int) -> None:
+    """Let two bodies collide whose connection is gone, as far as no other connection still forbids it."""
+    for body, other in ((first, second), (second, first)):
+        ignored = _ignored_bodies(layout, body)
+        if other in ignored:
+            data = read_pointer(body + layout.body.ignored_bodies_data)
+            write_pointers(data + 8 * ignored.index(other), body)
 
 
 def _ignored_bodies(layout: Layout, body: int) -> list[int]:

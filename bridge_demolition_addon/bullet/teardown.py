@@ -12,13 +12,15 @@ collision detection still knows the freed bodies.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import bpy
 import numpy as np
 
 from ..core.errors import LayoutError
+from .collision_pairs import let_collide
 from .layout import Layout
-from .memory import read, read_pointer, read_value, write_integers, write_pointers
+from .memory import gather_doubles, read, read_pointer, read_value, write_integers, write_pointers
 
 _MOST_ENTRIES = 10_000_000
 _INERT_BYTES = 4096
@@ -96,6 +98,34 @@ class Fingerprints:
         return np.frombuffer(raw, np.uint8)[self._columns].tobytes() if raw else None
 
 
+class ConnectionSettings:
+    """The settings of connections, to see quickly which of them were edited.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    connections
+        Objects with a rigid-body constraint.
+    """
+
+    def __init__(self, layout: Layout, connections: Sequence[bpy.types.Object]):
+        addresses = [each.rigid_body_constraint.as_pointer() for each in connections]
+        self._addresses = np.array(addresses, np.uint64)
+        self._columns = np.arange(layout.blender.connection_physics // 8)
+        self._first = self._read()
+
+    def changed_rows(self) -> np.ndarray:
+        """Return the rows (k,) of the connections that were edited since the last call; all of them must be there."""
+        now = self._read()
+        changed = (now != self._first).any(axis=1)
+        self._first = now
+        return np.flatnonzero(changed)
+
+    def _read(self) -> np.ndarray:
+        return gather_doubles(self._addresses, columns=self._columns).view(np.uint64)
+
+
 def retire(layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.ndarray, alive: np.ndarray) -> None:
     """Take out of a world all that may point at freed memory.
 
@@ -129,6 +159,39 @@ def retire(layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.nd
     inert = _inert_body(read_pointer(min(living)) if living else 0)
     for field in (layout.constraint.body_a, layout.constraint.body_b):
         write_pointers(connections[alive] + np.uint64(field), inert)
+
+
+def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, known: set[int], gone: set[int]) -> None:
+    """Take constraints out of a world that goes on, which Blender frees without doing so.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    dynamics
+        Address of the btDiscreteDynamicsWorld.
+    bodies : (n,) uint64
+        Addresses of all bodies.
+    known
+        Addresses of all constraints that may be in the world.
+    gone
+        Those to take out; they may be freed by now.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+    in_world = PointerArray(layout, dynamics + layout.world.constraints, known)
+    lists = {body: PointerArray(layout, body + layout.body.constraints, known) for body in bodies.tolist()}
+    lost = {body: gone.intersection(each.entries) for body, each in lists.items()}
+    in_world.keep(known - gone)
+    for array in lists.values():
+        array.keep(known - gone)
+    pairs = [tuple(body for body in lost if address in lost[body]) for address in gone]
+    for pair in pairs:
+        if len(pair) == 2:  # a connection that keeps its bodies from colliding is in the lists of both
+            let_collide(layout, *pair)
 
 
 def _bodies_in_use(layout: Layout) -> set[int]:

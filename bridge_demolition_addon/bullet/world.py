@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import itertools
 from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from enum import Enum
 
@@ -19,7 +20,7 @@ from ..core.errors import LayoutError, SimulationError
 from ..core.results.removed_shards import OUT_OF_REACH_M
 from ..scene.world import scene_time_step
 from . import checks
-from .collision_pairs import IgnoredCollisions
+from .collision_pairs import CollisionPairs
 from .contacts import ContactReader, Contacts
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout, platform_layout
 from .memory import (
@@ -34,7 +35,7 @@ from .memory import (
     write_pointers,
     write_vectors,
 )
-from .teardown import Fingerprints, retire
+from .teardown import ConnectionSettings, Fingerprints, retire, take_out_constraints
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
@@ -76,12 +77,16 @@ class _BoundWorld:
         Breaking thresholds for sub-steps of normal length, N·s.
     forbids_collision : (m,) bool
         Whether each connection keeps its bodies from colliding; kept up to date.
-    ignored, ignored_rows : IgnoredCollisions, (m,) int
-        How these are let collide, and the rows of connections in it.
+    collision_pairs, pair_rows : CollisionPairs or None, (m,) int
+        How these are let collide, and the rows of connections in it; None in a world that is not read.
     fingerprints : Fingerprints
         Tells connections that were freed from those in use.
     contacts : ContactReader
         Reads the contacts.
+    depsgraph : int
+        Address of the dependency graph whose copies of the connections have the constraints.
+    settings : ConnectionSettings or None
+        Tells connections that were edited; None where the constraints are on the connections themselves, and stay.
     """
 
     dynamics: int
@@ -91,10 +96,12 @@ class _BoundWorld:
     removed: np.ndarray
     thresholds: np.ndarray
     forbids_collision: np.ndarray
-    ignored: IgnoredCollisions
-    ignored_rows: np.ndarray
+    collision_pairs: CollisionPairs | None
+    pair_rows: np.ndarray
     fingerprints: Fingerprints
     contacts: ContactReader
+    depsgraph: int
+    settings: ConnectionSettings | None
 
 
 class BulletWorld:
@@ -124,13 +131,22 @@ class BulletWorld:
         self._layout = layout or platform_layout()
         self._token = 0
         self._bound: _BoundWorld | None = None
+        self._rows = {connection.session_uid: row for row, connection in enumerate(self.connections)}
         self._threshold_factor, self._holds_connections = 1.0, False
         self._feedback = _aligned_doubles(len(self.connections))
 
-    def bind(self, depsgraph: bpy.types.Depsgraph) -> WorldState:
+    def bind(self, depsgraph: bpy.types.Depsgraph, *, to_read: bool = True) -> WorldState:
         """Find the world, and check and prepare it where it is new. Cheap where it is not.
 
         Not for the start frame: there Blender still holds the world of an earlier simulation.
+
+        Parameters
+        ----------
+        depsgraph
+            Evaluated for the present frame.
+        to_read
+            Whether loads and motion are to be read. Otherwise the world may have been recorded or edited before, and
+            only `retire`, `take_out_edited` and `take_out_freed` can be used.
 
         Raises
         ------
@@ -145,7 +161,7 @@ class BulletWorld:
         self._bound = None
         if not dynamics:
             return WorldState.ABSENT
-        self._bound = self._check(dynamics, depsgraph)
+        self._bound = self._check(dynamics, depsgraph, to_read)
         self._prepare()
         return WorldState.NEW
 
@@ -310,7 +326,7 @@ class BulletWorld:
         """Let the bodies of connections that broke since the last call collide again."""
         broken = self._bound.forbids_collision & ~self.intact()
         if broken.any():
-            self._bound.ignored.restore(self._bound.ignored_rows[broken])
+            self._bound.collision_pairs.restore(self._bound.pair_rows[broken])
             self._bound.forbids_collision[broken] = False
 
     def joint_feedback(self, sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -374,6 +390,51 @@ class BulletWorld:
         retire(self._layout, bound.dynamics, bound.bodies, connections, alive)
         bound.exists[:] = False
 
+    def take_out_edited(self) -> list[bpy.types.Object]:
+        """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
+
+        Blender frees the constraint of an edited connection, makes another, and forgets to take the first one out.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected; nothing has been written.
+        """
+        if not self._has_copies():
+            return []
+        return self._take_out(self._bound.settings.changed_rows())
+
+    def take_out_freed(self, depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
+        """Take out of the world what Blender freed in an update; return the connections concerned.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected; nothing has been written.
+        """
+        if not self._has_copies() or depsgraph.as_pointer() != self._bound.depsgraph:  # others' copies have none
+            return []
+        bound = self._bound
+        found = ((self._rows.get(update.id.original.session_uid), update.id) for update in depsgraph.updates)
+        now = {row: self._address(copy) for row, copy in found if row is not None and bound.exists[row]}
+        rows = [row for row, address in now.items() if address != bound.connections[row]]
+        return self._take_out(np.array(rows, int), {now[row] for row in rows})
+
+    def _has_copies(self) -> bool:
+        """Whether the world is still the one that was prepared, with constraints that Blender frees after an edit."""
+        return self._is_bound_to(self._find_dynamics_world()) and self._bound.settings is not None
+
+    def _take_out(self, rows: np.ndarray, made: AbstractSet[int] = frozenset()) -> list[bpy.types.Object]:
+        """Take connections (k,) out of the world, where others may have been made in their place at some addresses."""
+        bound = self._bound
+        rows = rows[bound.exists[rows]]
+        if len(rows):
+            known = made | set(bound.connections[bound.exists].tolist())
+            gone = set(bound.connections[rows].tolist()) - made
+            take_out_constraints(self._layout, bound.dynamics, bound.bodies, known, gone)
+            bound.exists[rows] = False
+        return [self.connections[row] for row in rows]
+
     def _named(self, bodies: np.ndarray) -> np.ndarray:
         """Those of bodies (k,), each once and in order."""
         return np.flatnonzero(np.bincount(bodies, minlength=len(self.bodies)))
@@ -412,12 +473,13 @@ class BulletWorld:
             return False
         return read_value(dynamics + self._layout.world.user_info, "Q") == self._token
 
-    def _check(self, dynamics: int, depsgraph: bpy.types.Depsgraph) -> _BoundWorld:
+    def _check(self, dynamics: int, depsgraph: bpy.types.Depsgraph, to_read: bool) -> _BoundWorld:
         """Check a new world from end to end. Nothing is written."""
         layout, world = self._layout, self._layout.world
-        checks.check_solver(layout, dynamics, self.scene.rigidbody_world, scene_time_step(self.scene).substep_s)
-        bodies = self._find_bodies(depsgraph)
-        connections = self._find_connections(depsgraph, bodies)
+        if to_read:
+            checks.check_solver(layout, dynamics, self.scene.rigidbody_world, scene_time_step(self.scene).substep_s)
+        bodies = self._find_bodies(depsgraph, to_read)
+        connections = self._find_connections(depsgraph, bodies, to_read)
         for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
                 raise LayoutError("something else has its hand on Blender's Bullet world")
@@ -432,10 +494,12 @@ class BulletWorld:
             removed=np.zeros(len(bodies), bool),
             thresholds=gather_doubles(connections[exists] + np.uint64(layout.constraint.breaking_threshold))[:, 0],
             forbids_collision=forbids_collision,
-            ignored=IgnoredCollisions(layout, connections[forbids_collision], bodies),
-            ignored_rows=np.cumsum(forbids_collision) - 1,
+            collision_pairs=CollisionPairs(layout, connections[forbids_collision], bodies) if to_read else None,
+            pair_rows=np.cumsum(forbids_collision) - 1,
             fingerprints=Fingerprints(layout, connections[exists]),
             contacts=ContactReader(layout, read_pointer(dynamics + world.dispatcher), bodies),
+            depsgraph=depsgraph.as_pointer(),
+            settings=ConnectionSettings(layout, self.connections) if self._are_copied(depsgraph) else None,
         )
 
     def _prepare(self) -> None:
@@ -447,7 +511,7 @@ class BulletWorld:
         self._token = next(_tokens)
         write_pointers(self._bound.dynamics + self._layout.world.user_info, self._token)
 
-    def _find_bodies(self, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
+    def _find_bodies(self, depsgraph: bpy.types.Depsgraph, to_read: bool) -> np.ndarray:
         """Bullet's bodies (n,)."""
         holders, addresses = [], []
         for body in self.bodies:
@@ -457,29 +521,42 @@ class BulletWorld:
                 raise SimulationError(f"body {body.name!r} is not simulated: give it a mesh and a rigid body")
             holders.append(holder)
             addresses.append(read_pointer(holder))
-        checks.check_bodies(self._layout, zip(self.bodies, holders, addresses, strict=True), depsgraph)
+        found = zip(self.bodies, holders, addresses, strict=True)
+        if to_read:
+            checks.check_bodies(self._layout, found, depsgraph)
+        else:
+            checks.check_owners(self._layout, found)
         return np.array(addresses, np.uint64)
 
-    def _find_connections(self, depsgraph: bpy.types.Depsgraph, body_addresses: np.ndarray) -> np.ndarray:
-        """Bullet's constraints (m,), 0 for one that is switched off.
+    def _are_copied(self, depsgraph: bpy.types.Depsgraph) -> bool:
+        """Whether Blender notes its constraints on evaluated copies of the connections.
 
-        Blender notes them on the objects that it finds in the collection of the world's constraints: evaluated copies,
-        or the objects themselves where that collection is not in the scene. Blender's own buttons leave it out.
+        It notes them on the objects that it finds in the collection of the world's constraints. Where that collection
+        is not in the scene, as Blender's own buttons leave it, these are the objects themselves.
         """
-        offset = self._layout.blender.connection_physics
-        holders = self.connections
         constraints = self.scene.rigidbody_world.constraints
-        if constraints and constraints.evaluated_get(depsgraph).is_evaluated:
+        return bool(constraints) and constraints.evaluated_get(depsgraph).is_evaluated
+
+    def _address(self, holder: bpy.types.Object) -> int:
+        """Bullet's constraint of a connection, or of its copy; 0 where there is none."""
+        return read_pointer(holder.rigid_body_constraint.as_pointer() + self._layout.blender.connection_physics)
+
+    def _find_connections(
+        self, depsgraph: bpy.types.Depsgraph, body_addresses: np.ndarray, to_read: bool
+    ) -> np.ndarray:
+        """Bullet's constraints (m,), 0 for one that is switched off."""
+        holders = self.connections
+        if self._are_copied(depsgraph):
             holders = [connection.evaluated_get(depsgraph) for connection in self.connections]
-        addresses = [read_pointer(each.rigid_body_constraint.as_pointer() + offset) for each in holders]
+        addresses = [self._address(each) for each in holders]
         existing = [pair for pair in zip(self.connections, addresses, strict=True) if pair[1]]
         for connection, address in zip(self.connections, addresses, strict=True):
-            if not address and connection.rigid_body_constraint.enabled:
+            if to_read and not address and connection.rigid_body_constraint.enabled:
                 raise SimulationError(
                     f"connection {connection.name!r} is not simulated: give it two bodies and show it"
                 )
         by_object = dict(zip(self.bodies, body_addresses.tolist(), strict=True))
-        checks.check_connections(self._layout, existing, by_object)
+        checks.check_connections(self._layout, existing, by_object, were_edited=not to_read)
         return np.array(addresses, np.uint64)
 
     def _threshold_fields(self) -> np.ndarray:

@@ -27,6 +27,10 @@ def register() -> None:
     global _is_registered
     _is_registered = True
     _attach()
+    for (
+        window
+    ) in bpy.context.window_manager.windows:  # while Blender switches the add-on on, it shows no scenes but these
+        recorded_scene(window.scene).look()
 
 
 def unregister() -> None:

@@ -68,7 +68,15 @@ class RecordedScene:
         if recording and not recording.error:
             recording.close()
             self._guard.release()
+            self.look()
         return recording
+
+    def look(self) -> None:
+        """Know the world as it is now, to guard it from before the next frame on."""
+        with suppress(ReferenceError):  # the scene was deleted meanwhile
+            for layer in self.scene.view_layers:
+                if layer.depsgraph and not self._is_recorded:
+                    self._guard.look(self.scene, layer.depsgraph)
 
     def before_frame(self) -> None:
         """Guard the world, and prepare the frame."""
@@ -90,7 +98,8 @@ class RecordedScene:
         self._check_objects()
 
     def after_update(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Colour the bodies: one that was edited was evaluated again, and has its own colour."""
+        """Guard the world, and colour the bodies: one that was edited was evaluated again, and has its own colour."""
+        self._fail_for(self._guard.check_update(depsgraph))
         self.contours.paint(depsgraph)
 
     def before_undo_or_load(self) -> None:
@@ -120,7 +129,9 @@ class RecordedScene:
         return self.recording is not None and self.recording.error is None
 
     def _check_objects(self) -> None:
-        changes = self._guard.check_objects(self.scene)
+        self._fail_for(self._guard.check_objects(self.scene))
+
+    def _fail_for(self, changes: str) -> None:
         if changes and self._is_recorded:
             self._fail(SimulationError(changes))
 

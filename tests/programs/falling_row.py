@@ -64,6 +64,60 @@ class FallingRow:
         blender_events.register()
         self.play(1, 11)
 
+    def stop(self) -> None:
+        for body in self.row:
+            body["bda_kind"] = "shard"
+        blender_events.register()
+        stop_recording()
+
+    def play_unwatched(self) -> None:
+        for body in self.row:
+            body["bda_kind"] = "shard"
+        self.play(1, 11)
+
+    def switch_on(self) -> None:
+        import addon_utils  # there is none before bpy is imported
+
+        assert addon_utils.enable("bridge_demolition_addon", handle_error=_raise)
+
+    def switch_off(self) -> None:
+        import addon_utils
+
+        addon_utils.disable("bridge_demolition_addon", handle_error=_raise)
+
+    # What is edited.
+
+    def give_connection_one_body(self) -> None:
+        self.links[3].rigid_body_constraint.object1 = None
+
+    def edit_threshold(self) -> None:
+        self.links[3].rigid_body_constraint.breaking_threshold = 5.0
+
+    def edit_limits(self) -> None:
+        self.links[3].rigid_body_constraint.use_limit_lin_x = True
+
+    def edit_type(self) -> None:
+        self.links[3].rigid_body_constraint.type = "HINGE"
+
+    def switch_connection_off(self) -> None:
+        self.links[3].rigid_body_constraint.enabled = False
+
+    def rename_connection(self) -> None:
+        self.links[3].name = "Renamed"
+
+    def go_on_falling(self) -> None:
+        before = self.height()
+        self.play(12, 40)
+        assert self.height() < before and not blender_events.recorded_scene(self.scene).stands_still
+        self.fall_from_the_start()
+        assert self.height() < 4.0, "it falls again"
+
+    def recording_has_ended(self) -> None:
+        assert str(self.recording.error).startswith(f"connection {self.links[3].name!r} was edited"), (
+            self.recording.error
+        )
+        assert len(stop_recording().frames) == 10
+
     # What is deleted.
 
     def remove_body(self) -> None:
@@ -212,6 +266,10 @@ class FallingRow:
         assert preferences.experimental.use_undo_legacy
         blender_events.unregister()
         assert not preferences.experimental.use_undo_legacy and not preferences.view.show_developer_ui
+
+
+def _raise(error: Exception) -> None:
+    raise error
 
 
 def main(folder: str, *steps: str) -> None:

@@ -8,6 +8,8 @@ can be played and edited meanwhile.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 
 from ...bullet.time_control import stop_time
@@ -31,6 +33,7 @@ class WorldGuard:
         self.stands_still = False
         self._objects: WorldObjects | None = None
         self._world: BulletWorld | None = None  # none as well where the world cannot be known up to the start frame
+        self._was_edited = False
 
     def share(self, scene: bpy.types.Scene, world: BulletWorld) -> None:
         """Guard a world that a recording knows, until `release`."""
@@ -42,6 +45,7 @@ class WorldGuard:
         if self._world:
             self._world.release()
         self._objects = self._world = None
+        self._was_edited = False
 
     def check_objects(self, scene: bpy.types.Scene) -> str:
         """Return that something was added to the world or taken out, in a sentence; empty where nothing was.
@@ -54,12 +58,16 @@ class WorldGuard:
             self.release()
             return "the rigid-body world was removed while it was recorded"
         if self._objects.are_the_same():
-            return ""
+            return self._taken_out(BulletWorld.take_out_edited)
         changes = self._objects.changes()
         if self._world and self._objects.any_is_gone():
             self._stand_still(scene)
         self.release()
         return f"rigid-body world changed, {changes}: go to the start frame and record again"
+
+    def check_update(self, depsgraph: bpy.types.Depsgraph) -> str:
+        """Return that a connection was edited, in a sentence; empty where none was. To be called after an update."""
+        return self._taken_out(lambda world: world.take_out_freed(depsgraph))
 
     def keep_standing_still(self, scene: bpy.types.Scene) -> None:
         """Stop time before a frame again: Blender takes frames out of its cache, and counts on from there."""
@@ -79,7 +87,8 @@ class WorldGuard:
         if not _has_world(scene) or scene.rigidbody_world.point_cache.is_baked:
             self.release()
             return
-        unchanged = self._objects is not None and self._objects.are_the_same()
+        self.check_update(depsgraph)
+        unchanged = self._objects is not None and not self._was_edited and self._objects.are_the_same()
         if scene.frame_current <= scene.rigidbody_world.point_cache.frame_start:
             if not (unchanged and self._world):
                 self.release()
@@ -91,10 +100,21 @@ class WorldGuard:
             self._objects, self._world = WorldObjects(scene), _world_of(scene)
         if self._world:
             try:
-                self._world.bind(depsgraph)
+                self._world.bind(depsgraph, to_read=False)
             except DemolitionError:
                 self._world.release()
                 self._world = None
+
+    def _taken_out(self, take_out: Callable[[BulletWorld], list[bpy.types.Object]]) -> str:
+        """Have edited connections taken out of the world: Blender makes others with the next frame."""
+        try:
+            edited = take_out(self._world) if self._world else []
+        except LayoutError:
+            return ""
+        if not edited:
+            return ""
+        self._was_edited = True
+        return f"connection {edited[0].name!r} was edited: go to the start frame and record again"
 
     def _stand_still(self, scene: bpy.types.Scene) -> None:
         """Make the world safe and stop time; where memory is not as expected, Blender is left to itself."""
