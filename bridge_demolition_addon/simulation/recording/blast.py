@@ -29,14 +29,16 @@ class FieldBlast:
 
     Parameters
     ----------
-    scene, bodies
-        The scene and those n of its bodies that can be pushed.
-    explosion
+    scene : bpy.types.Scene
+        The scene.
+    bodies : (n,) bpy.types.Object
+        Those of its bodies that can be pushed.
+    explosion : Explosion
         The charges and these bodies.
 
     Attributes
     ----------
-    left
+    left : int
         How often a body has left the reach of its field within a frame, and lost a part of its load.
     """
 
@@ -80,7 +82,7 @@ class FieldBlast:
         self._fields.push(self._pushed, forces, self._directions, centres[self._pushed], self._reaches)
 
     def after_frame(self, centres: np.ndarray) -> StepLoads:
-        """The loads of the frame, after which the bodies are at centres (n, 3).
+        """Return the loads of the frame, after which the bodies are at centres (n, 3).
 
         Raises
         ------
@@ -114,11 +116,11 @@ class DirectBlast:
 
     Parameters
     ----------
-    world
+    world : BulletWorld
         The bound world.
-    rows
-        (n,) which of its bodies can be pushed.
-    explosion
+    rows : (n,) int
+        Which of its bodies can be pushed.
+    explosion : Explosion
         The charges and these bodies.
     """
 
@@ -149,7 +151,7 @@ class DirectBlast:
         self._loads.append(loads)
 
     def after_frame(self) -> StepLoads:
-        """The loads of the frame."""
+        """Return the loads of the frame."""
         loads, self._loads = sum_of_loads(self._loads), []
         return loads
 
@@ -202,7 +204,7 @@ class Blast:
 
     @property
     def left(self) -> int:
-        """How often a body has left the reach of its field within a frame, and lost a part of its load."""
+        """Return how often a body has left the reach of its field within a frame, and lost a part of its load."""
         return self._fields.left if self._fields else 0
 
     def before_frame(self, start_s: float, frame_s: float, places: np.ndarray, rotations: np.ndarray) -> None:
@@ -218,7 +220,7 @@ class Blast:
             self._direct.before_substep(substep_s)
 
     def after_frame(self, places: np.ndarray) -> tuple[StepLoads, np.ndarray]:
-        """Loads of the frame, after which all bodies are at these places, and the impulse (n, 3) on each, N·s."""
+        """Return the loads of the frame, after which all bodies are at these positions, and their impulses (n, 3)."""
         loads = self._fields.after_frame(places[self._rows]) if self._fields else self._direct.after_frame()
         loads = replace(loads, bodies=self._rows[loads.bodies])
         return loads, loads.vectors(self._count)
@@ -230,7 +232,7 @@ class Blast:
 
 
 def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
-    """See whether charges and force objects of a scene are as they should be, before anything is simulated.
+    """Check the charges and force objects of a scene, before anything is simulated.
 
     Raises
     ------
@@ -242,7 +244,7 @@ def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> N
 
 
 def goes_off(scene: bpy.types.Scene) -> bool:
-    """Whether anything explodes in a scene: the explosion is asked for, and some charge has a mass.
+    """Return whether anything explodes in a scene: the explosion is asked for, and some charge has a mass.
 
     Raises
     ------
