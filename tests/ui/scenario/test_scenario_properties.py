@@ -24,6 +24,14 @@ SINGLE = 6e-8
 """Half of the last digit that single precision has."""
 
 
+@pytest.fixture(scope="module", autouse=True)
+def registered():
+    """The extension, switched on once: what is looked at here is its classes, and no scene."""
+    bridge_demolition_addon.register()
+    yield
+    bridge_demolition_addon.unregister()
+
+
 def property_of(table, name):
     # Every group of Blender's has a name of its own, listed before ours, which takes its place.
     return [each for each in registered_group(group_name(table)).bl_rna.properties if each.identifier == name][-1]
@@ -41,7 +49,7 @@ def test_every_table_but_the_charges_has_a_group():
 
 
 @pytest.mark.parametrize("key", KEYS, ids=NAMES)
-def test_every_key_has_a_property_that_says_what_it_means(extension, key):
+def test_every_key_has_a_property_that_says_what_it_means(key):
     table, item = key
     found = property_of(table, item.name)
     first_words = item.metadata["key"].description.replace("`", "").rstrip(".")
@@ -54,7 +62,7 @@ def test_every_key_has_a_property_that_says_what_it_means(extension, key):
 
 
 @pytest.mark.parametrize("key", NUMBERS, ids=[f"{table.table}.{item.name}" for table, item in NUMBERS])
-def test_every_number_has_its_unit_and_limits(extension, key):
+def test_every_number_has_its_unit_and_limits(key):
     table, item = key
     rule, held = item.metadata["key"], value_type(item)
     found = property_of(table, item.name)
@@ -77,14 +85,14 @@ def test_every_number_has_its_unit_and_limits(extension, key):
 
 
 @pytest.mark.parametrize("key", KEYS, ids=NAMES)
-def test_choices_are_a_menu(extension, key):
+def test_choices_are_a_menu(key):
     table, item = key
     choices = item.metadata["key"].choices
     if choices and value_type(item) is str:
         assert tuple(property_of(table, item.name).enum_items.keys()) == choices
 
 
-def test_labels_end_with_no_unit_that_blender_shows_itself(extension):
+def test_labels_end_with_no_unit_that_blender_shows_itself():
     labels = {f"{table.table}.{item.name}": label_of(table, item) for table, item in KEYS}
     assert labels["bridge.deck.width_m"] == "Width"
     assert labels["connections.breaking_force_kgf"] == "Breaking Force (kgf)"
@@ -99,18 +107,3 @@ def test_names_of_one_group_do_not_meet():
             names += [item.name, item.name + "_index"] if holds_many(item) else [item.name]
         names += ["use_" + item.name for item in (*key_fields(table), *subtable_fields(table)) if is_optional(item)]
         assert len(set(names)) == len(names)
-
-
-def test_registering_twice_leaves_nothing(blender):
-    def found():
-        bases = (blender.types.PropertyGroup, blender.types.Operator, blender.types.Panel, blender.types.UIList)
-        ours = [each.__name__ for base in (*bases, blender.types.Menu) for each in base.__subclasses__()]
-        return [name for name in ours if name.startswith("BDA_") and hasattr(blender.types, name)]
-
-    for _ in range(2):
-        bridge_demolition_addon.register()
-        assert found()
-        bridge_demolition_addon.unregister()
-        assert found() == []
-        assert not hasattr(blender.types.Scene, "bda")
-        assert registered_group("BDA_PG_scenario") is None
