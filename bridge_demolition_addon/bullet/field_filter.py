@@ -25,7 +25,7 @@ _INFLUENCES = (
 
 
 def ignore_fields(scene: bpy.types.Scene) -> None:
-    """Let no field act in the coming frames, until `heed_fields` or the next update of the scene's evaluated copy.
+    """Let no field act in the coming frames, until `let_fields_act` or the next update of the scene's evaluated copy.
 
     A world that is limited to a collection by its user is left alone.
 
@@ -39,7 +39,7 @@ def ignore_fields(scene: bpy.types.Scene) -> None:
             _limit(evaluated, evaluated.collection.as_pointer())
 
 
-def heed_fields(scene: bpy.types.Scene) -> None:
+def let_fields_act(scene: bpy.types.Scene) -> None:
     """Let fields act again.
 
     Raises

@@ -35,7 +35,7 @@ def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
         _write_time_scale(world, time_scale)
 
 
-def time_is_held(depsgraph: bpy.types.Depsgraph) -> bool:
+def time_stands_still(depsgraph: bpy.types.Depsgraph) -> bool:
     """Whether no simulated time passed in the frame that a dependency graph was evaluated for."""
     return depsgraph.scene_eval.rigidbody_world.time_scale == 0.0
 

@@ -1,5 +1,9 @@
 """Everything that can go wrong in a way the user can mend, one family under one base."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
 
 class DemolitionError(Exception):
     """Base of all errors of this project; its text is a sentence a user can act on."""
@@ -31,3 +35,18 @@ class BlastError(DemolitionError):
 
 class ContourError(DemolitionError):
     """What contours are to show cannot be shown: a range without an extent, or results of another scene."""
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Say which path cannot be written, where what is done in the block fails for it.
+
+    Raises
+    ------
+    OutputError
+        The system refuses to write.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

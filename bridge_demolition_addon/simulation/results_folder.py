@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import OutputError
+from ..core.errors import OutputError, writing
 from ..core.results.arrays import Results
 from ..core.results.files import (
     FORCE_CHART,
@@ -29,14 +29,12 @@ def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
         The folder is there already and may not be overwritten, is no folder, or cannot be written.
     """
     check_folder(folder, overwrite=overwrite)
-    try:
+    with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
         for name in RESULT_FILES:
             (folder / name).unlink(missing_ok=True)
         remove_report(folder)
         (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
     return folder
 
 
@@ -57,13 +55,11 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
     OutputError
         The folder is there already and may not be overwritten, or is no folder.
     """
-    try:
+    with writing(folder):
         if folder.exists() and not folder.is_dir():
             raise OutputError(f"{folder}: expected a folder for the results, found a file")
         if folder.exists() and not overwrite:
             raise OutputError(f"{folder}: exists already; choose another folder or allow overwriting")
-    except OSError as error:
-        raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
 
 
 def remove_report(folder: Path) -> None:
@@ -86,13 +82,11 @@ def checked_log(path: Path, *, overwrite: bool) -> Path:
         raise OutputError(f"{path}: expected a file for the log, found a folder")
     if path.exists() and not overwrite:
         raise OutputError(f"{path}: exists already; choose another file or allow overwriting")
-    try:
+    with writing(path):
         existed = path.exists()
         path.open("ab").close()  # the only sure way to know; what is in it stays until it is written
         if not existed:
             path.unlink()
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error
     return path
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 from bpy_extras.io_utils import ExportHelper
 
-from ..core.errors import DemolitionError, OutputError
+from ..core.errors import DemolitionError, OutputError, writing
 from ..simulation.blender_events import running_recording
 from .sidebar import path_property
 
@@ -95,9 +95,7 @@ def write_file(path: Path, content: bytes, *, new_folder: bool = False) -> None:
     OutputError
         It cannot be written.
     """
-    try:
+    with writing(path):
         if new_folder:
             path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

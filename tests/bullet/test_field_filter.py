@@ -8,7 +8,7 @@ import pytest
 from blast_scenes import weightless
 
 from bridge_demolition_addon.bullet import field_filter
-from bridge_demolition_addon.bullet.field_filter import heed_fields, ignore_fields
+from bridge_demolition_addon.bullet.field_filter import ignore_fields, let_fields_act
 from bridge_demolition_addon.core.errors import LayoutError
 
 MASS_KG = 10.0
@@ -42,7 +42,7 @@ def test_nothing_is_pushed_while_fields_are_ignored(pushed):
     ignore_fields(scene)
     coasting = rise(scene, block, range(5, 10))
     assert coasting == pytest.approx([coasting[0]] * 4, rel=1e-5)
-    heed_fields(scene)
+    let_fields_act(scene)
     again = rise(scene, block, range(9, 13))
     assert again[2] - again[1] == pytest.approx(10.0 / 576.0, rel=1e-3)
 
@@ -66,15 +66,15 @@ def test_a_world_that_is_limited_by_its_user_is_left_alone(pushed):
     limits = scene.view_layers[0].depsgraph.scene_eval.rigidbody_world.effector_weights
     ignore_fields(scene)
     assert limits.collection.name == own.name
-    heed_fields(scene)
+    let_fields_act(scene)
     assert limits.collection.name == own.name
 
 
-@pytest.mark.parametrize("act", [ignore_fields, heed_fields])
+@pytest.mark.parametrize("act", [ignore_fields, let_fields_act])
 def test_memory_that_is_not_as_expected_is_not_written(pushed, monkeypatch, act):
     scene, block = pushed
     rise(scene, block, range(1, 4))
-    if act is heed_fields:
+    if act is let_fields_act:
         ignore_fields(scene)
     weights = scene.view_layers[0].depsgraph.scene_eval.rigidbody_world.effector_weights
     before = weights.collection

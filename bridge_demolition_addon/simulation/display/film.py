@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core.display.contours import ContourSeries, ContourSettings
 from ...core.display.film_frames import film_rows
-from ...core.errors import ContourError, OutputError
+from ...core.errors import ContourError, OutputError, writing
 from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from ..blender_events import contours_of
@@ -100,13 +100,11 @@ class FilmRendering:
         self._films = _frames_of_films(series, film_settings)
         self._frames = sorted(set().union(*self._films.values()))
         self._series = series
-        try:
+        with writing(folder):
             folder.mkdir(parents=True, exist_ok=True)
             pictures = folder.glob("contours_[0-9][0-9][0-9][0-9][0-9][0-9].png")
             for old in (*pictures, folder / FILM_FILE, folder / SLOW_FILM_FILE):
                 old.unlink(missing_ok=True)
-        except OSError as error:
-            raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
 
     @property
     def picture_count(self) -> int:

@@ -9,7 +9,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...bullet.field_filter import heed_fields, ignore_fields
+from ...bullet.field_filter import ignore_fields, let_fields_act
 from ...bullet.world import BulletWorld
 from ...core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ...core.blast.settings import Apply
@@ -62,7 +62,7 @@ class FieldBlast:
             Blender does not let its fields act again.
         """
         self._fields.rest()
-        heed_fields(self._scene)
+        let_fields_act(self._scene)
         self._loads, self._pushed = no_loads(), np.zeros(0, int)
         if frame_s > 0.0 and not self._explosion.is_quiet(start_s, start_s + frame_s):
             self._loads = self._explosion.loads(start_s, start_s + frame_s, centres, rotations)
@@ -102,7 +102,7 @@ class FieldBlast:
         """Push nothing any more."""
         self._fields.rest()
         with suppress(LayoutError):  # until Blender makes its evaluated copy again
-            heed_fields(self._scene)
+            let_fields_act(self._scene)
 
     def _spare_blender_the_fields(self) -> None:
         """Let it pass over them in the coming frame, where all are ours."""

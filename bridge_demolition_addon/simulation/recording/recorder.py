@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...bullet.time_control import release_time, set_time_scale, time_is_held
+from ...bullet.time_control import release_time, set_time_scale, time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...core.errors import LayoutError, SimulationError
 from ...core.results.arrays import Results
@@ -222,7 +222,7 @@ class Recording:
         """Record the frame from Bullet's memory, or note why that cannot be trusted."""
         try:
             if self.scene.frame_current > self._start_frame:
-                self._record(self._world.bind(depsgraph), time_is_held(depsgraph))
+                self._record(self._world.bind(depsgraph), time_stands_still(depsgraph))
         except LayoutError as error:
             if self._frames:  # it was trusted, and parts of it are recorded
                 raise

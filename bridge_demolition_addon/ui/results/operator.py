@@ -7,7 +7,7 @@ import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ...core.blast.models import BlastModel
-from ...core.errors import OutputError, SimulationError
+from ...core.errors import OutputError, SimulationError, writing
 from ...core.results.files import FORCE_CHART
 from ...core.results.summary import first_hit_s
 from ..operators import Action, absolute, recording_runs
@@ -82,11 +82,9 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
         last = last_recording.last()
         folder = last.folder / _CHARTS
         model = BlastModel(context.scene.bda.scenario.blast.model)
-        try:
+        with writing(folder):
             paths = write_charts(folder, ChartSettings(model=model))
             plot_forces(last.results, folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary))
-        except OSError as error:
-            raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
         return f"{len(paths) + 1} charts are in {folder}"
 
 
