@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from bridge_demolition_addon.core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
+from bridge_demolition_addon.core.mechanics.work import FrameWork
 from bridge_demolition_addon.core.results.arrays import Results
 from bridge_demolition_addon.core.results.frames import BallHistory, Frame, FrameSeries
 from bridge_demolition_addon.core.results.inventory import Inventory
@@ -74,6 +75,7 @@ def hanging_chain() -> Results:
             intact=intact[step],
             blast_impulses_ns=np.zeros((4, 3)),
             loads=loads,
+            work=_work(step),
         )
         for step, loads in enumerate(_loads(connections=2))
     ]
@@ -84,6 +86,12 @@ def hanging_chain() -> Results:
         velocities_m_s=(fall_s[:, None] * GRAVITY)[:, None],
     )
     return Results("every sub-step", inventory, FrameSeries.of(frames), balls)
+
+
+def _work(step: int) -> FrameWork:
+    """The solver makes 200 J in the last frame, three quarters of it for *lower*."""
+    made = np.array([0.0, 50.0, 150.0, 0.0]) * (step == 4)
+    return FrameWork(1000.0, 0.0, 0.0, 1.0, 500.0, made.sum(), 0.0, 0.0, made)
 
 
 def changed(results: Results, **arrays: np.ndarray) -> Results:

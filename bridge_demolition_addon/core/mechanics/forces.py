@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.vectors import cross
+
 
 def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
     """Return the vector sum of the connection forces on every body.
@@ -56,7 +58,4 @@ def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, cent
     (m, 3) float
         In N·m: the torque less what the force makes by its lever arm.
     """
-    (x, y, z), (a, b, c) = (points - centres).T, forces.T
-    return torques - np.column_stack(
-        (y * c - z * b, z * a - x * c, x * b - y * a)
-    )  # np.cross takes three times as long
+    return torques - cross(points - centres, forces)

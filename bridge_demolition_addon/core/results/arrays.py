@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import OutputError
 from ..mechanics.frame_loads import FrameLoads
+from ..mechanics.work import FrameWork
 from .frames import BallHistory, FrameSeries
 from .inventory import Inventory
 
@@ -23,6 +24,14 @@ _STORED_NAMES = {
         "time_s": "times_s",
         "positions_m": "places_m",
         "angular_velocities_rad_s": "spins_rad_s",
+    },
+    FrameWork: {
+        "gravity_j": "work_of_gravity_j",
+        "loads_j": "work_of_loads_j",
+        "tools_j": "work_of_tools_j",
+        "damping_j": "lost_to_damping_j",
+        "dissipated_j": "dissipated_between_bodies_j",
+        "made_j": "made_by_solver_j",
     },
     BallHistory: {
         "bodies": "balls",
@@ -59,7 +68,7 @@ class Results:
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Results:
         """Results from what `arrays` gives."""
-        frames = _part(FrameSeries, arrays, loads=_part(FrameLoads, arrays))
+        frames = _part(FrameSeries, arrays, loads=_part(FrameLoads, arrays), work=_work(arrays))
         return cls(str(arrays["reading"]), _part(Inventory, arrays), frames, _part(BallHistory, arrays))
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -100,6 +109,13 @@ def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> 
     """A part of the results, with the fields that are known already."""
     names = [each.name for each in fields(kind) if each.name not in known]
     return kind(**{name: arrays[_stored_name(kind, name)] for name in names}, **known)
+
+
+def _work(arrays: Mapping[str, np.ndarray]) -> FrameWork:
+    """Work, which earlier versions did not record."""
+    if _STORED_NAMES[FrameWork]["made_j"] in arrays:
+        return _part(FrameWork, arrays)
+    return FrameWork.unknown(len(arrays["frames"]), len(arrays["body_names"]))
 
 
 def _stored_name(kind: type, name: str) -> str:

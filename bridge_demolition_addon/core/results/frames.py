@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..mechanics.frame_loads import FrameLoads
+from ..mechanics.work import FrameWork
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +35,8 @@ class Frame:
         Impulse of all blasts in the frame; it is no part of the loads.
     loads : FrameLoads
         Loads by connections and contacts.
+    work : FrameWork
+        Work in the frame.
     """
 
     number: int
@@ -47,6 +50,7 @@ class Frame:
     intact: np.ndarray
     blast_impulses_ns: np.ndarray
     loads: FrameLoads
+    work: FrameWork
 
 
 class FrameSeries(Frame):

@@ -14,6 +14,7 @@ from .arrays import Results
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
 from .motion import throw
 from .removed_shards import without_removed
+from .solver_energy import energy_summary
 
 
 def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None) -> dict[str, Any]:
@@ -46,6 +47,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
         "largest_throw": _largest_throw(left),
+        "energy": energy_summary(left),
         "blast": _blast(results),
     }
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...bullet.world import BulletWorld
 from ...core.mechanics.frame_loads import FrameLoads
+from ...core.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...core.results.frames import BallHistory, Frame
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
@@ -49,10 +50,18 @@ class BulletReader:
         every_substep: bool,
     ):
         self._scene, self._world, self._every_substep = scene, world, every_substep
+        self._inventory = inventory
         self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
         normal_substep_s = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start).substep_s
         breaking = breaking_of(scene, connections)
-        self._substeps = SubstepRecorder(world, inventory, breaking, self._events, blast, normal_substep_s)
+        work = WorkAccumulator(
+            inventory.masses_kg,
+            np.array([body.rigid_body.linear_damping for body in bodies]),
+            np.array([body.rigid_body.angular_damping for body in bodies]),
+            np.array(scene.gravity),
+            Motion(world.positions()[0], world.velocities(), world.angular_velocities()),
+        )
+        self._substeps = SubstepRecorder(world, inventory, breaking, self._events, blast, normal_substep_s, work)
         after = self._substeps.after_substep if every_substep else None
         world.call_around_substeps(self._substeps.before_substep, after)
 
@@ -74,8 +83,10 @@ class BulletReader:
     def read_first_frame(self, substep_s: float) -> Frame:
         """Return a frame in which no time passed, or else one whose loads were not asked for in time."""
         self._substeps.skip(substep_s * self._scene.rigidbody_world.substeps_per_frame)
-        loads, _ = self._substeps.finish_frame()
-        return self._frame(substep_s, loads.unknown() if substep_s > 0.0 else loads)
+        loads, work, _ = self._substeps.finish_frame()
+        if substep_s > 0.0:
+            loads, work = loads.unknown(), FrameWork.unknown(len(self._inventory.masses_kg))
+        return self._frame(substep_s, loads, work)
 
     def read_frame(self, substep_s: float) -> tuple[Frame, list[Breaks]]:
         """Return the frame whose sub-steps have this length, without blast, and what broke in it."""
@@ -84,10 +95,12 @@ class BulletReader:
             self._substeps.skip(substep_s * (self._scene.rigidbody_world.substeps_per_frame - 1))
         if self._substeps.error:
             raise self._substeps.error
-        loads, breaks = self._substeps.finish_frame()
-        return self._frame(substep_s, loads), breaks
+        loads, work, breaks = self._substeps.finish_frame()
+        if not self._every_substep:
+            work = FrameWork.unknown(len(self._inventory.masses_kg))
+        return self._frame(substep_s, loads, work), breaks
 
-    def _frame(self, substep_s: float, loads: FrameLoads) -> Frame:
+    def _frame(self, substep_s: float, loads: FrameLoads, work: FrameWork) -> Frame:
         positions, rotations = self._world.positions()
         return Frame(
             number=self._scene.frame_current,
@@ -101,4 +114,5 @@ class BulletReader:
             intact=self._world.intact(),
             blast_impulses_ns=np.zeros_like(positions),
             loads=loads,
+            work=work,
         )

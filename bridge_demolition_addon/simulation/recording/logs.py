@@ -13,11 +13,13 @@ from typing import Self
 import numpy as np
 
 from ...core.blast.explosion import StepLoads
+from ...core.geometry.vectors import dot
 from ...core.mechanics.stress import principal_stresses
 from ...core.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
 from ...core.results.frames import Frame
 from ...core.results.inventory import Inventory
 from ...core.results.motion import throw, travel
+from ...core.results.solver_energy import flies_on_solver_energy
 from .substeps import Breaks
 
 FORCE_COLUMNS = (
@@ -39,7 +41,18 @@ FORCE_COLUMNS = (
     "von_mises_Pa",
     "asleep",
 )
-DEBRIS_COLUMNS = ("frame", "time_s", "body", "x_m", "y_m", "z_m", "distance_m", "throw_m")
+DEBRIS_COLUMNS = (
+    "frame",
+    "time_s",
+    "body",
+    "x_m",
+    "y_m",
+    "z_m",
+    "distance_m",
+    "throw_m",
+    "made_by_solver_J",
+    "on_solver_energy",
+)
 BREAKING_COLUMNS = (
     "frame",
     "time_s",
@@ -119,6 +132,8 @@ class Logs:
         self._breaking.flush()
         self._explosion = ExplosionLog(folder / EXPLOSION_LOG, names, charges) if charges else None
         self._first_positions: np.ndarray | None = None
+        self._made_j = np.zeros(len(names))
+        self._largest_kinetic_j = np.zeros(len(names))
 
     def write_frame(self, frame: Frame) -> None:
         """Log the loads of a frame; of the first frame, also where everything is."""
@@ -135,6 +150,9 @@ class Logs:
             frame.asleep,
         )
         self._forces.write(frame.number, frame.time_s, np.column_stack(columns))
+        self._made_j += np.nan_to_num(frame.work.made_j)
+        kinetic = 0.5 * self._inventory.masses_kg * dot(frame.velocities_m_s, frame.velocities_m_s)
+        self._largest_kinetic_j = np.maximum(self._largest_kinetic_j, kinetic)
         if self._first_positions is None:
             self._first_positions = frame.positions_m
             self._write_positions(frame)
@@ -164,7 +182,9 @@ class Logs:
 
     def _write_positions(self, frame: Frame) -> None:
         first, last = self._first_positions, frame.positions_m
-        values = np.column_stack((last, travel(first, last), throw(first, last)))
+        throws = throw(first, last)
+        on_solver_energy = flies_on_solver_energy(throws, self._made_j, self._largest_kinetic_j)
+        values = np.column_stack((last, travel(first, last), throws, self._made_j, on_solver_energy))
         self._debris.write(frame.number, frame.time_s, values)
 
 

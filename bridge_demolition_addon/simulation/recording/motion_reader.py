@@ -11,6 +11,7 @@ import numpy as np
 from ...core.geometry.rotations import rotation_vectors
 from ...core.geometry.vectors import length
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator
+from ...core.mechanics.work import FrameWork
 from ...core.results.frames import Frame
 from ...core.results.inventory import Inventory
 from ...scene.time_scale import time_step_at
@@ -66,6 +67,7 @@ class MomentumReader:
             intact=np.zeros(0, bool),
             blast_impulses_ns=np.zeros_like(positions),
             loads=loads,
+            work=FrameWork.unknown(len(positions)),
         )
         return self._last
 

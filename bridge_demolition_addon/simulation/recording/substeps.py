@@ -12,6 +12,7 @@ from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLo
 from ...core.mechanics.section_cuts import SectionCuts, worst_around
 from ...core.mechanics.section_forces import SectionForces, section_forces
 from ...core.mechanics.strength import rectangular_sections, strength_at, utilisation
+from ...core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 from ...core.results.frames import BallHistory
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
@@ -59,6 +60,8 @@ class SubstepRecorder:
         What explodes.
     threshold_step_s : float
         Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
+    work : WorkAccumulator
+        Adds up the work in each frame.
 
     Attributes
     ----------
@@ -78,12 +81,13 @@ class SubstepRecorder:
         events: Events,
         blast: Blast | None,
         threshold_step_s: float,
+        work: WorkAccumulator,
     ):
         self.elapsed_s = 0.0
         self.seconds = 0.0
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
-        self._events = events
+        self._events, self._work = events, work
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
         self._reinforcement = None
@@ -142,12 +146,12 @@ class SubstepRecorder:
         """Let time pass of which nothing is known."""
         self.elapsed_s += duration_s
 
-    def finish_frame(self) -> tuple[FrameLoads, list[Breaks]]:
-        """Return the loads of the frame and what broke in it, and begin the next frame."""
-        loads, breaks = self._frame.finish(), self._breaks
+    def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
+        """Return loads and work of the frame and what broke in it, and begin the next frame."""
+        loads, work, breaks = self._frame.finish(), self._work.finish(), self._breaks
         self._frame.begin()
         self._breaks = []
-        return loads, breaks
+        return loads, work, breaks
 
     def ball_history(self) -> BallHistory:
         """Return the hits of the balls in every sub-step so far."""
@@ -162,11 +166,26 @@ class SubstepRecorder:
         if self._reinforcement:
             loads.connection_forces_n[:] += self._reinforcement.forces_n
         self._frame.add(loads)
+        self._add_work(loads)
         self._break_overloaded(loads)
         self._note_breaks(loads)
         self._world.let_broken_collide()
         if len(self._balls):
             self._note_balls(loads)
+
+    def _add_work(self, loads: SubstepLoads) -> None:
+        motion = Motion(loads.centres_m, self._world.velocities(), self._world.angular_velocities())
+        if self._is_warming_up:
+            self._work.pass_over(motion)
+            return
+        of_connections = PairImpulses(
+            self._inventory.pairs,
+            loads.substep_s * loads.connection_forces_n,
+            loads.connection_points_m,
+            loads.substep_s * loads.connection_moments_nm,
+        )
+        of_contacts = PairImpulses(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m)
+        self._work.add(motion, self._world.can_move(), of_connections, of_contacts, loads.substep_s)
 
     def _break_overloaded(self, loads: SubstepLoads) -> None:
         """Break what its strength does not bear; Bullet's own threshold has been at work within the sub-step."""

@@ -21,6 +21,18 @@ STORED = {
     *("connection_peak_forces_n", "connection_peak_moments_nm"),
     *("balls", "ball_times_s", "ball_impulses_ns", "ball_velocities_m_s"),
 }
+STORED_OF_WORK = {
+    "work_of_gravity_j",
+    "work_of_loads_j",
+    "work_of_tools_j",
+    "lost_to_damping_j",
+    "dissipated_between_bodies_j",
+    "made_by_connections_j",
+    "made_by_contacts_j",
+    "made_by_lifting_j",
+    "made_by_solver_j",
+}
+"""Of these, earlier versions recorded nothing."""
 
 # Some units in the last place of numbers around 5000.
 ROUNDING_N = 1e-11
@@ -168,7 +180,15 @@ def test_texts_and_series_come_back_as_what_they_were(tmp_path):
 def test_arrays_in_the_file_keep_their_names(tmp_path):
     hanging_chain().save(tmp_path / "results.npz")
     with np.load(tmp_path / "results.npz", allow_pickle=False) as stored:
-        assert set(stored) == STORED
+        assert set(stored) == STORED | STORED_OF_WORK
+
+
+def test_files_from_before_work_was_recorded_are_read(tmp_path):
+    arrays = hanging_chain().arrays()
+    np.savez(tmp_path / "results.npz", **{name: arrays[name] for name in STORED})
+    work = load_results(tmp_path / "results.npz").frames.work
+    assert work.made_j.shape == (5, 4) and np.isnan(work.made_j).all()
+    assert work.gravity_j.shape == (5,) and np.isnan(work.gravity_j).all()
 
 
 def write_no_file(path):

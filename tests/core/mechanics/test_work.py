@@ -1,0 +1,125 @@
+"""Work of gravity, loads, tools and the solver, held against the energies of motions that can be written down."""
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
+
+GRAVITY = np.array([0.0, 0.0, -9.81])
+STEP_S = 0.01
+NONE = PairImpulses(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros((0, 3)))
+PAIR = np.array([[0, 1]])
+
+
+def motion(velocities, centres=None, spins=None):
+    velocities = np.array(velocities, float)
+    zeros = np.zeros_like(velocities)
+    return Motion(zeros if centres is None else np.array(centres, float), velocities, zeros if spins is None else spins)
+
+
+def accumulator(masses, start, damping=0.0, gravity=(0.0, 0.0, 0.0)):
+    share = np.full(len(masses), damping)
+    return WorkAccumulator(np.array(masses, float), share, share, np.array(gravity, float), start)
+
+
+def along_x(values):
+    return [[value, 0.0, 0.0] for value in values]
+
+
+def test_a_falling_body_gets_its_kinetic_energy_from_gravity():
+    before, after = motion([[0.0, 0.0, -3.0]]), motion([[0.0, 0.0, -3.0 - 9.81 * STEP_S]], [[0, 0, -(3.0981) * STEP_S]])
+    work = accumulator([20.0], before, gravity=GRAVITY)
+    work.add(after, np.array([True]), NONE, NONE, STEP_S)
+    frame = work.finish()
+    assert frame.gravity_j == pytest.approx(0.5 * 20.0 * (3.0981**2 - 3.0**2), rel=1e-12)
+    assert frame.made_j[0] == pytest.approx(0.0, abs=1e-9)
+    assert frame.loads_j == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_pushes_from_outside_is_a_load():
+    work = accumulator([2.0], motion([[0.0, 0.0, 0.0]]))
+    work.add(motion([[5.0, 0.0, 0.0]], [[5.0 * STEP_S, 0, 0]]), np.array([True]), NONE, NONE, STEP_S)
+    assert work.finish().loads_j == pytest.approx(25.0, rel=1e-12)
+
+
+def test_damping_takes_what_the_speed_loses():
+    left = (1.0 - 0.04) ** STEP_S
+    work = accumulator([2.0], motion([[10.0, 0.0, 0.0]]), damping=0.04)
+    work.add(motion([[10.0 * left, 0.0, 0.0]], [[10.0 * left * STEP_S, 0, 0]]), np.array([True]), NONE, NONE, STEP_S)
+    frame = work.finish()
+    assert frame.damping_j == pytest.approx(100.0 * (1.0 - left**2), rel=1e-12)
+    assert frame.loads_j == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.4, 1.0])
+def test_an_impact_dissipates_what_textbooks_say(restitution):
+    masses, speed = (3.0, 5.0), 4.0
+    reduced = masses[0] * masses[1] / sum(masses)
+    impulse = -reduced * speed * (1.0 + restitution)  # on the first body
+    after = (speed + impulse / masses[0], -impulse / masses[1])
+    work = accumulator(masses, motion(along_x((speed, 0.0))))
+    contact = PairImpulses(PAIR, np.array([[impulse, 0.0, 0.0]]), np.zeros((1, 3)))
+    work.add(motion(along_x(after), STEP_S * np.array(along_x(after))), np.array([True, True]), NONE, contact, STEP_S)
+    frame = work.finish()
+    # A central impact with restitution e takes ½ μ u² of the reduced mass μ, less e² of it.
+    assert frame.dissipated_j == pytest.approx(0.5 * reduced * speed**2 * (1.0 - restitution**2), abs=1e-12)
+    assert frame.made_j.sum() == pytest.approx(0.0, abs=1e-12)
+
+
+def test_bodies_that_are_pushed_apart_from_rest_got_their_energy_from_the_solver():
+    masses, impulse = np.array([1.0, 4.0]), 6.0
+    after = np.array([-impulse, impulse]) / masses
+    work = accumulator(masses, motion(along_x((0.0, 0.0))))
+    pushed = PairImpulses(PAIR, np.array([[-impulse, 0.0, 0.0]]), np.zeros((1, 3)))
+    work.add(motion(along_x(after), STEP_S * np.array(along_x(after))), np.array([True, True]), NONE, pushed, STEP_S)
+    frame = work.finish()
+    np.testing.assert_allclose(frame.made_j, 0.5 * masses * after**2, rtol=1e-12)
+    assert frame.made_by_contacts_j == pytest.approx(frame.made_j.sum())
+    assert (frame.made_by_connections_j, frame.made_by_lifting_j) == (0.0, pytest.approx(0.0, abs=1e-12))
+
+
+def test_a_moment_that_sets_bodies_turning_against_each_other_made_energy():
+    inertia, moment = 2.0, 3.0
+    spins = np.array([[0.0, 0.0, moment / inertia], [0.0, 0.0, -moment / inertia]])
+    work = accumulator([1.0, 1.0], motion(np.zeros((2, 3))))
+    twist = PairImpulses(PAIR, np.zeros((1, 3)), np.zeros((1, 3)), np.array([[0.0, 0.0, moment]]))
+    work.add(motion(np.zeros((2, 3)), spins=spins), np.array([True, True]), twist, NONE, STEP_S)
+    frame = work.finish()
+    np.testing.assert_allclose(frame.made_j, 0.5 * inertia * spins[:, 2] ** 2, rtol=1e-12)
+    assert frame.made_by_connections_j == pytest.approx(frame.made_j.sum())
+
+
+def test_a_tool_that_moves_as_animation_says_does_work_and_makes_nothing():
+    # A tool at 2 m/s takes a resting body of 3 kg along: half of its work is lost in the impact.
+    work = accumulator([0.0, 3.0], motion(along_x((2.0, 0.0))))
+    contact = PairImpulses(PAIR, np.array([[-6.0, 0.0, 0.0]]), np.zeros((1, 3)))
+    after = along_x((2.0, 2.0))
+    work.add(motion(after, STEP_S * np.array(after)), np.array([False, True]), NONE, contact, STEP_S)
+    frame = work.finish()
+    assert frame.tools_j == pytest.approx(12.0)
+    assert frame.dissipated_j == pytest.approx(6.0)
+    assert frame.made_j.sum() == 0.0
+
+
+def test_a_body_moved_up_without_a_velocity_was_lifted_by_the_solver():
+    support = PairImpulses(np.array([[0, 1]]), np.array([[0.0, 0.0, 7.0 * 9.81 * STEP_S]]), np.zeros((1, 3)))
+    work = accumulator([7.0, 0.0], motion(np.zeros((2, 3))), gravity=GRAVITY)
+    lifted = motion(np.zeros((2, 3)), [[0.0, 0.0, 0.002], [0.0, 0.0, 0.0]])
+    work.add(lifted, np.array([True, False]), NONE, support, STEP_S)
+    frame = work.finish()
+    assert frame.made_by_lifting_j == pytest.approx(7.0 * 9.81 * 0.002)
+    assert frame.made_j[0] == pytest.approx(frame.made_by_lifting_j)
+
+
+def test_a_substep_passed_over_counts_for_nothing():
+    work = accumulator([1.0], motion([[0.0, 0.0, 0.0]]))
+    work.pass_over(motion([[9.0, 0.0, 0.0]]))
+    work.add(motion([[9.0, 0.0, 0.0]], [[9.0 * STEP_S, 0, 0]]), np.array([True]), NONE, NONE, STEP_S)
+    assert work.finish().loads_j == pytest.approx(0.0, abs=1e-12)
+
+
+def test_unknown_work_has_the_shape_of_known_work():
+    unknown = FrameWork.unknown(4, 2)
+    assert unknown.gravity_j.shape == (4,)
+    assert unknown.made_j.shape == (4, 2)
+    assert np.isnan(unknown.made_j).all()
