@@ -10,6 +10,7 @@ from typing import Any
 
 from ..core.errors import GeometryError, OutputError, ScenarioError, SimulationError
 from ..core.results.files import RESULT_FILES
+from ..core.results.fingerprint import SHORT
 from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
@@ -193,3 +194,11 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s"
     if throw := summary["largest_throw"]:
         yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}"
+    if energy := summary["energy"]:
+        made = energy["made_by_solver"]
+        share = f"{made['share_of_dissipated']:.1%} of what was dissipated"
+        yield "energy made by solver", f"{made['J'] / 1000.0:.1f} kJ, {share}"
+        if doubtful := energy["doubtful_throws"]:
+            yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"
+    fingerprint = summary["fingerprint"]
+    yield "fingerprint", f"built {fingerprint['built'][:SHORT]}, result {fingerprint['result'][:SHORT]}"

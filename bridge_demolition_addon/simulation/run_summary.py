@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import platform
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ..core.results.arrays import Results
+from ..core.results.fingerprint import result_digest
 from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
 from ..core.sequence.rest import Rest, last_event_s
@@ -61,11 +64,35 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "title": context.title,
         "completed": completed,
         "blender": bpy.app.version_string,
+        "fingerprint": _fingerprint(recording, results),
         "substep_s": context.substep_s,
         **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results)
+
+
+def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
+    """Digests of what was built and of what came out, and what it was calculated with."""
+    return {
+        "built": recording.built_digest,
+        "result": result_digest(results),
+        "processor": _processor(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "blender": f"{bpy.app.version_string} {bpy.app.build_hash.decode()}",
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+    }
+
+
+def _processor() -> str:
+    """Name of the processor, as far as the system tells it."""
+    information = Path("/proc/cpuinfo")  # of Linux, where Python knows no more than the architecture
+    if information.exists():
+        for line in information.read_text(encoding="utf-8", errors="replace").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()
 
 
 def rest_watch(scenario: Scenario) -> Rest:

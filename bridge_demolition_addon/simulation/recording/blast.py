@@ -23,6 +23,9 @@ from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
 from ...scene.blast.settings import blast_of
 from ...scene.bodies import scaled_mesh
 
+_ALWAYS_S = 1e6
+"""After this time every pulse is over."""
+
 
 class FieldBlast:
     """Loads through force-field empties: in each frame one steady force per body, whose impulse is exact.
@@ -186,11 +189,9 @@ class Blast:
         self._rows = np.flatnonzero(inventory.masses_kg > 0.0)
         self._count = len(bodies)
         pushed = [bodies[row] for row in self._rows]
-        explosion = Explosion(
-            self.charges,
-            convex_hulls([scaled_mesh(body).vertices for body in pushed], [body.name for body in pushed]),
-            settings,
-        )
+        hulls = convex_hulls([scaled_mesh(body).vertices for body in pushed], [body.name for body in pushed])
+        explosion = Explosion(self.charges, hulls, settings)
+        self._unexploded = Explosion(self.charges, hulls, settings)
         self._fields: FieldBlast | None = None
         self._direct: DirectBlast | None = None
         if settings.apply == Apply.FIELDS:
@@ -206,6 +207,11 @@ class Blast:
     def left(self) -> int:
         """Return how often a body has left the reach of its field within a frame, and lost a part of its load."""
         return self._fields.left if self._fields else 0
+
+    def whole_impulses(self, places: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Return the impulses (n, 3) that all charges together would give to all bodies at these places, N·s."""
+        loads = self._unexploded.loads(0.0, _ALWAYS_S, places[self._rows], rotations[self._rows])
+        return replace(loads, bodies=self._rows[loads.bodies]).vectors(self._count)
 
     def before_frame(self, start_s: float, frame_s: float, places: np.ndarray, rotations: np.ndarray) -> None:
         """Prepare a frame that begins at a time, is that long, and finds all bodies at these places."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +15,11 @@ from ...bullet.time_control import release_time, set_time_scale, time_stands_sti
 from ...bullet.world import BulletWorld, WorldState
 from ...core.errors import LayoutError, SimulationError
 from ...core.results.arrays import Results
+from ...core.results.fingerprint import built_digest
 from ...core.results.frames import BallHistory, Frame, FrameSeries
 from ...core.results.inventory import Inventory
 from ...scene.bodies import bodies_of
+from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
 from ...scene.inventory import take_inventory
@@ -87,6 +89,7 @@ class Recording:
         self._logs: Logs | None = None
         self._blast: Blast | None = None
         self._frames: list[Frame] = []
+        self._built_digest = ""
 
     def before_frame(self) -> None:
         """Set how much time passes in the coming frame, and what explodes in it.
@@ -145,6 +148,11 @@ class Recording:
     def inventory(self) -> Inventory | None:
         """The bodies and connections; None before the first frame."""
         return self._inventory
+
+    @property
+    def built_digest(self) -> str:
+        """Digest of what was built; empty before the first frame."""
+        return self._built_digest
 
     @property
     def recorded_frames(self) -> int:
@@ -255,8 +263,29 @@ class Recording:
         if self._blast:
             self._blast.rest()
         self._blast = Blast(self.scene, self._bodies, self._inventory, world) if goes_off(self.scene) else None
+        self._built_digest = self._digest()
         charges = [charge.name for charge in self._blast.charges] if self._blast else ()
         self._logs = Logs(self.folder, self._inventory, charges, self._log_files)
+
+    def _digest(self) -> str:
+        """Digest of all that decides what will happen: bodies, connections, what breaks them, and loads."""
+        breaking = breaking_of(self.scene, self._connections)
+        strength, ductility = (astuple(each) if each else () for each in (breaking.strength, breaking.ductility))
+        thresholds = [each.rigid_body_constraint.breaking_threshold for each in self._connections]
+        step = time_step_at(self.scene, self._start_frame)
+        matrices = np.array([body.matrix_world for body in self._bodies])
+        places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
+        return built_digest(
+            self._inventory,
+            positions_m=places,
+            rotations=rotations,
+            thresholds_ns=thresholds,
+            breaks=[each.rigid_body_constraint.use_breaking for each in self._connections],
+            strength_pa=np.array(strength, float),
+            ductility=np.array(ductility, float),
+            blast_impulses_ns=self._blast.whole_impulses(places, rotations) if self._blast else np.zeros(0),
+            step=[step.frame_s, step.substep_s],
+        )
 
     def _set_time(self) -> None:
         """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""

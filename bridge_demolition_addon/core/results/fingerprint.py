@@ -1,0 +1,53 @@
+"""Digests by which two people see at once whether they have the same run.
+
+The same bits give the same digest. One digest is of what was built, the other of what came out. Where the first
+differs, something else was simulated. Where only the second does, Blender's own arithmetic differs.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from .arrays import Results
+from .inventory import Inventory
+
+SHORT = 8
+"""Digits of a digest that are enough to tell runs apart by eye."""
+
+
+def digest(parts: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of named arrays, numbers and texts, as hexadecimal digits; their order does not count."""
+    found = hashlib.sha256()
+    for name in sorted(parts):
+        values = np.asarray(parts[name])
+        if values.dtype.kind == "U":
+            content = "\0".join(values.ravel().tolist()).encode()
+        else:
+            content = np.ascontiguousarray(_little_endian(values)).tobytes()
+        found.update(f"{name}:{values.shape}:{len(content)}:".encode())
+        found.update(content)
+    return found.hexdigest()
+
+
+def built_digest(inventory: Inventory, **more: Any) -> str:
+    """Return the digest of bodies and connections, and of all else that decides what will happen, by names."""
+    return digest({each.name: getattr(inventory, each.name) for each in fields(inventory)} | more)
+
+
+def result_digest(results: Results) -> str:
+    """Return the digest of everything that was recorded."""
+    return digest(results.arrays())
+
+
+def _little_endian(values: np.ndarray) -> np.ndarray:
+    """Values of one width on every system: numpy's default integers had 32 bits on Windows before numpy 2."""
+    if values.dtype.kind in "iu":
+        return values.astype("<i8")
+    if values.dtype.kind == "f":
+        return values.astype("<f8")
+    return values.astype(np.uint8)
