@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scenarios import I235
 
+from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import Ball, FractureSettings, Geometry
@@ -16,7 +17,7 @@ from bridge_demolition_addon.scene.demolition import build_demolition
 
 @pytest.fixture
 def scenario(tmp_path):
-    box([1, 1, 4], [0, 0, 2]).export(tmp_path / "pier.stl")
+    (tmp_path / "pier.stl").write_bytes(exported(box([1, 1, 4], [0, 0, 2]), ".stl"))
     pier = Geometry(name="pier", file=str(tmp_path / "pier.stl"), density_kg_m3=2400, place_m=[20, 0, 0])
     ball = Ball(mass_kg=1000, diameter_m=1, target_m=[20.2, 0.3], drop_height_m=3)
     return replace(I235, bridge=None, geometry=[pier], ball=ball, fracture=FractureSettings(shards=12))
