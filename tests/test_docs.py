@@ -9,7 +9,9 @@ from places import ROOT
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
 
 PACKAGE = ROOT / "bridge_demolition_addon"
-FOLDERS = "|".join(path.name for base in (ROOT, PACKAGE) for path in base.iterdir() if path.is_dir())
+FOLDERS = "|".join(
+    path.name for base in (ROOT, PACKAGE) for path in base.iterdir() if path.is_dir() and path.name[0] != "."
+)
 
 
 def targets(text):

@@ -14,11 +14,11 @@ from matplotlib.figure import FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 
+from ..core.debris.exclusion import ExclusionZone
+from ..core.debris.footprint import corners_at
+from ..core.debris.throws import Debris, HeightMap
 from ..core.geometry.plan_areas import outlines
 from ..core.results.arrays import Results
-from ..core.results.debris import Debris, HeightMap
-from ..core.results.exclusion import ExclusionZone
-from ..core.results.footprint import corners_at
 from ..core.scenario import Zone
 from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, plain
 

@@ -9,8 +9,8 @@ from itertools import takewhile
 
 from ..charts.histories import compared_histories
 from ..charts.plan_maps import debris_maps, debris_maps_height_mm
+from ..core.debris.throws import debris_of
 from ..core.results.collapse import collapse_progress, rest_of
-from ..core.results.debris import debris_of
 from ..core.results.force_history import largest_on_a_shard
 from ..core.scenario import Ball
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Section

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.debris.throws import Debris, debris_of, percentiles_by_mass
 from ..core.results.collapse import collapse_progress, rest_of
-from ..core.results.debris import Debris, debris_of, percentiles_by_mass
 from ..core.results.force_history import most_loaded
 from .run_folder import Run
 

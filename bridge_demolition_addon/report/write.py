@@ -10,9 +10,9 @@ from typing import Protocol
 
 from manifold3d import CrossSection
 
+from ..core.debris.footprint import footprint
 from ..core.errors import OutputError
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
-from ..core.results.footprint import footprint
 from ..core.scenario.file import scenario_text
 from .comparison import comparison
 from .document.blocks import DataTable, Document, Picture, write_tables

@@ -11,7 +11,7 @@ from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.charts.plan_maps import exclusion_map
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
-from bridge_demolition_addon.core.results.exclusion import ExclusionZone, widened
+from bridge_demolition_addon.core.debris.exclusion import ExclusionZone, widened
 from bridge_demolition_addon.core.scenario import Neighbour, Zone
 
 

@@ -12,8 +12,8 @@ from places import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_top, deck_underside
+from bridge_demolition_addon.core.debris.throws import debris_of
 from bridge_demolition_addon.core.results.arrays import Results, load_results
-from bridge_demolition_addon.core.results.debris import debris_of
 from bridge_demolition_addon.core.scenario import Scenario
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2

@@ -9,6 +9,9 @@ from ..geometry.vectors import distance, length
 _HIT_SHARE = 0.5
 """A frame counts as a hit when velocity departs from free fall by more than this share of the frame's g·t."""
 
+MOVED_M = 0.1
+"""A shard that ends farther than this from where it began is debris; the rest of the bridge still stands."""
+
 
 def travel(first: np.ndarray, last: np.ndarray) -> np.ndarray:
     """Straight-line distance (n,) between first and last places (n, 3), m."""

@@ -9,8 +9,7 @@ import numpy as np
 
 from ..geometry.vectors import dot
 from .arrays import Results
-from .debris import MOVED_M
-from .motion import throw
+from .motion import MOVED_M, throw
 
 DOUBTFUL_SHARE = 0.5
 """Part of its largest kinetic energy from which on a shard that got so much from the solver flies on that energy."""

@@ -9,11 +9,12 @@ import numpy as np
 
 from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, pile_map
+from ...core.debris.exclusion import ExclusionZone, exclusion_zone
+from ...core.debris.throws import PERCENTS, Debris, HeightMap, debris_of, height_map, percentiles_by_mass
+from ...core.debris.zones import ZoneWatch, watch_zone
 from ...core.geometry.plan_areas import outlines
 from ...core.results.arrays import Results
-from ...core.results.debris import MOVED_M, PERCENTS, Debris, HeightMap, debris_of, height_map, percentiles_by_mass
-from ...core.results.exclusion import ExclusionZone, exclusion_zone
-from ...core.results.zones import ZoneWatch, watch_zone
+from ...core.results.motion import MOVED_M
 from ...core.scenario import Zone
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run

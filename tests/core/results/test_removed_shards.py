@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from moving_boxes import moving_boxes
 
+from bridge_demolition_addon.core.debris.throws import debris_of
 from bridge_demolition_addon.core.results.collapse import collapse_progress
-from bridge_demolition_addon.core.results.debris import debris_of
 from bridge_demolition_addon.core.results.energy import energy_of
 from bridge_demolition_addon.core.results.removed_shards import without_removed
 

@@ -13,8 +13,8 @@ import numpy as np
 from manifold3d import CrossSection, JoinType
 
 from ..geometry.plan_areas import distances_outside, outlines, united
+from ..results.arrays import Results
 from ..scenario import Exclusion
-from .arrays import Results
 from .footprint import footprint, swept_footprint
 
 _CIRCLE_SEGMENTS = 64

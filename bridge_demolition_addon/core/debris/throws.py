@@ -11,12 +11,9 @@ from manifold3d import CrossSection
 from ..geometry.hulls import convex_hulls
 from ..geometry.plan_areas import distances_outside
 from ..geometry.vectors import dot, transformed
-from .arrays import Results
+from ..results.arrays import Results
+from ..results.motion import MOVED_M, throw, travel
 from .footprint import corners_at, footprint
-from .motion import throw, travel
-
-MOVED_M = 0.1
-"""A shard that ends farther than this from where it began is debris; the rest of the bridge still stands."""
 
 PERCENTS = (50, 75, 90, 95, 99, 100)
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from moving_boxes import moving_boxes, turned_about_z
 
+from bridge_demolition_addon.core.debris.footprint import footprint, swept_footprint
 from bridge_demolition_addon.core.geometry.plan_areas import distances_outside, outlines
-from bridge_demolition_addon.core.results.footprint import footprint, swept_footprint
 
 # Areas are cut to a hundred-millionth of a metre.
 ROUNDING = 1e-6

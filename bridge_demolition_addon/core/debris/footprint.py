@@ -9,7 +9,7 @@ from manifold3d import CrossSection
 
 from ..geometry.plan_areas import united
 from ..geometry.vectors import transformed
-from .arrays import Results
+from ..results.arrays import Results
 
 
 def corners_at(results: Results, step: int, body: int) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from moving_boxes import moving_boxes, turned_about_z
 
-from bridge_demolition_addon.core.results.zones import TIME_TOLERANCE_S, watch_zone
+from bridge_demolition_addon.core.debris.zones import TIME_TOLERANCE_S, watch_zone
 from bridge_demolition_addon.core.scenario import Zone
 
 SQUARE = ((5, -5), (15, -5), (15, 5), (5, 5))

@@ -14,8 +14,8 @@ from ..geometry.plan_areas import signed_area
 from ..geometry.rotations import rotated, rotation_vectors
 from ..geometry.solids import hull
 from ..geometry.vectors import length, transformed
+from ..results.arrays import Results
 from ..scenario import Zone
-from .arrays import Results
 from .footprint import corners_at
 
 TIME_TOLERANCE_S = 1e-3

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from moving_boxes import moving_boxes
 
-from bridge_demolition_addon.core.results.debris import debris_of, height_map, percentiles_by_mass
+from bridge_demolition_addon.core.debris.throws import debris_of, height_map, percentiles_by_mass
 
 
 def test_debris_is_what_moved_and_how_far():

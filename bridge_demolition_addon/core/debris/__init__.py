@@ -1,0 +1,1 @@
+"""Where debris goes: throws, pile, footprint, zones and the exclusion zone."""
