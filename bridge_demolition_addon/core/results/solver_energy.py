@@ -14,6 +14,9 @@ from .motion import MOVED_M, throw
 DOUBTFUL_SHARE = 0.5
 """Part of its largest kinetic energy from which on a shard that got so much from the solver flies on that energy."""
 
+ACCEPTED_SHARE = 0.01
+"""Energy made by the solver, over what was dissipated, from which on a report warns."""
+
 FARTHEST = 10
 """Shards whose energies the summary names."""
 
@@ -45,6 +48,12 @@ class Throws:
     largest_kinetic_j: np.ndarray
     on_solver_energy: np.ndarray
     beyond_fall: np.ndarray
+
+    @property
+    def made_shares(self) -> np.ndarray:
+        """(d,) energy that each got from the solver, over its largest kinetic energy."""
+        kinetic = self.largest_kinetic_j
+        return np.divide(self.made_j, kinetic, out=np.zeros_like(kinetic), where=kinetic > 0.0)
 
     @property
     def doubtful(self) -> np.ndarray:

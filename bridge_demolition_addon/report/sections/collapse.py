@@ -7,8 +7,10 @@ from functools import partial
 import numpy as np
 
 from ...charts.histories import energy_history, progress_history, span_heights
+from ...core.results.arrays import Results
 from ...core.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
 from ...core.results.energy import Energy, energy_of
+from ...core.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run
 
@@ -48,8 +50,39 @@ def collapse_section(run: Run) -> Section:
             "else than gravity does work.",
         ),
         _energy_table(energy),
+        *_solver_blocks(results),
     ]
     return Section("Collapse", tuple(blocks))
+
+
+def _solver_blocks(results: Results) -> list[Block]:
+    """Energy that the solver made, which no real contact or connection gives."""
+    if not is_known(results):
+        return [Paragraph("How much energy the solver made is not known: not every sub-step was read.")]
+    work, share = results.frames.work, made_share(results)
+    words = (
+        "Blender's solver makes energy where it pulls together connections that have sagged, or pushes apart bodies "
+        "that overlap. A real structure has no such energy: what it throws is thrown too far."
+    )
+    rows = [
+        ("Made by the solver", f"{np.nansum(work.made_j) / 1e3:.1f} kJ"),
+        ("Share of what was dissipated between bodies", f"{100.0 * share:.2f} %"),
+        ("by connections pulled together", f"{np.nansum(work.made_by_connections_j) / 1e3:.1f} kJ"),
+        ("by contacts pushed apart", f"{np.nansum(work.made_by_contacts_j) / 1e3:.1f} kJ"),
+        ("by bodies moved out of each other", f"{np.nansum(work.made_by_lifting_j) / 1e3:.1f} kJ"),
+        ("Dissipated between bodies", f"{np.nansum(work.dissipated_j) / 1e6:.3f} MJ"),
+        ("Work of gravity", f"{np.nansum(work.gravity_j) / 1e6:.3f} MJ"),
+        ("Work of blast and other loads", f"{np.nansum(work.loads_j) / 1e6:.3f} MJ"),
+        ("Work of tools", f"{np.nansum(work.tools_j) / 1e6:.3f} MJ"),
+    ]
+    blocks: list[Block] = [Paragraph(words), facts("Energy made by the solver", rows, "solver_energy")]
+    if share > ACCEPTED_SHARE:
+        warning = (
+            f"The solver made {100.0 * share:.1f} % of what was dissipated, more than {100.0 * ACCEPTED_SHARE:g} %: "
+            "shorter sub-steps or more solver iterations make it less."
+        )
+        blocks.insert(1, Paragraph(warning, is_notice=True))
+    return blocks
 
 
 def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:

@@ -15,6 +15,7 @@ from ...core.debris.zones import ZoneWatch, watch_zone
 from ...core.geometry.plan_areas import outlines
 from ...core.results.arrays import Results
 from ...core.results.motion import MOVED_M
+from ...core.results.solver_energy import throws_of
 from ...core.scenario import Zone
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run
@@ -141,7 +142,25 @@ def _debris_blocks(
             75.0,
         ),
         _largest_throws(results, debris),
+        *_doubts(results),
     ]
+
+
+def _doubts(results: Results) -> list[Block]:
+    """Notice of throws that the energy of a real shard does not explain."""
+    throws = throws_of(results)
+    count = int(throws.doubtful.sum())
+    if not count:
+        return []
+    farthest = int(np.flatnonzero(throws.doubtful)[0])
+    name, throw_m = results.inventory.body_names[throws.bodies[farthest]], throws.throws_m[farthest]
+    words = (
+        f"{count} shards flew on energy that the solver made, or farther than a fall explains: at least half of their "
+        "kinetic energy came from the solver, or, without charges, the throw is more than twice the height of fall. "
+        f"The farthest of them is {name}, {throw_m:.2f} m. Do not plan with these throws; make sub-steps shorter and "
+        "look again."
+    )
+    return [Paragraph(words, is_notice=True)]
 
 
 def _throw_table(debris: Debris) -> DataTable:
@@ -172,15 +191,22 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("to x (m)", "x_m", ".2f"),
         Column("y (m)", "y_m", ".2f"),
         Column("z (m)", "z_m", ".2f"),
+        Column("by the solver (%)", "made_by_solver_percent", ".0f"),
+        Column("doubtful", "doubtful"),
     )
+    throws = throws_of(results)
+    doubts = dict(zip(throws.bodies.tolist(), throws.doubtful.tolist(), strict=True))
+    shares = dict(zip(throws.bodies.tolist(), throws.made_shares.tolist(), strict=True))
     inventory, last_m = results.inventory, results.frames.positions_m[-1]
     rows = []
     for number, row in enumerate(np.argsort(-debris.throws_m, kind="stable")[:NAMED], start=1):
         body = debris.bodies[row]
         names = (str(inventory.body_names[body]), str(inventory.body_members[body]))
         numbers = (debris.masses_kg[row], debris.throws_m[row], debris.reaches_m[row], *last_m[body])
-        rows.append((number, *names, *map(float, numbers)))
-    return DataTable("largest_throws", "Largest throws", columns, rows)
+        doubt = "yes" if doubts[body] else "no"
+        rows.append((number, *names, *map(float, numbers), 100.0 * shares[body], doubt))
+    title = "Largest throws. By the solver: energy that it made, over the shard's largest kinetic energy"
+    return DataTable("largest_throws", title, columns, rows)
 
 
 def _zone_blocks(run: Run, zones: Sequence[Zone]) -> list[Block]:
