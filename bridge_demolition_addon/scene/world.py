@@ -29,6 +29,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
     world = scene.rigidbody_world
     world.substeps_per_frame = settings.substeps_per_frame
     world.solver_iterations = settings.solver_iterations
+    world.use_split_impulse = settings.split_impulse
     world.time_scale = settings.time_scale
     world.point_cache.frame_start, world.point_cache.frame_end = START_FRAME, last_frame
     world.collection = bpy.data.collections.new("Bodies")

@@ -32,6 +32,11 @@ class TimeSettings(Table):
         at_least=1,
         at_most=1000,
     )
+    split_impulse: bool = key(
+        "Whether bodies that overlap by more than 4 cm are moved apart without gaining speed. Off, as in 2019 and by "
+        "Blender's default, the solver makes energy of the overlap.",
+        default=True,
+    )
     time_scale: float = key(
         "Simulated seconds in one second of animation: below 1 is slow motion.", default=1.0, above=0, at_most=100
     )
