@@ -6,12 +6,11 @@ from functools import cache
 
 import bpy
 
-from ..simulation.blender_events import stop_recording
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
 from .contours import ui as contour_ui
-from .recording import last_recording, log_paths, redraw, run, running
+from .recording import log_paths, run, session
 from .recording import operator as recording_operator
 from .recording import ui as recording_ui
 from .results import operator as results_operator
@@ -47,9 +46,6 @@ def register() -> None:
 
 def unregister() -> None:
     """End a run or recording that goes on, and unregister all classes."""
-    running.end(bpy.context)
-    stop_recording()
-    redraw.unregister()
-    last_recording.forget()
+    session.unregister()
     for each in reversed(classes()):
         bpy.utils.unregister_class(each)

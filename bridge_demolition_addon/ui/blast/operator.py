@@ -5,13 +5,12 @@ from __future__ import annotations
 import bpy
 
 from ...core.blast.charges import Charge
-from ...core.errors import DemolitionError
 from ...core.scenario import BlastSettings
 from ...scene.blast.charges import charge_collection, charge_objects, create_charges
 from ...scene.blast.force_fields import build_force_objects
 from ...scene.blast.settings import keep_blast
 from ...scene.bodies import Kind, bodies_of, kind_of
-from ..operators import Refusing, no_world, refused
+from ..operators import Action, no_world
 from ..scenario.values import table_of
 from .prop import shown_charge
 
@@ -31,32 +30,28 @@ def keep_shown_blast(scene: bpy.types.Scene) -> None:
 
 def total_mass_kg(scene: bpy.types.Scene) -> float:
     """Return the mass of all active bodies but balls, kg."""
-    bodies = bodies_of(scene) if scene.rigidbody_world and scene.rigidbody_world.collection else []
-    return sum(
-        body.rigid_body.mass for body in bodies if body.rigid_body.type == "ACTIVE" and kind_of(body) != Kind.BALL
-    )
+    active = [body for body in bodies_of(scene) if body.rigid_body.type == "ACTIVE"]
+    return sum(body.rigid_body.mass for body in active if kind_of(body) != Kind.BALL)
 
 
-class BDA_OT_add_source_point(bpy.types.Operator):
+class BDA_OT_add_source_point(Action, bpy.types.Operator):
     """Add a charge at the 3D cursor; it can be dragged about like any object"""
 
     bl_idname = "bda.add_source_point"
     bl_label = "Add Source Point"
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> None:
         scene = context.scene
-        taken = {each.name for each in bpy.data.objects}
         number = len(charge_objects(scene)) + 1
-        while f"Charge {number}" in taken:
+        while f"Charge {number}" in bpy.data.objects:
             number += 1
         place = tuple(scene.cursor.location)
         create_charges(scene, [Charge(name=f"Charge {number}", place_m=place, mass_kg=_NEW_CHARGE_KG)])
         scene.bda.charge_index = len(charge_collection(scene).objects) - 1
-        return {"FINISHED"}
 
 
-class BDA_OT_delete_source_point(Refusing, bpy.types.Operator):
+class BDA_OT_delete_source_point(Action, bpy.types.Operator):
     """Delete the charge that is chosen in the list"""
 
     bl_idname = "bda.delete_source_point"
@@ -67,14 +62,13 @@ class BDA_OT_delete_source_point(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return "Choose a charge in the list first" if shown_charge(context.scene) is None else None
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda
         bpy.data.objects.remove(shown_charge(context.scene))
         settings.charge_index = min(settings.charge_index, max(len(charge_collection(context.scene).objects) - 1, 0))
-        return {"FINISHED"}
 
 
-class BDA_OT_build_force_objects(Refusing, bpy.types.Operator):
+class BDA_OT_build_force_objects(Action, bpy.types.Operator):
     """Give every shard a force object, through which the blast pushes it, and remove those of shards that are gone"""
 
     bl_idname = "bda.build_force_objects"
@@ -85,17 +79,13 @@ class BDA_OT_build_force_objects(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return no_world(context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            keep_shown_blast(context.scene)
-            built = build_force_objects(context.scene, bodies_of(context.scene))
-        except DemolitionError as error:
-            return refused(self, error)
-        self.report({"INFO"}, f"{built.made} force objects made, {built.kept} kept, {built.removed} removed")
-        return {"FINISHED"}
+    def act(self, context: bpy.types.Context) -> str:
+        keep_shown_blast(context.scene)
+        built = build_force_objects(context.scene, bodies_of(context.scene))
+        return f"{built.made} force objects made, {built.kept} kept, {built.removed} removed"
 
 
-class BDA_OT_show_total_mass(Refusing, bpy.types.Operator):
+class BDA_OT_show_total_mass(Action, bpy.types.Operator):
     """Add up the masses of all active bodies but the ball"""
 
     bl_idname = "bda.show_total_mass"
@@ -106,11 +96,10 @@ class BDA_OT_show_total_mass(Refusing, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         return no_world(context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def act(self, context: bpy.types.Context) -> str:
         text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")
         context.scene.bda.total_mass = text
-        self.report({"INFO"}, f"Total mass of particles: {text}")
-        return {"FINISHED"}
+        return f"Total mass of particles: {text}"
 
 
 CLASSES = (

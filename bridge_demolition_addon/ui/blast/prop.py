@@ -1,13 +1,16 @@
 """What the sidebar shows of the charge that is chosen in its list."""
 
+from typing import Any
+
 import bpy
+from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ...core.blast.charges import EXPLOSIVES
 from ...core.blast.wave import Burst
 from ...scene.blast.charges import BURST, EXPLOSIVE, charge_collection, is_charge
 from ..viewport import select_only
 
-EXPLOSIVE_ITEMS = [
+_EXPLOSIVES = [
     (
         name,
         name,
@@ -16,14 +19,14 @@ EXPLOSIVE_ITEMS = [
     )
     for name, each in EXPLOSIVES.items()
 ]
-BURST_ITEMS = [
+_BURSTS = [
     (Burst.AIR.value, "Air", "It detonates in the air"),
     (Burst.SURFACE.value, "Surface", "It detonates on the ground, which throws the wave back"),
 ]
 
 
 def shown_charge(scene: bpy.types.Scene) -> bpy.types.Object | None:
-    """The charge that is chosen in the list, if there is one."""
+    """Return the charge that is chosen in the list, if there is one."""
     collection = charge_collection(scene)
     objects = collection.objects if collection else ()
     index = scene.bda.charge_index
@@ -39,35 +42,38 @@ def select_shown(settings: bpy.types.PropertyGroup, context: bpy.types.Context) 
     context.view_layer.objects.active = charge
 
 
-def shown_explosive(settings: bpy.types.PropertyGroup) -> int:
-    """Number of the chosen charge's explosive among the items."""
-    return _shown(settings, EXPLOSIVE, EXPLOSIVE_ITEMS)
-
-
-def set_explosive(settings: bpy.types.PropertyGroup, number: int) -> None:
-    """Give the chosen charge an explosive."""
-    _set(settings, EXPLOSIVE, EXPLOSIVE_ITEMS[number][0])
-
-
-def shown_burst(settings: bpy.types.PropertyGroup) -> int:
-    """Number of the chosen charge's burst among the items."""
-    return _shown(settings, BURST, BURST_ITEMS)
-
-
-def set_burst(settings: bpy.types.PropertyGroup, number: int) -> None:
-    """Say where the chosen charge detonates."""
-    _set(settings, BURST, BURST_ITEMS[number][0])
-
-
-def _shown(settings: bpy.types.PropertyGroup, name: str, items: list[tuple[str, str, str]]) -> int:
-    charge = shown_charge(settings.id_data)
+def choice_of_charge(key: str, items: list[tuple[str, str, str]], name: str, description: str) -> Any:
+    """Return a property that shows and sets one of a few values that the chosen charge keeps under a key."""
     identifiers = [each[0] for each in items]
-    value = charge.get(name) if charge else None
-    return identifiers.index(value) if value in identifiers else 0
+
+    def shown(settings: bpy.types.PropertyGroup) -> int:
+        charge = shown_charge(settings.id_data)
+        value = charge.get(key) if charge else None
+        return identifiers.index(value) if value in identifiers else 0
+
+    def choose(settings: bpy.types.PropertyGroup, number: int) -> None:
+        if charge := shown_charge(settings.id_data):
+            charge[key] = identifiers[number]
+            charge.update_tag()
+
+    return EnumProperty(name=name, description=description, items=items, get=shown, set=choose)
 
 
-def _set(settings: bpy.types.PropertyGroup, name: str, value: str) -> None:
-    charge = shown_charge(settings.id_data)
-    if charge:
-        charge[name] = value
-        charge.update_tag()
+class ChargeProperties:
+    """The part of the scene's settings on its charges."""
+
+    charge_index: IntProperty(
+        name="Charge",
+        description="The charge whose properties are shown below the list",
+        min=0,
+        update=select_shown,
+    )
+    charge_explosive: choice_of_charge(EXPLOSIVE, _EXPLOSIVES, "Explosive", "What the charge is made of")
+    charge_burst: choice_of_charge(
+        BURST,
+        _BURSTS,
+        "Burst",
+        "Whether the charge detonates in the air, or on the ground, which throws the wave back",
+    )
+    charges_given: StringProperty(options={"HIDDEN"}, description="Charges as they were loaded, in JSON")
+    total_mass: StringProperty(options={"HIDDEN"}, description="Mass of all active bodies but the ball")

@@ -24,7 +24,7 @@ from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
 from ..scenario.values import scenario_of, table_of
-from . import last_recording, redraw, running
+from . import session
 
 _TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
 
@@ -46,7 +46,7 @@ class BDA_OT_register_handler(Action, bpy.types.Operator):
         recording = new_recording(context.scene)
         start_recording(recording)
         start_over(context.scene)
-        redraw.follow_recording()
+        session.redraw_while_recording()
         return f"Recording to {recording.folder}: play the timeline"
 
 
@@ -60,7 +60,7 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
     def why_not(cls, _context: bpy.types.Context) -> str | None:
         if not running_recording():
             return "No handler is registered"
-        return "Run is at work: Esc stops it" if running.goes_on() else None
+        return "Run is at work: Esc stops it" if session.run_goes_on() else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         return end_with_results(self, stop_recording())
@@ -81,7 +81,7 @@ def why_not_recorded(context: bpy.types.Context) -> str | None:
 
 
 def new_recording(scene: bpy.types.Scene) -> Recording:
-    """A recording of a scene as the sidebar asks for it, into a folder that is made or cleared for it.
+    """Return a recording of a scene as the sidebar asks for it, into a folder that is made or cleared for it.
 
     Raises
     ------
@@ -143,11 +143,11 @@ def _keep_recording(recording: Recording, *, completed: bool) -> None:
         raise
     summary = run_summary(recording, results, _contexts[recording], completed=completed)
     keep_results(recording.folder, results, summary)
-    last_recording.keep(recording.folder, results, summary)
+    session.keep_recording(recording.folder, results, summary)
 
 
 def rest_to_stop_at(recording: Recording) -> Rest | None:
-    """The rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
+    """Return the rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
     scenario = _contexts[recording].scenario
     return rest_watch(scenario) if scenario and scenario.time.stop_at_rest else None
 

@@ -7,8 +7,8 @@ from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing
 from ...simulation.results_folder import withdraw_folder
-from ..operators import Action, Refusing, no_world, recording_runs
-from . import redraw, running
+from ..operators import Action, Refusing, no_world, recording_runs, refused
+from . import session
 from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded
 
 _TICK_S = 0.001
@@ -53,9 +53,9 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
             bpy.ops.screen.animation_cancel(restore_frame=False)
         if not self._begin(context):
             return {"CANCELLED"}
-        running.begin(context, _TICK_S, self._playing.total)
+        session.begin_run(context, _TICK_S, self._playing.total)
         context.window_manager.modal_handler_add(self)
-        redraw.follow_recording()
+        session.redraw_while_recording()
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -75,23 +75,19 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def cancel(self, context: bpy.types.Context) -> None:
         """Called by Blender where it ends the run itself, as it does before another file is loaded."""
         self._playing.end()
-        running.end(context)
+        session.end_run(context)
 
     def _begin(self, context: bpy.types.Context) -> bool:
+        recording = None
         try:
             recording = new_recording(context.scene)
-        except (DemolitionError, OSError) as error:
-            return self._not_begun(error)
-        try:
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except (DemolitionError, OSError) as error:
-            withdraw_folder(recording.folder)
-            return self._not_begun(error)
+            if recording is not None:
+                withdraw_folder(recording.folder)
+            refused(self, error)
+            return False
         return True
-
-    def _not_begun(self, error: Exception) -> bool:
-        self.report({"ERROR"}, str(error))
-        return False
 
     def _show(self, context: bpy.types.Context) -> None:
         playing = self._playing
@@ -99,7 +95,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         context.workspace.status_text_set(progress_text(playing))
 
     def _leave(self, context: bpy.types.Context) -> set[str]:
-        running.end(context)
+        session.end_run(context)
         return self._end()
 
     def _end(self) -> set[str]:

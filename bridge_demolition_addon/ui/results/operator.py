@@ -11,7 +11,7 @@ from ...core.errors import OutputError, SimulationError, writing
 from ...core.results.files import FORCE_CHART
 from ...core.results.summary import first_hit_s
 from ..operators import Action, absolute, recording_runs
-from ..recording import last_recording
+from ..recording.session import last_recording
 from ..viewport import look_at_selected, select_only
 
 _CHARTS = "charts"
@@ -50,7 +50,7 @@ class _OfLastRecording(Action):
 
     @classmethod
     def why_not(cls, _context: bpy.types.Context) -> str | None:
-        return None if last_recording.last() else "Nothing was recorded yet: register the handler and play"
+        return None if last_recording() else "Nothing was recorded yet: register the handler and play"
 
 
 class BDA_OT_open_results(_OfLastRecording, bpy.types.Operator):
@@ -60,7 +60,7 @@ class BDA_OT_open_results(_OfLastRecording, bpy.types.Operator):
     bl_label = "Open Folder"
 
     def act(self, _context: bpy.types.Context) -> str | None:
-        folder = last_recording.last().folder
+        folder = last_recording().folder
         if not folder.is_dir():
             raise OutputError(f"{folder}: is not there any more")
         if sys.platform.startswith("linux") and not shutil.which(_OPENER):
@@ -79,7 +79,7 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
         from ...charts.blast_design import ChartSettings, write_charts
         from ...charts.force_chart import plot_forces
 
-        last = last_recording.last()
+        last = last_recording()
         folder = last.folder / _CHARTS
         model = BlastModel(context.scene.bda.scenario.blast.model)
         with writing(folder):

@@ -4,7 +4,7 @@ from typing import Any
 
 import bpy
 
-from ..recording import last_recording
+from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
 
 _N_PER_KN = 1000.0
@@ -17,7 +17,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout, last = self.layout, last_recording.last()
+        layout, last = self.layout, last_recording()
         if last is None:
             draw_sentence(layout, context, "Nothing was recorded yet: register the handler and play.", icon="INFO")
             return
