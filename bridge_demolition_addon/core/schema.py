@@ -117,6 +117,10 @@ class Table:
     def _check_together(self) -> None:
         """Check the values against each other."""
 
+    def unexpected(self, name: str, wanted: str) -> ScenarioError:
+        """Return the error of a value, with its key and what was expected in its place."""
+        return ScenarioError(f"{self.table}.{name} is {shown(getattr(self, name))}: expected {wanted}")
+
 
 def numbered_tables(table_class: type[Table], given: Iterable[Any], make: Callable[[Any], Table]) -> tuple[Table, ...]:
     """Make the tables of a list; an error gives the number of the table that it is about."""

@@ -180,14 +180,12 @@ class Ball(_Drop):
             return
         for item in fields(self):
             if item.name in ("target_m", "drop_height_m") and getattr(self, item.name) is None:
-                raise ScenarioError(f"ball.{item.name} is missing: expected {expected(item)}, or a table [ball.cable]")
+                raise self.unexpected(item.name, f"{expected(item)}, or a table [ball.cable]")
         for before, after in zip(self.drops, self.hits, strict=False):
             fallen_s = before.release_time_s + before.fall_time_s
             if after.lift_time_s < fallen_s:
-                raise ScenarioError(
-                    f"ball.hits.lift_time_s is {after.lift_time_s}: expected at least {fallen_s:.6g} (s), when "
-                    f"the ball that is let go at {before.release_time_s:g} s reaches the deck"
-                )
+                then = f"when the ball that is let go at {before.release_time_s:g} s reaches the deck"
+                raise after.unexpected("lift_time_s", f"at least {fallen_s:.6g} (s), {then}")
 
     def _check_cable(self, cable: BallCable) -> None:
         for name in ("target_m", "drop_height_m", "hits"):
@@ -195,7 +193,5 @@ class Ball(_Drop):
                 raise ScenarioError(f"ball.{name} is given together with ball.cable: expected one of the two")
         lowest_m = cable.lowest_point_m[2] - self.diameter_m / 2.0
         if lowest_m <= 0.0:
-            raise ScenarioError(
-                f"ball.cable.length_m is {cable.length_m}: expected a ball that swings above the ground, "
-                f"its lowest point is at {lowest_m:.6g} (m)"
-            )
+            wanted = f"a ball that swings above the ground, its lowest point is at {lowest_m:.6g} (m)"
+            raise cable.unexpected("length_m", wanted)

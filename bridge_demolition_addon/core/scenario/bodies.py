@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..errors import ScenarioError
 from ..schema import Table, key
 
 
@@ -60,6 +59,4 @@ class ShardSettings(Table):
 
     def _check_together(self) -> None:
         if self.start_deactivated and not self.use_deactivation:
-            raise ScenarioError(
-                "shards.start_deactivated is true: expected false where shards.use_deactivation is false"
-            )
+            raise self.unexpected("start_deactivated", "false where shards.use_deactivation is false")

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ..arithmetic import cosine, sine
 from ..errors import ScenarioError
-from ..schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
+from ..schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 
@@ -38,9 +38,7 @@ class Deck(Table):
 
     def _check_together(self) -> None:
         if self.joint_gap_m > 0.0 and not self.per_span:
-            raise ScenarioError(
-                f"bridge.deck.joint_gap_m is {self.joint_gap_m}: expected 0 where bridge.deck.per_span is false"
-            )
+            raise self.unexpected("joint_gap_m", "0 where bridge.deck.per_span is false")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,15 +79,10 @@ class BoxGirder(Table):
     def _check_together(self) -> None:
         webs = (self.cells + 1) * self.web_thickness_m
         if webs >= self.width_m * (1.0 - ROUNDING):
-            raise ScenarioError(
-                f"bridge.box_girder.web_thickness_m is {self.web_thickness_m}: expected {self.cells + 1} webs that "
-                f"leave room for cells in bridge.box_girder.width_m, {self.width_m} (m)"
-            )
+            room = f"room for cells in bridge.box_girder.width_m, {self.width_m} (m)"
+            raise self.unexpected("web_thickness_m", f"{self.cells + 1} webs that leave {room}")
         if self.bottom_thickness_m >= self.depth_m * (1.0 - ROUNDING):
-            raise ScenarioError(
-                f"bridge.box_girder.bottom_thickness_m is {self.bottom_thickness_m}: expected less than "
-                f"bridge.box_girder.depth_m, {self.depth_m} (m)"
-            )
+            raise self.unexpected("bottom_thickness_m", f"less than bridge.box_girder.depth_m, {self.depth_m} (m)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -112,7 +105,7 @@ class Piers(Table):
 
     def _check_together(self) -> None:
         if self.kind == "wall" and self.columns != 1:
-            raise ScenarioError(f'bridge.piers.columns is {self.columns}: expected 1 with bridge.piers.kind "wall"')
+            raise self.unexpected("columns", '1 with bridge.piers.kind "wall"')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -255,27 +248,22 @@ class Bridge(Table):
                 )
         if self.abutments and between_abutments != (self.abutments.height_m is not None):
             wanted = "a number (m) with one span" if between_abutments else "none with piers, which give it"
-            raise ScenarioError(f"bridge.abutments.height_m is {shown(self.abutments.height_m)}: expected {wanted}")
+            raise self.abutments.unexpected("height_m", wanted)
 
     def _check_superstructure(self) -> None:
         if self.box_girder and self.box_girder.width_m > self.deck.width_m * (1.0 + ROUNDING):
-            raise ScenarioError(
-                f"bridge.box_girder.width_m is {self.box_girder.width_m}: expected at most bridge.deck.width_m, "
-                f"{self.deck.width_m} (m)"
-            )
+            raise self.box_girder.unexpected("width_m", f"at most bridge.deck.width_m, {self.deck.width_m} (m)")
         if not self.girders:
             return
         spacing, width = self.girder_spacing_m, self.girders.width_m
         if self.girders.number > 1 and width > spacing * (1.0 + ROUNDING):
-            raise ScenarioError(
-                f"bridge.girders.width_m is {width}: expected at most their spacing, {spacing:.6g} (m), so that "
-                "girders do not overlap"
-            )
+            wanted = f"at most their spacing, {spacing:.6g} (m), so that girders do not overlap"
+            raise self.girders.unexpected("width_m", wanted)
         over_all = (self.girders.number - 1) * spacing + width
         if over_all > self.deck.width_m * (1.0 + ROUNDING):
-            raise ScenarioError(
-                f"bridge.girders.number is {self.girders.number}: expected girders that fit under bridge.deck.width_m, "
-                f"{self.deck.width_m} (m), found {over_all:.6g} over all of them"
+            room = f"bridge.deck.width_m, {self.deck.width_m} (m)"
+            raise self.girders.unexpected(
+                "number", f"girders that fit under {room}, found {over_all:.6g} over all of them"
             )
 
     @property
@@ -285,26 +273,24 @@ class Bridge(Table):
 
     def _check_room_along(self) -> None:
         shortest = min(self.span_lengths_m)
-        lengths = {}
+        supports = []
         if self.piers:
-            lengths["bridge.piers.column_length_m"] = (self.piers.column_length_m, self._column_turn)
+            supports.append((self.piers, "column_length_m", self._column_turn))
         if self.pier_caps:
-            lengths["bridge.pier_caps.length_m"] = (self.pier_caps.length_m, 1.0)
-        for name, (length, turn) in lengths.items():
-            if length >= shortest * turn:
+            supports.append((self.pier_caps, "length_m", 1.0))
+        for part, name, turn in supports:
+            if getattr(part, name) >= shortest * turn:
                 limit = f"the shortest span, {shortest} (m)" if turn == 1.0 else f"{shortest * turn:.6g} (m), turned"
-                raise ScenarioError(f"{name} is {length}: expected less than {limit}")
+                raise part.unexpected(name, f"less than {limit}")
         if self.abutments:
-            self._check_room_beside_abutments(max((length / turn for length, turn in lengths.values()), default=None))
+            lengths = [getattr(part, name) / turn for part, name, turn in supports]
+            self._check_room_beside_abutments(max(lengths, default=self.abutments.length_m))
 
-    def _check_room_beside_abutments(self, pier_length: float | None) -> None:
-        other = self.abutments.length_m if pier_length is None else pier_length
+    def _check_room_beside_abutments(self, next_length: float) -> None:
         shortest = min(self.span_lengths_m[0], self.span_lengths_m[-1])
-        if (self.abutments.length_m + other) / 2.0 >= shortest:
-            raise ScenarioError(
-                f"bridge.abutments.length_m is {self.abutments.length_m}: expected less, so that the abutments do not "
-                f"overlap the next support in a span of {shortest} (m)"
-            )
+        if (self.abutments.length_m + next_length) / 2.0 >= shortest:
+            wanted = f"less, so that the abutments do not overlap the next support in a span of {shortest} (m)"
+            raise self.abutments.unexpected("length_m", wanted)
 
     def _check_joints(self) -> None:
         """Both decks at a joint have to lie on the pier under it."""
@@ -312,19 +298,15 @@ class Bridge(Table):
             return
         support = self.pier_caps.length_m if self.pier_caps else self.piers.column_length_m
         if self.deck.joint_gap_m >= support:
-            raise ScenarioError(
-                f"bridge.deck.joint_gap_m is {self.deck.joint_gap_m}: expected less than {support} (m), the length of "
-                "the pier or pier cap that carries both decks"
-            )
+            wanted = f"less than {support} (m), the length of the pier or pier cap that carries both decks"
+            raise self.deck.unexpected("joint_gap_m", wanted)
 
     def _check_room_across(self) -> None:
         carried = self.pier_caps or self.box_girder or self.deck
         widest = self.carried_width_m / self.piers.columns
         if self.piers.kind == "columns" and self.piers.column_width_m > widest * (1.0 + ROUNDING):
-            raise ScenarioError(
-                f"bridge.piers.column_width_m is {self.piers.column_width_m}: expected at most {widest:.6g} (m), "
-                f"so that the columns fit into {carried.table}.width_m"
-            )
+            wanted = f"at most {widest:.6g} (m), so that the columns fit into {carried.table}.width_m"
+            raise self.piers.unexpected("column_width_m", wanted)
         if self.girders and not self.pier_caps:
             self._check_columns_under_girders(widest)
 
@@ -336,15 +318,12 @@ class Bridge(Table):
             place = (column - (columns - 1) / 2.0) * column_spacing
             apart = [abs(place - (girder - (girders - 1) / 2.0) * self.girder_spacing_m) for girder in range(girders)]
             if min(apart) >= reach * (1.0 - ROUNDING):
-                raise ScenarioError(
-                    f"bridge.piers.columns is {columns}: expected as many as bridge.girders.number, {girders}, or "
-                    "bridge.pier_caps, as a column stands between two girders and carries nothing"
+                wanted = f"as many as bridge.girders.number, {girders}, or bridge.pier_caps"
+                raise self.piers.unexpected(
+                    "columns", f"{wanted}, as a column stands between two girders and carries nothing"
                 )
 
     def _check_one_density(self) -> None:
         for part in (self.deck, self.girders, self.piers, self.pier_caps, self.abutments):
             if part and part.density_kg_m3 is not None:
-                raise ScenarioError(
-                    f"{part.table}.density_kg_m3 is {part.density_kg_m3}: expected none where bridge.merge is true, as "
-                    "one solid has one density"
-                )
+                raise part.unexpected("density_kg_m3", "none where bridge.merge is true, as one solid has one density")

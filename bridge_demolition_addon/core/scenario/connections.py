@@ -6,7 +6,7 @@ from typing import ClassVar
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
 from ..mechanics.strength import MATERIALS, Strength
-from ..schema import LARGEST_INTEGER, Table, check_exactly_one, key, shown
+from ..schema import LARGEST_INTEGER, Table, check_exactly_one, key
 from ..units import STANDARD_GRAVITY_M_S2
 
 _SPRINGS = {
@@ -62,9 +62,8 @@ class JointSettings(Table):
         wrong = {"free": kind not in ("GENERIC", "GENERIC_SPRING")}
         wrong |= {name: kind != "GENERIC_SPRING" for name in _SPRING_KEYS}
         for name, is_wrong in wrong.items():
-            value = getattr(self, name)
-            if value is not None and is_wrong:
-                raise ScenarioError(f'{self.table}.{name} is {shown(value)}: expected none with type "{kind}"')
+            if is_wrong and getattr(self, name) is not None:
+                raise self.unexpected(name, f'none with type "{kind}"')
         if kind != "GENERIC_SPRING":
             return
         free = " ".join(self.free or ())
@@ -233,34 +232,26 @@ class ConnectionSettings(JointSettings):
         check_exactly_one(self, "breaking_force_n", "breaking_force_kgf", "material")
         for each in (self, *self.between):
             if each.material is not None and self.method != "face":
-                raise ScenarioError(
-                    f'{each.table}.material is "{each.material}": expected method "face" with it, found "{self.method}"'
-                )
+                raise each.unexpected("material", f'method "face" with it, found "{self.method}"')
             if each is self or each.changes_joint:
                 each.check_type(each.type or self.type)
         if self.ductile_share > 0.0 and self.material is None:
-            raise ScenarioError(
-                f"connections.ductile_share is {self.ductile_share}: expected 0 where connections.material is not given"
-            )
+            raise self.unexpected("ductile_share", "0 where connections.material is not given")
         if (self.ductile_share > 0.0) != (self.ductile_elongation_m is not None):
-            raise ScenarioError(
-                f"connections.ductile_elongation_m is {shown(self.ductile_elongation_m)}: expected a number above 0 "
-                f"(m) with a connections.ductile_share above 0, and none with {self.ductile_share}"
+            wanted = (
+                f"a number above 0 (m) with a connections.ductile_share above 0, and none with {self.ductile_share}"
             )
+            raise self.unexpected("ductile_elongation_m", wanted)
         if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
-            raise ScenarioError(
-                f"connections.warm_up_damping is {self.warm_up_damping}: expected 0 where connections.warm_up_s is 0"
-            )
+            raise self.unexpected("warm_up_damping", "0 where connections.warm_up_s is 0")
         self._check_method("search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
 
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
         """Check that a key is given for the methods that need it, and for no others."""
-        value = getattr(self, name)
-        if self.method in methods and value is None:
-            raise ScenarioError(f'connections.{name} is missing: expected {wanted} with method "{self.method}"')
-        if self.method not in methods and value is not None:
-            raise ScenarioError(f'connections.{name} is {value}: expected none with method "{self.method}"')
+        is_given, is_needed = getattr(self, name) is not None, self.method in methods
+        if is_given != is_needed:
+            raise self.unexpected(name, f'{wanted if is_needed else "none"} with method "{self.method}"')
 
 
 def _joint_between(own: Joint, rule: ConnectionBetween) -> Joint:

@@ -4,7 +4,6 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..errors import ScenarioError
 from ..schema import SHORTEST_LENGTH_M, Table, key
 from .time import TimeSettings
 
@@ -44,15 +43,10 @@ class Jackhammer(Table):
 
     def _check_together(self) -> None:
         if self.end_time_s <= self.start_time_s:
-            raise ScenarioError(
-                f"jackhammers.end_time_s is {self.end_time_s}: expected more than jackhammers.start_time_s, "
-                f"{self.start_time_s} (s)"
-            )
+            raise self.unexpected("end_time_s", f"more than jackhammers.start_time_s, {self.start_time_s} (s)")
         if self.stroke_m <= self.depth_m:
-            raise ScenarioError(
-                f"jackhammers.stroke_m is {self.stroke_m}: expected more than jackhammers.depth_m, {self.depth_m} (m), "
-                "so that the chisel leaves the deck"
-            )
+            wanted = f"more than jackhammers.depth_m, {self.depth_m} (m), so that the chisel leaves the deck"
+            raise self.unexpected("stroke_m", wanted)
 
     def check_time(self, time: TimeSettings) -> None:
         """Check that it ends before the run does, and that frames are short enough for its blows.
@@ -63,14 +57,10 @@ class Jackhammer(Table):
             It does not, or they are not.
         """
         if self.end_time_s > time.duration_s - time.step.frame_s:
-            raise ScenarioError(
-                f"jackhammers.end_time_s is {self.end_time_s}: expected less than time.duration_s, "
-                f"{time.duration_s} (s), by a frame of {time.step.frame_s:.3g} s"
-            )
+            wanted = f"less than time.duration_s, {time.duration_s} (s), by a frame of {time.step.frame_s:.3g} s"
+            raise self.unexpected("end_time_s", wanted)
         most = 1.0 / (FRAMES_PER_BLOW * time.step.frame_s)
         if self.blows_per_second > most * (1.0 + 1e-9):
             needed = math.ceil(FRAMES_PER_BLOW * self.blows_per_second * time.time_scale * time.frames_per_second_base)
-            raise ScenarioError(
-                f"jackhammers.blows_per_second is {self.blows_per_second}: expected at most {most:.6g} (1/s), one in "
-                f"{FRAMES_PER_BLOW} frames, or a time.frames_per_second of at least {needed}"
-            )
+            wanted = f"at most {most:.6g} (1/s), one in {FRAMES_PER_BLOW} frames"
+            raise self.unexpected("blows_per_second", f"{wanted}, or a time.frames_per_second of at least {needed}")

@@ -106,21 +106,18 @@ class Scenario(Table):
 
     def _check_release(self, ball: Ball | BallHit) -> None:
         if self.timeline.frames_until(ball.release_time_s) >= len(self.timeline):
-            raise ScenarioError(
-                f"{ball.table}.release_time_s is {ball.release_time_s}: "
-                f"expected less than time.duration_s, {self.time.duration_s} (s), "
-                f"by a frame of {self.time.step.frame_s:.3g} s"
+            wanted = (
+                f"less than time.duration_s, {self.time.duration_s} (s), by a frame of {self.time.step.frame_s:.3g} s"
             )
+            raise ball.unexpected("release_time_s", wanted)
 
     def _check_lift(self, hit: BallHit) -> None:
         timeline = self.timeline
         earliest = timeline.frames_until(hit.lift_end_s) + 1  # still for a frame, so that it falls from rest
         if timeline.frames_until(hit.release_time_s) < earliest:
             earliest_s = timeline.ends_s[earliest - 1] if earliest <= len(timeline) else hit.lift_end_s
-            raise ScenarioError(
-                f"ball.hits.release_time_s is {hit.release_time_s}: expected at least {earliest_s:.6g} (s), "
-                "a frame after the ball was lifted"
-            )
+            wanted = f"at least {earliest_s:.6g} (s), a frame after the ball was lifted"
+            raise hit.unexpected("release_time_s", wanted)
 
     def _check_on_deck(self, name: str, point: tuple[float, float]) -> None:
         if self.geometry:

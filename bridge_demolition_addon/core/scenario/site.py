@@ -40,7 +40,7 @@ class Zone(Table):
                 "zones.corners_m: sides cross or touch each other; expected corners in order around the zone"
             )
         if self.bottom_m is not None and self.top_m is not None and self.top_m <= self.bottom_m:
-            raise ScenarioError(f"zones.top_m is {self.top_m}: expected more than zones.bottom_m, {self.bottom_m} (m)")
+            raise self.unexpected("top_m", f"more than zones.bottom_m, {self.bottom_m} (m)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -30,9 +30,7 @@ class Change(Table):
         lowest, highest = self.lowest_corner_m, self.highest_corner_m
         if (lowest is None) != (highest is None):
             given, missing = ("lowest", "highest") if highest is None else ("highest", "lowest")
-            raise ScenarioError(
-                f"{self.table}.{missing}_corner_m is missing: expected it with {self.table}.{given}_corner_m"
-            )
+            raise self.unexpected(f"{missing}_corner_m", f"it with {self.table}.{given}_corner_m")
         for place, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True)):
             if not low < high:
                 raise ScenarioError(
@@ -54,7 +52,7 @@ class Removal(Change):
     def _check_together(self) -> None:
         Change._check_together(self)
         if self.members is None and self.lowest_corner_m is None:
-            raise ScenarioError(f"{self.table}.members is missing: expected it, or the two corners of a box")
+            raise self.unexpected("members", "it, or the two corners of a box")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,7 +96,5 @@ def check_times(changes: tuple[Change, ...], latest_s: float, settled_s: float) 
     """
     for each in changes:
         if not settled_s <= each.time_s < latest_s:
-            raise ScenarioError(
-                f"{each.table}.time_s is {each.time_s}: expected at least connections.warm_up_s, {settled_s} (s), and "
-                f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
-            )
+            latest = f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
+            raise each.unexpected("time_s", f"at least connections.warm_up_s, {settled_s} (s), and {latest}")

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..errors import ScenarioError
 from ..schema import Table, key
 from ..timing.time_step import TimeStep
 
@@ -63,7 +62,4 @@ class TimeSettings(Table):
 
     def _check_together(self) -> None:
         if self.duration_s / self.step.frame_s > MOST_FRAMES or not 1 <= self.frames <= MOST_FRAMES:
-            raise ScenarioError(
-                f"time.duration_s is {self.duration_s}: expected 1 to {MOST_FRAMES} frames, "
-                f"each of {self.step.frame_s:.3g} s"
-            )
+            raise self.unexpected("duration_s", f"1 to {MOST_FRAMES} frames, each of {self.step.frame_s:.3g} s")
