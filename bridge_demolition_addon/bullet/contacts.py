@@ -79,7 +79,7 @@ class ContactReader:
 
     def __init__(self, layout: Layout, dispatcher: int, bodies: np.ndarray):
         self._layout, self._dispatcher = layout, dispatcher
-        self._order = np.argsort(bodies)
+        self._order = np.argsort(bodies, kind="stable")
         self._sorted = bodies[self._order]
         self._is_checked = False
         point = layout.manifold.point

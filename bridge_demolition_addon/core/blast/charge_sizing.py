@@ -19,8 +19,9 @@ _FARTHEST_SCALED_DISTANCE = 1e6
 """Nothing is looked for beyond it: the overpressure there is less than 0.1 Pa."""
 
 _GRID_POINTS = 4001
-_BISECTIONS = 50
-"""Enough to halve a cell of the grid down to rounding."""
+_PARTS = np.arange(257) / 256
+_DIVISIONS = 6
+"""Enough to divide a cell of the grid by 256 down to rounding."""
 
 
 def stand_off_for_overpressure(
@@ -126,9 +127,10 @@ def _farthest(wanted: float, load: Callable[..., np.ndarray], burst: Burst, mode
     if reached[-1] == len(distances) - 1:
         raise BlastError(f"load is {wanted:g}: expected more than {loads[-1]:.2g}, which reaches beyond any distance")
     near, far = distances[reached[-1]], distances[reached[-1] + 1]
-    for _ in range(_BISECTIONS):
-        middle = np.sqrt(near * far)
-        near, far = (middle, far) if load(middle, burst, model) >= wanted else (near, middle)
+    for _ in range(_DIVISIONS):
+        between = near + (far - near) * _PARTS
+        last = np.flatnonzero(load(between[:-1], burst, model) >= wanted).max(initial=0)
+        near, far = between[last], between[last + 1]
     return float(near)
 
 

@@ -77,5 +77,5 @@ def ring_radii(
                 threshold.overpressure_pa, charge.tnt_for_pressure_kg, charge.burst, model
             )
             height = charge.place_m[2] - level_m
-            radii[row, column] = np.sqrt(max(reach**2 - height**2, 0.0))
+            radii[row, column] = np.sqrt(max(reach * reach - height * height, 0.0))
     return radii

@@ -144,7 +144,7 @@ def _near_misses(
     along, squares = dot(rays[:, None], others), dot(rays, rays)[:, None]
     nearest = np.clip(np.divide(along, squares, out=np.zeros(along.shape), where=squares > 0.0), 0.0, 1.0)
     distances = dot(others, others) - nearest * (2.0 * along - nearest * squares)
-    return np.nonzero(distances < hulls.radii**2)
+    return np.nonzero(distances < np.square(hulls.radii))
 
 
 def _pass_through(

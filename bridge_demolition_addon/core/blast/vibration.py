@@ -74,7 +74,7 @@ def charge_per_delay(
 ) -> np.ndarray:
     """Return the explosive that may detonate within one delay so that a velocity is kept at distances, kg."""
     limit = checked(limit_m_s, "limit", "m/s")
-    return (_distances(distance_m) * power(limit / ground.velocity_m_s, 1.0 / ground.exponent)) ** 2
+    return np.square(_distances(distance_m) * power(limit / ground.velocity_m_s, 1.0 / ground.exponent))
 
 
 def distance_for_velocity(

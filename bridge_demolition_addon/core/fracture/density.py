@@ -89,5 +89,5 @@ def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) ->
 
 def _shepard(points: np.ndarray, known: np.ndarray, weights: np.ndarray) -> np.ndarray:
     # A place on a painted point takes its weight: the least distance keeps the division finite.
-    pull = 1.0 / np.maximum(distance(points[:, None], known), 1e-9) ** 2
+    pull = 1.0 / np.square(np.maximum(distance(points[:, None], known), 1e-9))
     return np.clip((pull * weights).sum(axis=1) / pull.sum(axis=1), 0.0, 1.0)

@@ -59,7 +59,7 @@ def _is_cut(shard: TriangleMesh, surface: np.ndarray, tolerance: float) -> np.nd
         _lie_in(middles[first : first + rows], normals[first : first + rows], surface, of_surface, tolerance)
         for first in range(0, len(middles), rows)
     ]
-    return ~np.concatenate(lies) & (areas > tolerance**2)
+    return ~np.concatenate(lies) & (areas > tolerance * tolerance)
 
 
 def _lie_in(

@@ -148,7 +148,7 @@ def _density(settings: FractureSettings) -> PointDensity | None:
 
 
 def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
-    if member.volume_m3 / count < SHORTEST_LENGTH_M**3:
+    if member.volume_m3 / count < SHORTEST_LENGTH_M * SHORTEST_LENGTH_M * SHORTEST_LENGTH_M:
         raise GeometryError(
             f"{member.name}: {count} shards do not fit into {member.volume_m3:.4g} m³, as each would be smaller than "
             f"{SHORTEST_LENGTH_M} m; ask for fewer."

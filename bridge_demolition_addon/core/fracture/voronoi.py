@@ -133,7 +133,10 @@ def _check_apart(distances: np.ndarray, members: np.ndarray, tolerance: float) -
 def _nearest(distances: np.ndarray, count: int) -> np.ndarray:
     """Columns of the `count` smallest distances of each row, nearest first; ties in the order of the columns."""
     count = min(count, distances.shape[1])
-    columns = np.sort(np.argpartition(distances, count - 1, axis=1)[:, :count], axis=1)
+    farthest = np.partition(distances, count - 1, axis=1)[:, count - 1, None]
+    nearer, level = distances < farthest, distances == farthest
+    chosen = nearer | (level & (np.cumsum(level, axis=1) <= count - nearer.sum(axis=1, keepdims=True)))
+    columns = np.nonzero(chosen)[1].reshape(-1, count)
     order = np.argsort(np.take_along_axis(distances, columns, axis=1), axis=1, kind="stable")
     return np.take_along_axis(columns, order, axis=1)
 

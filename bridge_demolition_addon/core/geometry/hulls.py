@@ -98,8 +98,9 @@ def _hull(points: np.ndarray, name: int | str) -> TriangleMesh:
     if len(points) >= 4 and np.isfinite(points).all():
         around = hull(points)
         # Points in one plane come out as a mesh too, of no volume.
-        if around.volume() > THINNEST * np.ptp(points, axis=0).max() ** 3:
-            return from_manifold(around)
+        mesh = from_manifold(around)
+        if mesh.triangles.size and around.volume() > THINNEST * mesh.cube_volume:
+            return mesh
     raise GeometryError(f"body {name} has no volume: expected finite vertices that do not lie in one plane")
 
 

@@ -43,6 +43,11 @@ class TriangleMesh:
         return float((upper - lower).max())
 
     @property
+    def cube_volume(self) -> float:
+        """Volume of a cube with that longest side, m³."""
+        return self.longest_extent * self.longest_extent * self.longest_extent
+
+    @property
     def volume(self) -> float:
         """Volume within the surface, m³; negative where it is inside out."""
         return float(volumes_and_centres([self])[0][0])

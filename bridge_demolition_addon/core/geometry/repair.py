@@ -69,7 +69,7 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     triangles = _wound_alike(vertices, triangles, repairs)
     triangles = _closed(vertices, triangles, repairs, name)
     whole = TriangleMesh(vertices, triangles)
-    if not len(triangles) or abs(whole.volume) <= SMALLEST_VOLUME * whole.longest_extent**3:
+    if not len(triangles) or abs(whole.volume) <= SMALLEST_VOLUME * whole.cube_volume:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
     solid = _united(whole, repairs, name)
     crossing = first_crossing(solid.corners)
@@ -204,7 +204,7 @@ def _lid(vertices: np.ndarray, rim: np.ndarray, name: str) -> np.ndarray:
 def _normal(arms: np.ndarray, extent: float) -> np.ndarray:
     """Unit normal (3,) of a closed loop of corners (r, 3), by Newell; 0 where it encloses no area."""
     areas = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
-    return unit(areas) if length(areas) > _SLIT_TOLERANCE * extent**2 else np.zeros(3)
+    return unit(areas) if length(areas) > _SLIT_TOLERANCE * extent * extent else np.zeros(3)
 
 
 def _united(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:

@@ -38,7 +38,7 @@ def rotated(rotations: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     cross = np.zeros(rotations.shape)
     cross[..., 2, 1], cross[..., 0, 2], cross[..., 1, 0] = np.moveaxis(vectors, -1, 0)
     cross -= np.swapaxes(cross, -1, -2)
-    by_sine, by_cosine = _sine_by_angle(angles), _sine_by_angle(angles / 2.0) ** 2 / 2.0
+    by_sine, by_cosine = _sine_by_angle(angles), np.square(_sine_by_angle(angles / 2.0)) / 2.0
     return rotations + product(by_sine * cross + by_cosine * product(cross, cross), rotations)
 
 

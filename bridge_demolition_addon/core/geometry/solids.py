@@ -109,7 +109,7 @@ def checked_solid(mesh: TriangleMesh, name: str) -> TriangleMesh:
     _check_surface(mesh, name)
     if mesh.volume < 0.0:
         mesh = mesh.flipped()
-    if mesh.volume <= SMALLEST_VOLUME * mesh.longest_extent**3:
+    if mesh.volume <= SMALLEST_VOLUME * mesh.cube_volume:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
     _check_bodies(bodies(to_manifold(mesh, name), name=name), name)
     return mesh

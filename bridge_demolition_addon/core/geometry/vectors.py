@@ -27,9 +27,9 @@ def length(vectors: np.ndarray) -> np.ndarray:
 
 def distance(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Distances (...) between points (..., k), without an array of all their differences."""
-    squares = (first[..., 0] - second[..., 0]) ** 2
+    squares = np.square(first[..., 0] - second[..., 0])
     for axis in range(1, first.shape[-1]):
-        squares = squares + (first[..., axis] - second[..., axis]) ** 2
+        squares = squares + np.square(first[..., axis] - second[..., axis])
     return np.sqrt(squares)
 
 

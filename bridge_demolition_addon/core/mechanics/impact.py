@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arithmetic import power
 from ..geometry.vectors import length
 
 _HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamma(9.0 / 10.0)
@@ -148,8 +149,13 @@ class Contact:
         return cls(
             mass_kg=1.0 / (1.0 / first_mass_kg + 1.0 / second_mass_kg),
             radius_m=1.0 / (1.0 / first_radius_m + 1.0 / second_radius_m),
-            modulus_pa=1.0 / sum((1.0 - each.poisson_ratio**2) / each.young_modulus_pa for each in (first, second)),
+            modulus_pa=1.0 / (_compliance(first) + _compliance(second)),
         )
+
+
+def _compliance(elasticity: Elasticity) -> float:
+    """(1 - ν²)/E of a body, 1/Pa."""
+    return (1.0 - elasticity.poisson_ratio * elasticity.poisson_ratio) / elasticity.young_modulus_pa
 
 
 def hertz_compression(contact: Contact, speed_m_s: float) -> float:
@@ -159,8 +165,8 @@ def hertz_compression(contact: Contact, speed_m_s: float) -> float:
     ----------
     Johnson (1985), equation 11.23.
     """
-    energy = contact.mass_kg * speed_m_s**2
-    return (15.0 * energy / (16.0 * math.sqrt(contact.radius_m) * contact.modulus_pa)) ** 0.4
+    energy = contact.mass_kg * speed_m_s * speed_m_s
+    return float(power(15.0 * energy / (16.0 * math.sqrt(contact.radius_m) * contact.modulus_pa), 0.4))
 
 
 def hertz_contact_time(contact: Contact, speed_m_s: float) -> float:
@@ -189,7 +195,7 @@ def hertz_peak_force(contact: Contact, speed_m_s: float) -> float:
     Johnson (1985), equations 4.23 and 11.23.
     """
     compression = hertz_compression(contact, speed_m_s)
-    return 4.0 / 3.0 * contact.modulus_pa * math.sqrt(contact.radius_m) * compression**1.5
+    return 4.0 / 3.0 * contact.modulus_pa * math.sqrt(contact.radius_m) * compression * math.sqrt(compression)
 
 
 def half_sine_peak_force(impulse_ns: float, contact_time_s: float) -> float:

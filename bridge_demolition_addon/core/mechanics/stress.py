@@ -88,7 +88,7 @@ def von_mises(stresses: np.ndarray) -> np.ndarray:
     """Equivalent stress (n,) of tensors (n, 3, 3), Pa: √(3/2 s:s) with the deviator s (R. von Mises, 1913)."""
     mean = np.trace(stresses, axis1=-2, axis2=-1) / 3.0
     deviators = stresses - mean[..., None, None] * np.eye(3)
-    return np.sqrt(1.5 * (deviators**2).sum(axis=(-2, -1)))
+    return np.sqrt(1.5 * np.square(deviators).sum(axis=(-2, -1)))
 
 
 def principal_stresses(stresses: np.ndarray) -> np.ndarray:

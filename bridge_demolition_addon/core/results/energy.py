@@ -62,7 +62,7 @@ def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> 
         times_s=frames.time_s,
         potential_j=potentials - potentials.min(),
         translation_j=0.5 * (dot(frames.velocities_m_s, frames.velocities_m_s) * masses).sum(axis=1),
-        rotation_j=0.5 * (spins**2 * moments_of_inertia(results)).sum(axis=(1, 2)),
+        rotation_j=0.5 * (np.square(spins) * moments_of_inertia(results)).sum(axis=(1, 2)),
     )
 
 
@@ -78,7 +78,7 @@ def moments_of_inertia(results: Results) -> np.ndarray:
         corners = inventory.vertices_of(body)
         if not len(corners):
             continue
-        squares = np.ptp(corners, axis=0) ** 2
+        squares = np.square(np.ptp(corners, axis=0))
         if inventory.body_kinds[body] == "ball":
             moments[body] = _SPHERE * masses[body] * squares.max() / 4.0
         else:

@@ -61,7 +61,7 @@ class BallCable(Table):
         ----------
         C. G. Carvalhaes, P. Suppes (2008), American Journal of Physics 76, 1150-1154: T = T₀ / agm(1, cos θ/2).
         """
-        arm_m = self.length_m + 0.1 * diameter_m**2 / self.length_m
+        arm_m = self.length_m + 0.1 * diameter_m * diameter_m / self.length_m
         mean, other = 1.0, float(cosine(math.radians(self.angle_degrees) / 2.0))
         while mean - other > np.finfo(float).eps * 4.0:
             mean, other = (mean + other) / 2.0, math.sqrt(mean * other)
@@ -172,7 +172,7 @@ class Ball(_Drop):
     @property
     def density_kg_m3(self) -> float:
         """Return the mass over the volume of the sphere, kg/m³."""
-        return self.mass_kg / (math.pi / 6.0 * self.diameter_m**3)
+        return self.mass_kg / (math.pi / 6.0 * self.diameter_m * self.diameter_m * self.diameter_m)
 
     def _check_together(self) -> None:
         if self.cable:

@@ -90,7 +90,7 @@ class Neighbour(Table):
 def _sides_cross(corners: np.ndarray) -> bool:
     """Return whether two sides of a polygon (k, 2) that are not neighbours meet, or it has no area."""
     ends = np.roll(corners, -1, axis=0)
-    if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.ptp(corners, axis=0).max()) ** 2):
+    if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.square(np.ptp(corners, axis=0).max()))):
         return True
     count = len(corners)
     return any(

@@ -42,7 +42,7 @@ def second_moments(
         diagonal, -∫ y z dA beside it.
     """
     in_plane = section_axes(normals)[:, :, 1:]
-    squares = areas[:, None, None] ** 2 / 12.0 * np.eye(2)
+    squares = np.square(areas[:, None, None]) / 12.0 * np.eye(2)
     found = [
         _of_face(shards[shard], centre, normal, axes, area)
         for shard, centre, normal, axes, area in zip(first, centres, normals, in_plane, areas, strict=True)

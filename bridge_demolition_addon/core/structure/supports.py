@@ -91,4 +91,4 @@ def _has_face_in(shard: TriangleMesh, planes: np.ndarray, tolerance: float) -> b
     areas, normals = triangle_areas_and_normals(corners)
     lies = np.abs(dot(corners[:, :, None], planes[:, :3]) - planes[:, 3]).max(axis=1) <= tolerance
     looks = dot(normals[:, None], planes[:, :3]) > 1.0 - _SAME_LEANING
-    return bool((lies & looks & (areas > tolerance**2)[:, None]).any())
+    return bool((lies & looks & (areas > tolerance * tolerance)[:, None]).any())

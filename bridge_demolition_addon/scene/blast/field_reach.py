@@ -67,7 +67,8 @@ def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.nd
         squares[np.arange(len(squares)), bodies[block]] = np.inf
         along = dot(between, directions[block, None])
         radii = np.minimum(WIDEST_M, SHARE_OF_WAY * np.sqrt(squares.min(axis=1, initial=np.inf)))
-        in_line = squares - along**2 < (2.0 * radii[:, None]) ** 2  # it may come nearer from the side as well
+        in_line = squares - np.square(along) < np.square(2.0 * radii[:, None])
+        # It may come nearer from the side as well.
         ahead = np.where(in_line & (along > 0.0), along, np.inf).min(axis=1, initial=np.inf)
         behind = np.where(in_line & (along <= 0.0), -along, np.inf).min(axis=1, initial=np.inf)
         reaches.radii_m[block] = radii

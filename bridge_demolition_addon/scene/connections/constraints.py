@@ -61,7 +61,8 @@ def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np
     normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
     square = np.eye(2).ravel() / 12.0
     moments = [
-        connection.get(_SECOND_MOMENTS, area**2 * square) for connection, area in zip(connections, areas, strict=True)
+        connection.get(_SECOND_MOMENTS, area * area * square)
+        for connection, area in zip(connections, areas, strict=True)
     ]
     return areas, normals, np.array([list(each) for each in moments], float).reshape(-1, 2, 2)
 

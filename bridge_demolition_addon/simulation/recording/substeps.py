@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...core.arithmetic import power
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from ...core.mechanics.section_cuts import SectionCuts, worst_around
 from ...core.mechanics.section_forces import SectionForces, section_forces
@@ -116,7 +117,7 @@ class SubstepRecorder:
         try:
             if self._is_warming_up and self._breaking.warm_up_damping:
                 # As Bullet's own damping: a share of the velocity in a second, whatever the step.
-                self._world.slow_down(self._shards, (1.0 - self._breaking.warm_up_damping) ** substep_s)
+                self._world.slow_down(self._shards, float(power(1.0 - self._breaking.warm_up_damping, substep_s)))
             self._events.before_substep(self.elapsed_s, substep_s)
             self._world.scale_thresholds(self._threshold_factor(substep_s))
             if self._reinforcement:
