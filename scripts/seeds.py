@@ -23,9 +23,6 @@ sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from places import EXAMPLES
 
-AT_ONCE = 2
-"""Runs side by side, each with a core of its own."""
-
 
 def main() -> int:
     """Run what is asked for and print a table for each example; the exit status."""
@@ -34,7 +31,7 @@ def main() -> int:
         print_measured(options.names[0], options.measure, options.duration)
     seeds = range(options.first, options.first + options.seeds)
     for name in options.names:
-        rows = list(measured(name, seeds, options.duration))
+        rows = list(measured(name, seeds, options.duration, options.at_once))
         print(table(name, rows), flush=True)
         if options.csv:
             keep(options.csv / f"{name}.csv", rows)
@@ -49,12 +46,15 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--seeds", type=int, default=24, metavar="COUNT", help="how many seeds (24)")
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first of them (1)")
     parser.add_argument("--duration", type=float, metavar="S", help="simulate so many seconds (the example's own)")
+    parser.add_argument("--at-once", type=int, default=2, metavar="N", help="runs side by side, each on a core (2)")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also keep a row for each run in DIR/NAME.csv")
     parser.add_argument("--measure", type=int, metavar="SEED", help="run this seed alone and print JSON")
     return parser.parse_args()
 
 
-def measured(name: str, seeds: Sequence[int], duration_s: float | None) -> Iterator[dict[str, float | None]]:
+def measured(
+    name: str, seeds: Sequence[int], duration_s: float | None, at_once: int
+) -> Iterator[dict[str, float | None]]:
     """What was measured in the run of each seed, by what it is called and with the seed."""
     command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
 
@@ -65,7 +65,7 @@ def measured(name: str, seeds: Sequence[int], duration_s: float | None) -> Itera
             sys.exit(f"seeds: {name} with seed {seed} ended with status {done.returncode}:\n{done.stderr}")
         return {"seed": seed, **json.loads(done.stdout.splitlines()[-1])}
 
-    with ThreadPoolExecutor(AT_ONCE) as threads:
+    with ThreadPoolExecutor(at_once) as threads:
         for row in threads.map(run, seeds):
             print(f"{name}: seed {row['seed']} is run", file=sys.stderr, flush=True)
             yield row
@@ -101,12 +101,13 @@ def columns(rows: Iterable[dict[str, float | None]]) -> list[str]:
 
 
 def keep(path: Path, rows: Sequence[dict[str, float | None]]) -> None:
-    """Write a row for each run."""
+    """Write a row for each run, with four digits of each value."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns(rows))
         writer.writeheader()
-        writer.writerows(rows)
+        for row in rows:
+            writer.writerow({name: "" if value is None else f"{value:.4g}" for name, value in row.items()})
 
 
 if __name__ == "__main__":

@@ -23,6 +23,26 @@ class ExampleRun:
     def shards(self):
         return self.results.inventory.of_kind("shard")
 
+    @property
+    def begins_s(self):
+        """When the ball hits, the first charge goes off or the jackhammer starts; None where nothing is done."""
+        if self.scenario.jackhammers:
+            return self.scenario.jackhammers[0].start_time_s
+        if self.scenario.charges:
+            return self.scenario.blast.start_s
+        return self.summary["impact"]["time_s"] if self.summary["impact"] else None
+
+    @property
+    def hit_deck(self):
+        """Name of the deck that the ball falls on."""
+        deck = self.of_members("deck")
+        apart_m = np.linalg.norm(self.results.frames.positions_m[0, deck, :2] - self.scenario.ball.target_m, axis=1)
+        return self.results.inventory.body_members[deck[apart_m.argmin()]]
+
+    def members_of(self, *names):
+        """Indices of the shards of members, by the members' names."""
+        return self.shards[np.isin(self.results.inventory.body_members[self.shards], names)]
+
     def of_members(self, *kinds):
         """Indices of the shards of kinds of members."""
         return self.shards[np.isin(self.results.inventory.body_member_kinds[self.shards], kinds)]
