@@ -26,8 +26,8 @@ from ..core.structure.model import Model
 MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender tests every one against every body."""
 
-MOST_SHARDS_CUT = 2000
-"""Cutting so many shards and comparing them with their neighbours takes some seconds."""
+MOST_SHARDS_COMPARED = 2000
+"""Comparing so many shards with their neighbours takes as long as cutting them."""
 
 MOST_PAIRS_NAMED = 5
 
@@ -55,7 +55,7 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     if prepared.notes:
         yield from _section("Repaired", (note.split(": ", 1) for note in prepared.notes))
     yield from _section("Time", _time_facts(scenario))
-    model = checked_model(scenario, prepared.members) if scenario.fracture.shards <= MOST_SHARDS_CUT else None
+    model = checked_model(scenario, prepared.members)
     yield from _section("Shards and connections", _connection_facts(scenario, model))
     yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ball:
@@ -93,10 +93,10 @@ def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
     return f"{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
 
 
-def _overlap_facts(model: Model | None) -> Iterator[tuple[str, str]]:
+def _overlap_facts(model: Model) -> Iterator[tuple[str, str]]:
     """Yield whether shards lie in each other, which would throw them apart when the simulation begins."""
-    if model is None:
-        yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_CUT}"
+    if len(model.shards) > MOST_SHARDS_COMPARED:
+        yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_COMPARED}"
         return
     yield from _pairs_found("overlapping shards", overlaps(model.shards), model)
     # What Blender lets collide. Hulls of connected shards overlap unharmed until their connection breaks.
@@ -119,12 +119,11 @@ def _time_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
     yield "sub-step", f"{time.step.substep_s:.6g} s, {time.substeps_per_frame} in a frame"
 
 
-def _connection_facts(scenario: Scenario, model: Model | None) -> Iterator[tuple[str, str]]:
+def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
     connections = scenario.connections
-    yield "shards", f"{len(model.shards) if model else scenario.fracture.shards}"
-    count = f"{len(model.connections.pairs)}, " if model else ""
+    yield "shards", f"{len(model.shards)}"
     kind = f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
-    yield "connections", f"{count}{kind}"
+    yield "connections", f"{len(model.connections.pairs)}, {kind}"
     if connections.material is not None:
         yield "strength of", connections.material
         yield from _strength_facts(MATERIALS[connections.material])

@@ -30,6 +30,9 @@ SHORTEST_LENGTH_M = 0.001
 FARTHEST_M = 10_000.0
 """How far from the origin anything solid may reach: Blender's single precision keeps places there to a millimetre."""
 
+SIZE = {"unit": "m", "at_least": SHORTEST_LENGTH_M, "at_most": FARTHEST_M}
+"""Unit and limits of a size of anything solid."""
+
 ROUNDING = 1e-9
 """Relative slack where lengths are compared that a user would add up in decimals."""
 

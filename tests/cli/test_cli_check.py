@@ -7,8 +7,11 @@ from places import I235_FILE
 from processes import run_bda, run_program
 from scenarios import I235
 
-from bridge_demolition_addon.cli.check import MOST_SHARDS_CUT, scenario_facts
+from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_facts
 from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.bridge.mesh_files import exported
+from bridge_demolition_addon.core.geometry.solids import box
+from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionSettings, Geometry
 from bridge_demolition_addon.core.scenario.file import scenario_text
 
 
@@ -86,11 +89,22 @@ def test_the_shards_are_those_that_there_will_be():
     assert facts(replace(I235, fracture=twice))["shards"] == "80"
 
 
-def test_very_many_shards_are_not_cut_to_check_them():
-    many = facts(replace(I235, fracture=replace(I235.fracture, shards=MOST_SHARDS_CUT + 1)))
-    assert many["shards"] == f"{MOST_SHARDS_CUT + 1}"
-    assert many["connections"].startswith("HINGE")
-    assert many["overlapping shards"].startswith("not compared")
+def test_very_many_shards_are_cut_but_not_compared():
+    sharing_faces = ConnectionSettings(type="HINGE", method="face", breaking_force_n=1e5)
+    many = replace(I235, fracture=replace(I235.fracture, shards=MOST_SHARDS_COMPARED + 1), connections=sharing_faces)
+    found = facts(many)
+    assert found["shards"] == f"{MOST_SHARDS_COMPARED + 1}"
+    assert int(found["connections"].split(",")[0]) > MOST_SHARDS_COMPARED
+    assert found["overlapping shards"].startswith("not compared")
+
+
+def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):
+    (tmp_path / "wall.stl").write_bytes(exported(box((4, 1, 3), (2, 0.5, 1.5)), ".stl"))
+    wall = Geometry(name="wall", file=str(tmp_path / "wall.stl"), density_kg_m3=2400.0)
+    cable = BallCable(crane_point_m=(-3.0, 0.5, 12.0), length_m=10.0, angle_degrees=45, azimuth_degrees=180)
+    swinging = Ball(mass_kg=1000.0, diameter_m=1.0, cable=cable)
+    few = replace(I235.fracture, shards=20)
+    assert facts(replace(I235, bridge=None, geometry=(wall,), fracture=few, ball=swinging))["shards"] == "20"
 
 
 def test_a_step_that_concerns_no_member_is_refused_as_by_run(tmp_path, capsys):

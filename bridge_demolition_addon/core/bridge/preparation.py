@@ -37,8 +37,8 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
         return PreparedMembers(of_bridge, ())
     from_files, repairs = geometry_members(scenario.geometry)
     prepared = without_overlap([*of_bridge, *from_files])
-    if scenario.ball:
-        surface_height(scenario, prepared.members, scenario.ball.target_m)  # refuses a ball that nothing lies under
+    for drop in scenario.ball.drops if scenario.ball else ():
+        surface_height(scenario, prepared.members, drop.target_m)  # refuses a ball that nothing lies under
     return PreparedMembers(prepared.members, repairs + prepared.notes)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arithmetic import cosine, sine
 from ..errors import ScenarioError
-from ..schema import SHORTEST_LENGTH_M, Table, expected, key
+from ..schema import FARTHEST_M, SIZE, Table, expected, key
 from ..units import STANDARD_GRAVITY_M_S2
 
 
@@ -21,8 +21,10 @@ class BallCable(Table):
 
     table: ClassVar[str] = "ball.cable"
 
-    crane_point_m: tuple[float, float, float] = key("The tip of the crane.", unit="m")
-    length_m: float = key("Length from there to the middle of the ball.", unit="m", at_least=SHORTEST_LENGTH_M)
+    crane_point_m: tuple[float, float, float] = key(
+        "The tip of the crane.", unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
+    )
+    length_m: float = key("Length from there to the middle of the ball.", **SIZE)
     angle_degrees: float = key("Angle from the vertical at which it is let go.", above=0, at_most=90)
     azimuth_degrees: float = key(
         "To which side it is drawn: 0 along the road, 90 across it, towards positive y. It swings to the other side.",
@@ -103,7 +105,9 @@ class BallHit(_Drop):
     target_m: tuple[float, float] = key(
         "Where it hits the deck: along the road from the first pier's axis, and across it from its middle.", unit="m"
     )
-    drop_height_m: float = key("Clear height between the ball and the deck below it.", unit="m", above=0)
+    drop_height_m: float = key(
+        "Clear height between the ball and the deck below it.", unit="m", above=0, at_most=FARTHEST_M
+    )
 
     @property
     def lift_end_s(self) -> float:
@@ -118,7 +122,7 @@ class Ball(_Drop):
     table: ClassVar[str] = "ball"
 
     mass_kg: float = key("Mass.", unit="kg", above=0)
-    diameter_m: float = key("Diameter.", unit="m", at_least=SHORTEST_LENGTH_M)
+    diameter_m: float = key("Diameter.", **SIZE)
     target_m: tuple[float, float] | None = key(
         "Where it hits the deck: along the road from the first pier's axis, and across it from its middle. Needed "
         "without `ball.cable`.",
@@ -130,6 +134,7 @@ class Ball(_Drop):
         default=None,
         unit="m",
         above=0,
+        at_most=FARTHEST_M,
     )
     release_time_s: float = key(
         "When it is let go; before `time.duration_s` is over.", default=0.5, unit="s", at_least=0

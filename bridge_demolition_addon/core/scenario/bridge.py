@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ..arithmetic import cosine, sine
 from ..errors import ScenarioError
-from ..schema import FARTHEST_M, ROUNDING, SHORTEST_LENGTH_M, Table, check_exactly_one, key
+from ..schema import FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, key
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 
@@ -17,10 +17,14 @@ class Deck(Table):
 
     table: ClassVar[str] = "bridge.deck"
 
-    width_m: float = key("Width across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    thickness_m: float = key("Thickness of the slab.", unit="m", at_least=SHORTEST_LENGTH_M)
+    width_m: float = key("Width across the road.", **SIZE)
+    thickness_m: float = key("Thickness of the slab.", **SIZE)
     overhang_m: float = key(
-        "Length of deck beyond the axes of the first and of the last pier.", default=0.0, unit="m", at_least=0
+        "Length of deck beyond the axes of the first and of the last pier.",
+        default=0.0,
+        unit="m",
+        at_least=0,
+        at_most=FARTHEST_M,
     )
     per_span: bool = key(
         "Whether each span has a deck, and girders, of its own, which end at the pier axes.", default=False
@@ -31,6 +35,7 @@ class Deck(Table):
         default=0.0,
         unit="m",
         at_least=0,
+        at_most=FARTHEST_M,
     )
     density_kg_m3: float | None = key(
         _OWN_DENSITY.format("the deck, box girder included"), default=None, unit="kg/m³", above=0
@@ -48,13 +53,12 @@ class Girders(Table):
     table: ClassVar[str] = "bridge.girders"
 
     number: int = key("How many.", at_least=1, at_most=1000)
-    width_m: float = key("Width of one girder across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    depth_m: float = key("Height of a girder below the slab.", unit="m", at_least=SHORTEST_LENGTH_M)
+    width_m: float = key("Width of one girder across the road.", **SIZE)
+    depth_m: float = key("Height of a girder below the slab.", **SIZE)
     spacing_m: float | None = key(
         "Distance from axis to axis; by default the deck's width divided by their number.",
         default=None,
-        unit="m",
-        at_least=SHORTEST_LENGTH_M,
+        **SIZE,
     )
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the girders"), default=None, unit="kg/m³", above=0)
 
@@ -65,10 +69,10 @@ class BoxGirder(Table):
 
     table: ClassVar[str] = "bridge.box_girder"
 
-    width_m: float = key("Width of the box across the road, over its outer webs.", unit="m", at_least=SHORTEST_LENGTH_M)
-    depth_m: float = key("Height below the deck's slab, bottom slab included.", unit="m", at_least=SHORTEST_LENGTH_M)
-    web_thickness_m: float = key("Thickness of every web.", unit="m", at_least=SHORTEST_LENGTH_M)
-    bottom_thickness_m: float = key("Thickness of the bottom slab.", unit="m", at_least=SHORTEST_LENGTH_M)
+    width_m: float = key("Width of the box across the road, over its outer webs.", **SIZE)
+    depth_m: float = key("Height below the deck's slab, bottom slab included.", **SIZE)
+    web_thickness_m: float = key("Thickness of every web.", **SIZE)
+    bottom_thickness_m: float = key("Thickness of the bottom slab.", **SIZE)
     cells: int = key("Hollow cells side by side, with a web between each two.", default=1, at_least=1, at_most=100)
 
     @property
@@ -98,9 +102,9 @@ class Piers(Table):
         choices=("columns", "wall"),
     )
     columns: int = key("Columns of one pier, spread evenly across the road.", default=1, at_least=1, at_most=1000)
-    column_length_m: float = key("Size of a column along the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    column_width_m: float = key("Size of a column across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    height_m: float = key("Height of a column above the ground.", unit="m", at_least=SHORTEST_LENGTH_M)
+    column_length_m: float = key("Size of a column along the road.", **SIZE)
+    column_width_m: float = key("Size of a column across the road.", **SIZE)
+    height_m: float = key("Height of a column above the ground.", **SIZE)
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the piers"), default=None, unit="kg/m³", above=0)
 
     def _check_together(self) -> None:
@@ -114,9 +118,9 @@ class PierCaps(Table):
 
     table: ClassVar[str] = "bridge.pier_caps"
 
-    length_m: float = key("Size along the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    width_m: float = key("Size across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
-    height_m: float = key("Height of the beam.", unit="m", at_least=SHORTEST_LENGTH_M)
+    length_m: float = key("Size along the road.", **SIZE)
+    width_m: float = key("Size across the road.", **SIZE)
+    height_m: float = key("Height of the beam.", **SIZE)
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the pier caps"), default=None, unit="kg/m³", above=0)
 
 
@@ -129,16 +133,14 @@ class Abutments(Table):
 
     length_m: float = key(
         "Size along the road, half of it to either side of the axis that the span is measured from.",
-        unit="m",
-        at_least=SHORTEST_LENGTH_M,
+        **SIZE,
     )
-    width_m: float = key("Size across the road.", unit="m", at_least=SHORTEST_LENGTH_M)
+    width_m: float = key("Size across the road.", **SIZE)
     height_m: float | None = key(
         "Height above the ground. Needed where there are no piers, that is with one span. Elsewhere it follows from "
         "the piers: leave it out.",
         default=None,
-        unit="m",
-        at_least=SHORTEST_LENGTH_M,
+        **SIZE,
     )
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the abutments"), default=None, unit="kg/m³", above=0)
 
@@ -154,8 +156,7 @@ class Bridge(Table):
 
     span_lengths_m: tuple[float, ...] = key(
         "Lengths of the spans, in their order along the road, each from pier axis to pier axis.",
-        unit="m",
-        at_least=SHORTEST_LENGTH_M,
+        **SIZE,
     )
     density_kg_m3: float | None = key(
         "Density of all members that have none of their own. Give this or `mass_kg`.",

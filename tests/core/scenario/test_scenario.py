@@ -151,8 +151,8 @@ def test_frames_cover_the_duration():
             {"mass_kg": 10**400},
             "ball.mass_kg is a whole number of more than 64 bits: expected a number above 0 (kg)",
         ),
-        (BALL, {"diameter_m": "1.34"}, 'ball.diameter_m is "1.34": expected a number of at least 0.001 (m)'),
-        (BALL, {"drop_height_m": 0}, "ball.drop_height_m is 0: expected a number above 0 (m)"),
+        (BALL, {"diameter_m": "1.34"}, 'ball.diameter_m is "1.34": expected a number from 0.001 to 10000.0 (m)'),
+        (BALL, {"drop_height_m": 0}, "ball.drop_height_m is 0: expected a number above 0 and up to 10000.0 (m)"),
         (BALL, {"release_time_s": -0.1}, "ball.release_time_s is -0.1: expected a number of at least 0 (s)"),
         (BALL, {"restitution": 1.1}, "ball.restitution is 1.1: expected a number from 0 to 1"),
         (BALL, {"target_m": [1]}, "ball.target_m is a list of length 1: expected a list of 2 numbers (m)"),
@@ -161,13 +161,15 @@ def test_frames_cover_the_duration():
         (
             BRIDGE,
             {"span_lengths_m": []},
-            "bridge.span_lengths_m is a list of length 0: expected a list of one or more numbers of at least 0.001 (m)",
+            "bridge.span_lengths_m is a list of length 0: expected a list of one or more numbers from 0.001 to 10000.0 (m)",
         ),
         (BRIDGE, {"span_lengths_m": [13, -1]}, "bridge.span_lengths_m[1] is -1: expected a list of one or more "),
         (BRIDGE, {"deck": 5}, "bridge.deck is 5: expected a table"),
         (BRIDGE, {"deck": PIERS}, "expected a table"),
-        (DECK, {"width_m": 0}, "bridge.deck.width_m is 0: expected a number of at least 0.001 (m)"),
-        (DECK, {"overhang_m": -1}, "bridge.deck.overhang_m is -1: expected a number of at least 0 (m)"),
+        (DECK, {"width_m": 0}, "bridge.deck.width_m is 0: expected a number from 0.001 to 10000.0 (m)"),
+        (DECK, {"overhang_m": -1}, "bridge.deck.overhang_m is -1: expected a number from 0 to 10000.0 (m)"),
+        (DECK, {"overhang_m": 1e9}, "bridge.deck.overhang_m is 1000000000.0: expected a number from 0 to 10000.0 (m)"),
+        (BALL, {"drop_height_m": 3e38}, "ball.drop_height_m is 3e+38: expected a number above 0 and up to 10000.0 (m)"),
         (PIERS, {"columns": 0}, "bridge.piers.columns is 0: expected a whole number from 1 to 1000"),
         (PIERS, {"columns": 2.0}, "bridge.piers.columns is 2.0: expected a whole number from 1 to 1000"),
         (PIERS, {"columns": True}, "bridge.piers.columns is true: expected a whole number from 1 to 1000"),
@@ -285,8 +287,8 @@ def test_limits_themselves_are_taken():
 
 
 def test_extreme_values_overflow_nothing():
-    for size in (0.001, 3e38):
-        ball = replace(BALL, mass_kg=3e38, diameter_m=size, drop_height_m=3e38)
+    for size in (0.001, 10_000.0):
+        ball = replace(BALL, mass_kg=3e38, diameter_m=size, drop_height_m=10_000.0)
         assert np.isfinite([ball.density_kg_m3, ball.fall_time_s, ball.impact_speed_m_s]).all()
     assert np.isfinite(replace(CONNECTIONS, breaking_force_kgf=3e38).breaking_force_newton)
 

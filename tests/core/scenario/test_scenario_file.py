@@ -52,12 +52,12 @@ def test_what_is_left_out_stays_left_out():
 
 def test_any_number_is_written_without_loss():
     random = np.random.default_rng(235)
-    for mass, friction, wider in np.exp(random.uniform(-80, 80, (200, 3))):
-        deck = replace(I235.bridge.deck, width_m=8.5 + wider)
+    for mass, friction, radius in np.exp(random.uniform(-80, 80, (200, 3))):
         scenario = replace(
             I235,
             seed=int(random.integers(2**31)),
-            bridge=replace(I235.bridge, mass_kg=mass, deck=deck),
+            bridge=replace(I235.bridge, mass_kg=mass),
+            connections=replace(I235.connections, search_radius_m=radius),
             ground=replace(I235.ground, friction=friction),
         )
         assert scenario_from_text(scenario_text(scenario)) == scenario
