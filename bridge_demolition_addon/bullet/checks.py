@@ -85,13 +85,7 @@ def check_bodies(
 
 
 def check_owners(layout: Layout, bodies: Iterable[tuple[bpy.types.Object, int, int]]) -> None:
-    """Each of Bullet's bodies points back at Blender's; nothing that may have been edited or recorded is looked at.
-
-    Parameters
-    ----------
-    bodies
-        As for `check_bodies`.
-    """
+    """Each of Bullet's bodies points back at Blender's; nothing that may have been edited or recorded is looked at."""
     for body, holder, address in bodies:
         _expect(f"user pointer of body {body.name!r}", read_pointer(address + layout.body.user_pointer), holder)
 

@@ -5,7 +5,7 @@ constraints stay in the world, and in the lists of their bodies; freed bodies st
 on how they were deleted, in the world. Blender comes to grief over them when it next takes a step, validates the
 constraints or frees the world for a new one, which it makes at the start frame.
 
-So all these pointers are taken out here. What is left must not be simulated any more (`held_time.stop_time`), as
+So all these pointers are taken out here. What is left must not be simulated any more (`time_control.stop_time`), as
 collision detection still knows the freed bodies.
 """
 

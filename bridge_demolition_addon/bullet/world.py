@@ -196,16 +196,16 @@ class BulletWorld:
 
     def positions(self) -> tuple[np.ndarray, np.ndarray]:
         """Origins (n, 3) in m and rotation matrices (n, 3, 3) of all bodies."""
-        transforms = gather_doubles(self._bound.bodies + np.uint64(self._layout.body.transform), 15)
+        transforms = gather_doubles(self._body_fields(self._layout.body.transform), 15)
         return transforms[:, 12:15], transforms[:, :12].reshape(-1, 3, 4)[:, :, :3]
 
     def velocities(self) -> np.ndarray:
         """Linear velocities (n, 3) of all bodies, m/s."""
-        return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.linear_velocity), 3)
+        return gather_doubles(self._body_fields(self._layout.body.linear_velocity), 3)
 
     def angular_velocities(self) -> np.ndarray:
         """Angular velocities (n, 3) of all bodies, rad/s."""
-        return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.angular_velocity), 3)
+        return gather_doubles(self._body_fields(self._layout.body.angular_velocity), 3)
 
     def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray | None = None) -> None:
         """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
@@ -241,7 +241,7 @@ class BulletWorld:
 
     def asleep(self) -> np.ndarray:
         """Whether each body (n,) is asleep; what can never move is not."""
-        states = gather_integers(self._bound.bodies + np.uint64(self._layout.body.activation))
+        states = gather_integers(self._body_fields(self._layout.body.activation))
         return np.isin(states, list(SLEEPING)) & self.can_move()
 
     def contacts(self) -> Contacts:
@@ -259,7 +259,7 @@ class BulletWorld:
     def applied_impulses(self) -> np.ndarray:
         """The one number (m,) that Bullet keeps of each connection: the impulse of its last solver row, N·s."""
         impulses = np.zeros(len(self.connections))
-        addresses = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.applied_impulse)
+        addresses = self._connection_fields(self._layout.constraint.applied_impulse)
         impulses[self._bound.exists] = gather_doubles(addresses)[:, 0]
         return impulses
 
@@ -297,7 +297,7 @@ class BulletWorld:
 
     def can_move(self) -> np.ndarray:
         """Whether each body (n,) is free now: neither passive nor led by animation."""
-        return gather_doubles(self._bound.bodies + np.uint64(self._layout.body.inverse_mass))[:, 0] > 0.0
+        return gather_doubles(self._body_fields(self._layout.body.inverse_mass))[:, 0] > 0.0
 
     def hold_connections(self) -> None:
         """Let no connection break at its threshold, until `release_connections`."""
@@ -318,7 +318,7 @@ class BulletWorld:
     def intact(self) -> np.ndarray:
         """Whether each connection (m,) exists and has not broken."""
         intact = np.zeros(len(self.connections), bool)
-        addresses = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.enabled)
+        addresses = self._connection_fields(self._layout.constraint.enabled)
         intact[self._bound.exists] = (gather_integers(addresses) & 0xFF) != 0
         return intact
 
@@ -348,12 +348,10 @@ class BulletWorld:
     def first_is_body_a(self) -> np.ndarray:
         """Whether `object1` of each connection (m,) is Bullet's body A; True where the connection does not exist."""
         first = np.ones(len(self.connections), bool)
-        addresses = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.body_a)
+        addresses = self._connection_fields(self._layout.constraint.body_a)
         body_a = gather_pointers(addresses)
         by_object = dict(zip(self.bodies, self._bound.bodies.tolist(), strict=True))
-        existing = [
-            connection for connection, exists in zip(self.connections, self._bound.exists, strict=True) if exists
-        ]
+        existing = itertools.compress(self.connections, self._bound.exists)
         expected = [by_object.get(connection.rigid_body_constraint.object1) for connection in existing]
         first[self._bound.exists] = [a == e for a, e in zip(body_a.tolist(), expected, strict=True)]
         return first
@@ -559,16 +557,20 @@ class BulletWorld:
         checks.check_connections(self._layout, existing, by_object, were_edited=not to_read)
         return np.array(addresses, np.uint64)
 
-    def _threshold_fields(self) -> np.ndarray:
-        return self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.breaking_threshold)
+    def _body_fields(self, offset: int) -> np.ndarray:
+        """Return the addresses (n,) of a field of all bodies."""
+        return self._bound.bodies + np.uint64(offset)
+
+    def _connection_fields(self, offset: int) -> np.ndarray:
+        """Return the addresses (e,) of a field of the connections that exist."""
+        return self._bound.connections[self._bound.exists] + np.uint64(offset)
 
     def _write_thresholds(self) -> None:
         values = np.inf if self._holds_connections else self._bound.thresholds * self._threshold_factor
-        write_doubles(self._threshold_fields(), values)
+        write_doubles(self._connection_fields(self._layout.constraint.breaking_threshold), values)
 
     def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
-        fields = self._bound.connections[self._bound.exists] + np.uint64(self._layout.constraint.joint_feedback)
-        write_pointers(fields, targets)
+        write_pointers(self._connection_fields(self._layout.constraint.joint_feedback), targets)
 
 
 def _callback(action: Callable[[float], None]) -> object:

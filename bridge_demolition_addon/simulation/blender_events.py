@@ -27,9 +27,8 @@ def register() -> None:
     global _is_registered
     _is_registered = True
     _attach()
-    for (
-        window
-    ) in bpy.context.window_manager.windows:  # while Blender switches the add-on on, it shows no scenes but these
+    # While Blender switches the add-on on, it shows no scenes but these.
+    for window in bpy.context.window_manager.windows:
         recorded_scene(window.scene).look()
 
 
@@ -38,7 +37,7 @@ def unregister() -> None:
     global _is_registered
     _is_registered = False
     stop_recording()
-    _render_ended()
+    _after_render()
     for owner in list(_scenes.values()):
         owner.before_undo_or_load()
     _scenes.clear()
@@ -71,7 +70,8 @@ def stop_recording() -> Recording | None:
     """End the recording that runs, and return it."""
     owner = next((each for each in list(_scenes.values()) if each.recording), None)
     recording = owner.stop() if owner else None
-    _detach_where_idle()
+    if not _is_registered and not any(each.is_at_work for each in list(_scenes.values())):
+        _detach()
     return recording
 
 
@@ -107,7 +107,8 @@ def _before_render(scene: bpy.types.Scene, *_: object) -> None:
 
 @persistent
 def _after_render(*_: object) -> None:
-    _render_ended()
+    for owner in list(_scenes.values()):
+        owner.after_render()
 
 
 @persistent
@@ -159,16 +160,6 @@ def _detach() -> None:
         handlers = getattr(bpy.app.handlers, name)
         if handler in handlers:
             handlers.remove(handler)
-
-
-def _detach_where_idle() -> None:
-    if not _is_registered and not any(owner.is_at_work for owner in list(_scenes.values())):
-        _detach()
-
-
-def _render_ended() -> None:
-    for owner in list(_scenes.values()):
-        owner.after_render()
 
 
 atexit.register(unregister)  # Blender's own end may hang or crash where handlers are left

@@ -19,10 +19,8 @@ class Playing:
     ----------
     recording
         What follows it, not started yet.
-    last_frame
-        Frame to end with; the last one of the scene, or of its simulation where that ends before, unless given.
     stop_at
-        The rest at which to end before that.
+        The rest at which to end before the last frame of the scene, or of its simulation where that ends before.
 
     Attributes
     ----------
@@ -41,12 +39,12 @@ class Playing:
         The scene has no frames to play.
     """
 
-    def __init__(self, recording: Recording, last_frame: int | None = None, stop_at: Rest | None = None):
+    def __init__(self, recording: Recording, stop_at: Rest | None = None):
         self.recording = recording
         self._rest = stop_at
         self._scene = recording.scene
         cache = self._scene.rigidbody_world.point_cache
-        last = min(self._scene.frame_end, cache.frame_end) if last_frame is None else last_frame
+        last = min(self._scene.frame_end, cache.frame_end)
         if last <= cache.frame_start + 1:
             raise SimulationError(
                 f"nothing to play: the last frame, {last}, is not after frame {cache.frame_start + 1}"

@@ -80,7 +80,7 @@ class RecordedScene:
 
     def before_frame(self) -> None:
         """Guard the world, and prepare the frame."""
-        self._check_objects()
+        self.before_update()
         if self._is_rendered:
             self._with_recording(_refuse_unplayed_frame)
         self._with_recording(Recording.before_frame)
@@ -95,7 +95,7 @@ class RecordedScene:
 
     def before_update(self) -> None:
         """Guard the world."""
-        self._check_objects()
+        self._fail_for(self._guard.check_objects(self.scene))
 
     def after_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Guard the world, and colour the bodies: one that was edited was evaluated again, and has its own colour."""
@@ -127,9 +127,6 @@ class RecordedScene:
     @property
     def _is_recorded(self) -> bool:
         return self.recording is not None and self.recording.error is None
-
-    def _check_objects(self) -> None:
-        self._fail_for(self._guard.check_objects(self.scene))
 
     def _fail_for(self, changes: str) -> None:
         if changes and self._is_recorded:

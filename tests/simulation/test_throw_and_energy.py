@@ -27,7 +27,7 @@ def launched(blocks, folder, frames, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0
     for frame in range(first, first + frames + 2):
         blocks.scene.frame_set(frame)
         if frame == first + 1:
-            world = recording._world
+            world = recording.world
             address = world._bound.bodies[[body]]
             write_vectors(address + np.uint64(world._layout.body.linear_velocity), np.array([velocity]))
             write_vectors(address + np.uint64(world._layout.body.angular_velocity), np.array([spin]))

@@ -16,6 +16,9 @@ from ..bodies import bodies_of
 from .camera import aim_camera
 
 _RENDER_SETTINGS = ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage", "dither_intensity")
+_RENDERER = "BLENDER_WORKBENCH"
+"""By far the fastest one."""
+
 _SMOOTHING = "FXAA"
 """Of Workbench: its default takes three times as long, and flat colours do not need it."""
 
@@ -24,24 +27,16 @@ _IMAGE_SETTINGS = ("media_type", "file_format", "color_mode", "color_depth")
 
 @dataclass(frozen=True, slots=True)
 class RenderSettings:
-    """Size and renderer of pictures of the contours.
-
-    Attributes
-    ----------
-    width_px, height_px : int
-        Size; even, as films cannot have odd ones.
-    engine : str
-        Blender's name of the renderer: BLENDER_WORKBENCH is by far the fastest.
+    """Size of pictures of the contours.
 
     Raises
     ------
     OutputError
-        A size is not a positive even number.
+        A size is not a positive even number, as films cannot have odd ones.
     """
 
     width_px: int = 1280
     height_px: int = 720
-    engine: str = "BLENDER_WORKBENCH"
 
     def __post_init__(self) -> None:
         for size in (self.width_px, self.height_px):
@@ -62,7 +57,7 @@ def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Ite
     kept.append((scene.display, "render_aa", scene.display.render_aa))
     ours = None if camera else aim_camera(scene, _corners(scene), settings.width_px / settings.height_px)
     try:
-        render.engine = settings.engine
+        render.engine = _RENDERER
         render.resolution_x, render.resolution_y = settings.width_px, settings.height_px
         render.resolution_percentage = 100
         render.dither_intensity = 0.0  # its noise hides the steps of colour that contours have

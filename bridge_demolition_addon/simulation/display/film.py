@@ -42,28 +42,19 @@ class FilmSettings:
         Seconds of film for a second of the simulation: 1 is real time.
     slow_motion
         Seconds of a second film, made of the same pictures, for a second of the simulation; no such film for None.
-    first_frame, last_frame
-        Which frames; all that were recorded for None.
-    legend
-        Whether pictures have a colour bar.
     picture
-        Size and renderer.
+        Size of the pictures, colour bar included.
     """
 
     kind: FilmKind = FilmKind.FILM
     pictures_per_second: float = 25.0
     slowness: float = 1.0
     slow_motion: float | None = None
-    first_frame: int | None = None
-    last_frame: int | None = None
-    legend: bool = True
     picture: RenderSettings = field(default_factory=RenderSettings)
 
     @property
     def rendered(self) -> RenderSettings:
         """The part of a picture that is rendered: all but the colour bar."""
-        if not self.legend:
-            return self.picture
         from ...charts.contour_legend import legend_width  # matplotlib, which switching the add-on on need not wait for
 
         return replace(self.picture, width_px=self.picture.width_px - legend_width(self.picture.height_px))
@@ -86,7 +77,7 @@ class FilmRendering:
     ContourError
         Nothing was recorded.
     OutputError
-        The folder cannot be written; or there are no frames.
+        The folder cannot be written.
     """
 
     def __init__(
@@ -136,9 +127,8 @@ class FilmRendering:
                     raise error
                 if not path.exists():
                     raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
-                if self._film.legend:
-                    shown = self._series.show(self._series.row_at(frame), self._contours)
-                    add_legend(path, self._contours, shown)
+                shown = self._series.show(self._series.row_at(frame), self._contours)
+                add_legend(path, self._contours, shown)
                 yield path
 
     def finish(self) -> list[Path]:
@@ -157,20 +147,15 @@ class FilmRendering:
 
 
 def _frames_of_films(series: ContourSeries, settings: FilmSettings) -> dict[str, list[int]]:
-    """The frame of every picture of each film; those of a series of pictures count as a film's."""
-    frames, times = np.array(series.frames), series.times_s
-    first = frames[0] if settings.first_frame is None else settings.first_frame
-    last = frames[-1] if settings.last_frame is None else settings.last_frame
-    wanted = np.flatnonzero((frames >= first) & (frames <= last))
-    if not len(wanted):
-        raise OutputError(f"film: of the recorded frames {frames[0]} to {frames[-1]} none is within {first} to {last}")
+    """Return the frame of every picture of each film; those of a series of pictures count as a film's."""
     if settings.kind == FilmKind.PICTURES:
-        return {FILM_FILE: frames[wanted].tolist()}
+        return {FILM_FILE: series.frames}
     films = {FILM_FILE: settings.slowness}
     if settings.slow_motion is not None:
         films[SLOW_FILM_FILE] = settings.slow_motion
-    rows = {film: film_rows(times[wanted], settings.pictures_per_second, slow) for film, slow in films.items()}
-    return {film: frames[wanted][each].tolist() for film, each in rows.items()}
+    frames = np.array(series.frames)
+    rows = {film: film_rows(series.times_s, settings.pictures_per_second, slow) for film, slow in films.items()}
+    return {film: frames[each].tolist() for film, each in rows.items()}
 
 
 @contextmanager

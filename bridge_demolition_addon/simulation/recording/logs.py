@@ -7,8 +7,6 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 
@@ -127,9 +125,7 @@ class Logs:
         self._inventory = inventory
         self._forces = BodyLog(files.forces or folder / FORCE_LOG, FORCE_COLUMNS, names)
         self._debris = BodyLog(files.debris or folder / DEBRIS_LOG, DEBRIS_COLUMNS, names)
-        self._breaking = (folder / BREAKING_LOG).open("w", encoding="utf-8", newline="")
-        self._breaking.write(_csv_text(*BREAKING_COLUMNS) + "\n")
-        self._breaking.flush()
+        self._breaking = CsvLog(folder / BREAKING_LOG, BREAKING_COLUMNS)
         self._explosion = ExplosionLog(folder / EXPLOSION_LOG, names, charges) if charges else None
         self._first_positions: np.ndarray | None = None
         self._made_j = np.zeros(len(names))
@@ -160,13 +156,14 @@ class Logs:
     def write_breaks(self, frame: int, breaks: Sequence[Breaks]) -> None:
         """Log the connections that broke in a frame, each with the loads that it broke under."""
         names, bodies, pairs = self._inventory.connection_names, self._inventory.body_names, self._inventory.pairs
+        lines = []
         for each in breaks:
             loads = each.loads
             values = np.column_stack((loads.axial_n, loads.shear_n, loads.torsion_nm, loads.bending_nm)) + 0.0
             for row, numbers in zip(each.connections, values, strict=True):
                 texts = (names[row], *bodies[pairs[row]], *(f"{number:.9g}" for number in numbers))
-                self._breaking.write(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
-        self._breaking.flush()
+                lines.append(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
+        self._breaking.add("".join(lines))
 
     def write_blast(self, frame: Frame, loads: StepLoads, frame_s: float) -> None:
         """Log the blast loads of a frame that is that long."""
@@ -188,7 +185,32 @@ class Logs:
         self._debris.write(frame.number, frame.time_s, values)
 
 
-class ExplosionLog:
+class CsvLog:
+    """CSV file that grows by whole lines.
+
+    Parameters
+    ----------
+    path
+        File to write; one that is there is replaced.
+    columns
+        Header.
+    """
+
+    def __init__(self, path: Path, columns: Sequence[str]):
+        self._file = path.open("w", encoding="utf-8", newline="")
+        self.add(",".join(columns) + "\n")
+
+    def add(self, lines: str) -> None:
+        """Add lines; a run that is killed keeps them."""
+        self._file.write(lines)
+        self._file.flush()
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+
+class ExplosionLog(CsvLog):
     """CSV file with one line per body, charge and frame in which the charge loads the body.
 
     Pressure and force are means over the frame's simulated time.
@@ -196,7 +218,7 @@ class ExplosionLog:
     Parameters
     ----------
     path
-        File to write; one that is there is replaced.
+        File to write.
     bodies, charges
         Names of the n bodies and c charges.
     """
@@ -204,9 +226,7 @@ class ExplosionLog:
     def __init__(self, path: Path, bodies: Sequence[str], charges: Sequence[str]):
         self._bodies = [_csv_text(name) for name in bodies]
         self._charges = [_csv_text(name) for name in charges]
-        self._file = path.open("w", encoding="utf-8", newline="")
-        self._file.write(",".join(EXPLOSION_COLUMNS) + "\n")
-        self._file.flush()
+        super().__init__(path, EXPLOSION_COLUMNS)
 
     def write(self, frame: int, time_s: float, frame_s: float, loads: StepLoads) -> None:
         """Add the loads of a frame that ends at a time and is that long."""
@@ -230,21 +250,16 @@ class ExplosionLog:
             + ",".join(f"{value:.9g}" for value in row)
             for (body, charge), row in zip(names, values, strict=True)
         ]
-        self._file.write("\n".join(lines) + "\n")
-        self._file.flush()
-
-    def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+        self.add("\n".join(lines) + "\n")
 
 
-class BodyLog:
+class BodyLog(CsvLog):
     """CSV file with one line per body and logged frame.
 
     Parameters
     ----------
     path
-        File to write; one that is there is replaced.
+        File to write.
     columns
         Header, beginning with frame, time and body.
     bodies
@@ -255,26 +270,11 @@ class BodyLog:
         values = ",".join(["%.9g"] * (len(columns) - 3))
         # One template for all lines of a frame: formatting line by line takes several times as long.
         self._lines = "".join(f"{_STEP_MARK},{_csv_text(name).replace('%', '%%')},{values}\n" for name in bodies)
-        self._file = path.open("w", encoding="utf-8", newline="")
-        self._write(",".join(columns) + "\n")
+        super().__init__(path, columns)
 
     def write(self, frame: int, time_s: float, values: np.ndarray) -> None:
         """Add one line per body with its values (n, columns)."""
-        self._write((self._lines % tuple((values + 0.0).ravel().tolist())).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
-
-    def close(self) -> None:
-        """Close the file."""
-        self._file.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None):
-        self.close()
-
-    def _write(self, text: str) -> None:
-        self._file.write(text)
-        self._file.flush()  # a run that is killed keeps every frame it has logged
+        self.add((self._lines % tuple((values + 0.0).ravel().tolist())).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
 
 
 def _csv_text(*texts: str) -> str:

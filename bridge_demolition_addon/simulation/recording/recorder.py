@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any
@@ -64,6 +63,14 @@ class Recording:
     distrust : LayoutError or None
         Why Bullet's memory is not read. Then only the motion of bodies is recorded, and the net force on each
         from its change of momentum.
+    world : BulletWorld
+        The world that is recorded.
+    frames : list of Frame
+        Frames recorded so far.
+    inventory : Inventory or None
+        The bodies and connections; None before the first frame.
+    built_digest : str
+        Digest of what was built; empty before the first frame.
     """
 
     def __init__(
@@ -82,14 +89,14 @@ class Recording:
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         check_blast(scene, self._bodies)
         self._lifted = [body for body in self._bodies if lifts_of(body)]
-        self._world = BulletWorld(scene, self._bodies, self._connections)
-        self._inventory: Inventory | None = None
+        self.world = BulletWorld(scene, self._bodies, self._connections)
+        self.inventory: Inventory | None = None
         self._reader: BulletReader | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
-        self._frames: list[Frame] = []
-        self._built_digest = ""
+        self.frames: list[Frame] = []
+        self.built_digest = ""
 
     def before_frame(self) -> None:
         """Set how much time passes in the coming frame, and what explodes in it.
@@ -129,49 +136,29 @@ class Recording:
         """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
         if self._blast:
             self._blast.rest()
-        self._world.release()
+        self.world.release()
         if self._logs:
-            self._logs.close(self._frames[-1] if self._frames else None)
+            self._logs.close(self.frames[-1] if self.frames else None)
             self._logs = None
-
-    @property
-    def world(self) -> BulletWorld:
-        """The world that is recorded."""
-        return self._world
-
-    @property
-    def frames(self) -> Sequence[Frame]:
-        """Frames recorded so far; another list with every simulation."""
-        return self._frames
-
-    @property
-    def inventory(self) -> Inventory | None:
-        """The bodies and connections; None before the first frame."""
-        return self._inventory
-
-    @property
-    def built_digest(self) -> str:
-        """Digest of what was built; empty before the first frame."""
-        return self._built_digest
 
     @property
     def recorded_frames(self) -> int:
         """Frames recorded so far."""
-        return len(self._frames)
+        return len(self.frames)
 
     def has_frame(self, frame: int) -> bool:
         """Whether a frame was recorded, or lies before those that are."""
-        return frame <= (self._frames[-1].number if self._frames else self._start_frame)
+        return frame <= (self.frames[-1].number if self.frames else self._start_frame)
 
     def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
         """Time in s of the last frame, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""
-        last = self._frames[-1]
+        last = self.frames[-1]
         return last.time_s, last.positions_m, last.rotations, last.asleep
 
     @property
     def broken(self) -> int:
         """Connections broken by now."""
-        return int((~self._frames[-1].intact).sum()) if self._frames else 0
+        return int((~self.frames[-1].intact).sum()) if self.frames else 0
 
     @property
     def lost_blast_loads(self) -> int:
@@ -181,7 +168,7 @@ class Recording:
     @property
     def applied_events(self) -> list[dict[str, Any]]:
         """Removals, saw cuts and weakenings so far, ready for JSON: shards removed, connections concerned."""
-        names = self._inventory.body_names if self._inventory else ()
+        names = self.inventory.body_names if self.inventory else ()
         return [
             {
                 "time_s": each.time_s,
@@ -211,10 +198,10 @@ class Recording:
         SimulationError
             Nothing was recorded.
         """
-        if not self._frames:
+        if not self.frames:
             raise SimulationError("nothing was recorded: play the timeline from its start frame")
         balls = self._reader.ball_history if self._reader else BallHistory.unknown()
-        return Results(self._reading, self._inventory, FrameSeries.of(self._frames), balls)
+        return Results(self._reading, self.inventory, FrameSeries.of(self.frames), balls)
 
     @property
     def _start_frame(self) -> int:
@@ -230,9 +217,9 @@ class Recording:
         """Record the frame from Bullet's memory, or note why that cannot be trusted."""
         try:
             if self.scene.frame_current > self._start_frame:
-                self._record(self._world.bind(depsgraph), time_stands_still(depsgraph))
+                self._record(self.world.bind(depsgraph), time_stands_still(depsgraph))
         except LayoutError as error:
-            if self._frames:  # it was trusted, and parts of it are recorded
+            if self.frames:  # it was trusted, and parts of it are recorded
                 raise
             self.distrust = error
         finally:
@@ -243,7 +230,7 @@ class Recording:
         frame = self.scene.frame_current
         if frame == self._start_frame or not self._momentum:
             self._begin_with_motion()
-        elif frame != self._frames[-1].number + 1:
+        elif frame != self.frames[-1].number + 1:
             return  # not a step forward in time, but a frame that was recorded already or will be
         self._keep(self._momentum.read_frame(depsgraph))
 
@@ -253,19 +240,19 @@ class Recording:
                 "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
                 f"({self.distrust}): take them out of the scenario, or run it in another Blender"
             )
-        self._frames.clear()
-        self._inventory = take_inventory(self._bodies, ())
-        self._momentum = MomentumReader(self.scene, self._bodies, self._inventory)
+        self.frames.clear()
+        self.inventory = take_inventory(self._bodies, ())
+        self._momentum = MomentumReader(self.scene, self._bodies, self.inventory)
         self._begin_blast(None)
 
     def _begin_blast(self, world: BulletWorld | None) -> None:
         """Set up what explodes, and the logs of it and of everything else."""
         if self._blast:
             self._blast.rest()
-        self._blast = Blast(self.scene, self._bodies, self._inventory, world) if goes_off(self.scene) else None
-        self._built_digest = self._digest()
+        self._blast = Blast(self.scene, self._bodies, self.inventory, world) if goes_off(self.scene) else None
+        self.built_digest = self._digest()
         charges = [charge.name for charge in self._blast.charges] if self._blast else ()
-        self._logs = Logs(self.folder, self._inventory, charges, self._log_files)
+        self._logs = Logs(self.folder, self.inventory, charges, self._log_files)
 
     def _digest(self) -> str:
         """Digest of all that decides what will happen: bodies, connections, what breaks them, and loads."""
@@ -276,7 +263,7 @@ class Recording:
         matrices = np.array([body.matrix_world for body in self._bodies])
         places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
         return built_digest(
-            self._inventory,
+            self.inventory,
             positions_m=places,
             rotations=rotations,
             thresholds_ns=thresholds,
@@ -304,7 +291,7 @@ class Recording:
         """Load the coming frame, if it follows on the last one recorded."""
         if not self._blast:
             return
-        last, coming = self._frames[-1] if self._frames else None, self.scene.frame_current
+        last, coming = self.frames[-1] if self.frames else None, self.scene.frame_current
         if last is None or coming != last.number + 1:
             self._blast.rest()
             return
@@ -321,7 +308,7 @@ class Recording:
     def _record(self, state: WorldState, held: bool) -> None:
         if state is WorldState.ABSENT:
             return
-        substep = self._world.take_substep()
+        substep = self.world.take_substep()
         if state is WorldState.NEW:
             self._begin()
             # The solver of a new world names a default step before it has taken any.
@@ -334,27 +321,27 @@ class Recording:
 
     def _begin(self) -> None:
         """Begin with the first frame of a new world."""
-        self._frames.clear()
-        self._inventory = take_inventory(self._bodies, self._connections)
-        self._begin_blast(self._world)
+        self.frames.clear()
+        self.inventory = take_inventory(self._bodies, self._connections)
+        self._begin_blast(self.world)
         self._reader = BulletReader(
             self.scene,
             self._bodies,
             self._connections,
-            self._world,
-            self._inventory,
+            self.world,
+            self.inventory,
             self._blast,
             every_substep=self._every_substep,
         )
 
     def _keep(self, frame: Frame) -> None:
         """Keep and log a frame, with what exploded in it."""
-        frame_s = frame.time_s - (self._frames[-1].time_s if self._frames else 0.0)
+        frame_s = frame.time_s - (self.frames[-1].time_s if self.frames else 0.0)
         exploded = self._blast is not None and frame_s > 0.0
         if exploded:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
             frame = replace(frame, blast_impulses_ns=impulses)
-        self._frames.append(frame)
+        self.frames.append(frame)
         self._logs.write_frame(frame)
         if exploded:
             self._logs.write_blast(frame, blast_loads, frame_s)

@@ -246,11 +246,10 @@ def test_pictures_of_contours(hanging, tmp_path):
     scene, folder = hanging.scene, tmp_path / "pictures"
     scene.frame_set(3)
     look = look_of(scene)
-    pictures = small_film(kind=FilmKind.PICTURES, first_frame=4, last_frame=5)
-    paths = render_film(scene, folder, FRAME_BY_FRAME, pictures)
-    assert [path.name for path in paths] == ["contours_000004.png", "contours_000005.png"]
+    paths = render_film(scene, folder, FRAME_BY_FRAME, small_film(kind=FilmKind.PICTURES))
+    assert [path.name for path in paths] == [f"contours_{frame:06d}.png" for frame in range(2, 9)]
     assert look_of(scene) == look and scene.frame_current == 3
-    pixels = imread(paths[0])[:, :, :3]
+    pixels = imread(folder / "contours_000004.png")[:, :, :3]
     assert pixels.shape == (180, 320, 3)
     rendered = pixels[:, legend_width(180) :].reshape(-1, 3)
     highest = colours(ColourMap.VIRIDIS, [1.0])[0]
@@ -296,8 +295,6 @@ def test_a_film_that_cannot_be_made_is_refused(hanging, tmp_path, blender):
     look = look_of(hanging.scene)
     with pytest.raises(OutputError, match="even"):
         RenderSettings(321, 180)
-    with pytest.raises(OutputError, match="none is within 50 to 60"):
-        render_film(hanging.scene, tmp_path / "no", FRAME_BY_FRAME, small_film(first_frame=50, last_frame=60))
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):
         render_film(hanging.scene, tmp_path / "file", FRAME_BY_FRAME, small_film())
