@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the documents claim of many seeds is what the measured runs say."""
 
+import csv
 import sys
 
 import numpy as np
 import pytest
+from example_claims import CLAIMS, beyond_claims
 from places import EXAMPLES, ROOT
 
 sys.path.insert(0, str(ROOT / "scripts"))
 
 import seeds_chart
+
+MEASURED = sorted(seeds_chart.DATA.parent.glob("*.csv"))
 
 
 @pytest.fixture(scope="module")
@@ -45,16 +49,24 @@ def test_the_readme_gives_the_ranges_that_were_measured(runs):
     assert f"farthest of these {len(runs)} with a chance of 1 in {len(runs) + 1}" in text
 
 
-@pytest.mark.parametrize("path", sorted(seeds_chart.DATA.parent.glob("*.csv")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
 def test_the_example_gives_the_ranges_that_were_measured(path):
     runs, text = seeds_chart.read_throws(path), words(EXAMPLES / f"{path.stem}.toml")
-    throws, broken = runs["largest_throw_m"], runs["broken_connections"]
+    broken = runs["broken_connections"]
     claims = (
         f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}",
-        f"the largest throw is {spread(throws)}",
+        f"the largest throw is {spread(runs['largest_throw_m'])}",
         f"{broken.min():.0f} to {broken.max():.0f} connections break.",
     )
     assert [claim for claim in claims if claim not in text] == []
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_every_claim_of_a_test_holds_in_at_least_twenty_draws(name):
+    with (seeds_chart.DATA.parent / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        rows = [{key: float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
+    assert len({row["seed"] for row in rows}) == len(rows) >= 20
+    assert {row["seed"]: beyond for row in rows if (beyond := beyond_claims(name, row))} == {}
 
 
 def test_the_span_beside_the_ball_stood_in_every_run():
