@@ -2,9 +2,12 @@
 
 import argparse
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from ..core.blast.models import BlastModel
 from ..core.blast.wave import Burst
+from ..core.errors import BlastError, GeometryError, ScenarioError
 
 SMALLEST, LARGEST = 1e-6, 1e9
 """What a mass, a distance or a load on the command line has to lie between."""
@@ -25,6 +28,15 @@ def quantity(text: str, largest: float = LARGEST) -> float:
     if not SMALLEST <= number <= largest:
         raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a number from {SMALLEST:g} to {largest:g}")
     return number
+
+
+@contextmanager
+def naming(path: str) -> Iterator[None]:
+    """Put a scenario file's name before what is found wrong with it after it was read."""
+    try:
+        yield
+    except (BlastError, GeometryError, ScenarioError) as error:
+        raise type(error)(f"{path}: {error}") from error
 
 
 def add_blast_options(parser: argparse.ArgumentParser) -> None:

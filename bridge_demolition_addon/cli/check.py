@@ -22,6 +22,7 @@ from ..core.scenario import (
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
 from ..core.structure.model import Model
+from .arguments import naming
 
 MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender tests every one against every body."""
@@ -41,8 +42,10 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def check(arguments: argparse.Namespace) -> None:
     """Print what a planner wants to know before a run."""
-    for line in scenario_facts(read_scenario(arguments.scenario)):
-        print(line)
+    scenario = read_scenario(arguments.scenario)
+    with naming(arguments.scenario):
+        for line in scenario_facts(scenario):
+            print(line)
 
 
 def scenario_facts(scenario: Scenario) -> Iterator[str]:

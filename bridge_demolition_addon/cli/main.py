@@ -1,10 +1,12 @@
 """Command line ``bda``: its commands, and what each kind of failure prints and returns."""
 
 import argparse
+import io
 import os
 import sys
-from collections.abc import Sequence
-from typing import NoReturn
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from typing import NoReturn, Self
 
 from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError
 from . import charge, charts, check, report, run
@@ -29,6 +31,31 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(f"{message}; see {self.prog} --help")
 
 
+class _Stream(io.TextIOWrapper):
+    """A standard stream whose errors name it, as those of files do."""
+
+    @classmethod
+    def of(cls, stream: io.TextIOWrapper) -> Self:
+        """Return a stream in the place of another, which shows letters that a console lacks as numbers."""
+        encoding, by_lines = stream.encoding, stream.line_buffering
+        return cls(stream.detach(), encoding, "backslashreplace", line_buffering=by_lines)
+
+    def write(self, text: str) -> int:
+        with self._naming():
+            return super().write(text)
+
+    def flush(self) -> None:
+        with self._naming():
+            super().flush()
+
+    @contextmanager
+    def _naming(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, self.name) from error
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return the exit status.
 
@@ -49,10 +76,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _failed(error, WRONG_INPUT)
     except BrokenPipeError:
         raise
-    except (DemolitionError, OSError) as error:  # a full disk, for one
+    except DemolitionError as error:
+        return _failed(error, RUN_FAILED)
+    except OSError as error:  # a full disk, for one
         return _failed(error, RUN_FAILED)
     except KeyboardInterrupt:
-        print("bda: interrupted", file=sys.stderr)
+        _say("interrupted")
         return INTERRUPTED
     except SystemExit as leaving:  # argparse, after --help
         return leaving.code or DONE
@@ -61,15 +90,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def entry() -> NoReturn:
     """Run the command line and end the process with its exit status."""
-    for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(errors="backslashreplace")  # a title may hold letters that the console lacks
+    sys.stdout, sys.stderr = _Stream.of(sys.stdout), _Stream.of(sys.stderr)
     try:
         status = main()
         sys.stdout.flush()
     except BrokenPipeError:  # whoever read the output, such as head, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()
         status = RUN_FAILED
-    sys.stderr.flush()
+    except OSError as error:
+        _drop_output()
+        status = _failed(error, RUN_FAILED)
     if "bpy" in sys.modules:
         os._exit(status)  # Blender's own clean-up may hang or crash when Python ends
     sys.exit(status)
@@ -83,6 +113,18 @@ def _parser() -> Parser:
     return parser
 
 
+def _drop_output() -> None:
+    """Send what is still to be written to standard output nowhere: Python would try again when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def _failed(error: DemolitionError | OSError, status: int) -> int:
-    print(f"bda: error: {' '.join(str(error).split())}", file=sys.stderr)
+    named = isinstance(error, OSError) and error.filename is not None
+    text = f"{error.filename}: {error.strerror}" if named else str(error)
+    _say(f"error: {' '.join(text.split())}")
     return status
+
+
+def _say(text: str) -> None:
+    with suppress(OSError):  # where not even this can be written, the status has to say it
+        print(f"bda: {text}", file=sys.stderr, flush=True)

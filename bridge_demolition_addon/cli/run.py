@@ -2,13 +2,15 @@
 
 import argparse
 import os
+import signal
 import sys
+import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import GeometryError, OutputError, ScenarioError, SimulationError
+from ..core.errors import OutputError, SimulationError
 from ..core.results.files import RESULT_FILES
 from ..core.results.fingerprint import SHORT
 from ..core.results.summary import first_hit_s
@@ -17,6 +19,7 @@ from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
 from ..core.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
+from .arguments import naming
 from .progress import Progress, progress_on
 
 COMPARISON_FOLDER = "report"
@@ -57,7 +60,7 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         with _blender_silenced() if arguments.quiet else nullcontext():
             if len(scenarios) == 1:
-                _run_and_report(scenarios[0], None, arguments.output, arguments, progress)
+                _run_and_report(arguments.scenarios[0], scenarios[0], None, arguments.output, arguments, progress)
             else:
                 _run_study(scenarios, arguments, progress)
     finally:
@@ -79,7 +82,7 @@ def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, pro
     plan = zip(arguments.scenarios, scenarios, models, folders, strict=True)
     for number, (path, scenario, model, folder) in enumerate(plan, 1):
         progress.stage(f"scenario {number} of {len(scenarios)}: {path}")
-        _run_and_report(scenario, model, folder, arguments, progress)
+        _run_and_report(path, scenario, model, folder, arguments, progress)
     if arguments.report:
         progress.stage(f"comparing {len(scenarios)} runs")
         written = _report(folders, comparison, progress)
@@ -89,11 +92,8 @@ def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, pro
 
 
 def _model_of(path: str, scenario: Scenario) -> Model:
-    """Return the model of a scenario file; what is wrong with it is said with the file's name."""
-    try:
+    with naming(path):
         return checked_model(scenario)
-    except (GeometryError, ScenarioError) as error:
-        raise type(error)(f"{path}: {error}") from error
 
 
 def study_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
@@ -117,9 +117,9 @@ def study_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
 
 
 def _run_and_report(
-    scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
+    path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> None:
-    summary = _run_scenario(scenario, model, output, arguments, progress)
+    summary = _run_scenario(path, scenario, model, output, arguments, progress)
     report = _report([output], None, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
@@ -127,23 +127,41 @@ def _run_and_report(
 
 
 def _run_scenario(
-    scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
+    path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> Mapping[str, Any]:
     try:
-        from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
+        with _interrupted_afterwards():
+            from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
     except ModuleNotFoundError as error:
         if error.name != "bpy":
             raise
         raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
-    return run_scenario(
-        scenario,
-        output,
-        model=model,
-        overwrite=arguments.overwrite,
-        pictures=not arguments.no_pictures,
-        film=arguments.film,
-        progress=progress,
-    )
+    with naming(path):
+        return run_scenario(
+            scenario,
+            output,
+            model=model,
+            overwrite=arguments.overwrite,
+            pictures=not arguments.no_pictures,
+            film=arguments.film,
+            progress=progress,
+        )
+
+
+@contextmanager
+def _interrupted_afterwards() -> Iterator[None]:
+    """Let Ctrl-C wait: Blender prints it as an error of one of its own scripts, and goes on."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    pressed = threading.Event()
+    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
+    if pressed.is_set():
+        raise KeyboardInterrupt
 
 
 @contextmanager

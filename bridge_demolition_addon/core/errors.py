@@ -17,6 +17,10 @@ class GeometryError(DemolitionError):
     """A solid is not closed, has no volume or cannot be cut as asked."""
 
 
+class UnreadableError(DemolitionError):
+    """A file of the user is no file, is too large or cannot be read; the text is the reason, without the path."""
+
+
 class OutputError(DemolitionError):
     """The folder for the results exists already or cannot be written."""
 

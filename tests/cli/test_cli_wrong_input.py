@@ -171,7 +171,7 @@ WRONG_FILES = {
         ["charges.mass_kg is 6e+24"],
     ),
     "bridge longer than single precision reaches": (
-        with_value("bridge.span_lengths_m", "[13000.0]"),
+        with_value("bridge.span_lengths_m", "[7000.0, 6000.0]"),
         ["bridge.span_lengths_m add up to 13000", "expected at most 10000 (m)"],
     ),
     "blank title": (with_value("scenario.title", '" "'), ['scenario.title is " "']),
@@ -239,6 +239,15 @@ WRONG_FILES = {
         with_value("time.duration_s", "1e6"),
         ["time.duration_s is 1000000.0"],
     ),
+    "NUL in a path": (
+        RIGHT + '\n[[geometry]]\nname = "a"\nfile = "a\\u0000b.stl"\ndensity_kg_m3 = 2400\n',
+        [r'"a\u0000b.stl" is no path of a file'],
+    ),
+    "NUL in the path of the base": (
+        '[scenario]\nbased_on = "a\\u0000b.toml"\n',
+        [r'"a\u0000b.toml" is no path of a file'],
+    ),
+    "base that is a device": ('[scenario]\nbased_on = "/dev/zero"\n', ["is a pipe or a device, not a file"]),
     "no frame": (with_value("time.duration_s", "1e-9"), ["time.duration_s is 1e-09"]),
 }
 
@@ -263,6 +272,28 @@ def test_wrong_files_are_refused(content, words, tmp_path, monkeypatch, capsys):
         for word in words:
             assert word in line
     assert [path.name for path in tmp_path.iterdir()] == ["wrong.toml"]
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        (with_value("fracture.shards", "1"), "fracture.shards is 1: expected at least 7"),
+        (
+            with_more_in("fracture", 'points_file = "/dev/zero"'),
+            'fracture.points_file is "/dev/zero": is a pipe or a device, not a file',
+        ),
+    ],
+    ids=["too few shards", "points from a device"],
+)
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such device")
+def test_what_is_found_wrong_later_names_the_file_too(content, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("wrong.toml").write_text(content, encoding="utf-8")
+    for command in (["check", "wrong.toml"], ["run", "wrong.toml", "--output", "results", "--quiet"]):
+        assert main(command) == 2
+        complained = capsys.readouterr().err
+        assert complained.startswith("bda: error: wrong.toml: ") and words in complained
+    assert not Path("results").exists()
 
 
 @pytest.mark.parametrize(

@@ -10,16 +10,20 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from ..errors import GeometryError, ScenarioError
+from ..errors import GeometryError, ScenarioError, UnreadableError
 from ..geometry.mesh import TriangleMesh
 from ..geometry.repair import repaired_solid
 from ..geometry.rotations import rotation_about_z
 from ..geometry.solids import union
 from ..geometry.vectors import transformed
+from ..reading import MEGABYTE, check_file
 from ..scenario import Geometry
 from ..scenario.geometry import MESH_FILES
 from ..schema import FARTHEST_M, SHORTEST_LENGTH_M
 from .member import Member
+
+MOST_BYTES = 1000 * MEGABYTE
+"""Size up to which a mesh is read: tens of millions of triangles."""
 
 _BELOW_GROUND_M = 1e-3
 """How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
@@ -83,8 +87,10 @@ def exported(mesh: TriangleMesh, suffix: str) -> bytes:
 def _file_mesh(path: Path) -> TriangleMesh:
     if path.suffix.lower() not in MESH_FILES:
         raise ScenarioError(f'geometry.file is "{path}": expected a file that ends in one of {", ".join(MESH_FILES)}')
-    if not path.is_file():
-        raise ScenarioError(f'geometry.file is "{path}": no such file')
+    try:
+        check_file(path, MOST_BYTES)
+    except UnreadableError as error:
+        raise ScenarioError(f'geometry.file is "{path}": {error}') from error
     try:
         mesh = trimesh.load(path, force="mesh", process=False)
     except Exception as error:  # each reader has its own for a file that is not what its name says

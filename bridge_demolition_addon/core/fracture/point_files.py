@@ -8,7 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import ScenarioError
+from ..errors import ScenarioError, UnreadableError
+from ..reading import MEGABYTE, file_text
+
+MOST_BYTES = 1000 * MEGABYTE
+"""Size up to which points are read: tens of millions of them."""
 
 _AMOUNTS = {3: "three", 4: "four"}
 
@@ -49,12 +53,10 @@ def paint_text(points_m: np.ndarray, weights: np.ndarray) -> str:
 
 def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = [(number, row) for number, row in enumerate(csv.reader(file), start=1) if any(map(str.strip, row))]
-    except OSError as error:
-        raise ScenarioError(f'fracture.{key} is "{path}": cannot be read ({error.strerror})') from error
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f'fracture.{key} is "{path}": is no text file in UTF-8') from error
+        lines = csv.reader(io.StringIO(file_text(path, MOST_BYTES), newline=""))
+        rows = [(number, row) for number, row in enumerate(lines, start=1) if any(map(str.strip, row))]
+    except (UnreadableError, csv.Error) as error:
+        raise ScenarioError(f'fracture.{key} is "{path}": {error}') from error
     found = [_row(path, number, row, columns) for number, row in rows]
     return np.array([row for row in found if row is not None], dtype=float).reshape(-1, columns)
 

@@ -13,7 +13,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from ..errors import ScenarioError
+from ..errors import ScenarioError, UnreadableError
+from ..reading import MEGABYTE, file_text
 from ..schema import (
     Table,
     expected,
@@ -38,6 +39,12 @@ BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
 BASED_ON = "based_on"
 """Key of the table of a scenario: the file of which this one is a variant."""
+
+MOST_BASES = 20
+"""How many files a variant may be based on, one on the other."""
+
+MOST_BYTES = 10 * MEGABYTE
+"""Size up to which a scenario is read; those with thousands of places have less than 1 MB."""
 
 WITHOUT = "without"
 """Key of the table of a scenario: tables and keys of that file that this one does without."""
@@ -90,16 +97,9 @@ def toml_value(value: Any) -> str:
 
 def _file_text(path: Path) -> str:
     try:
-        # Editors on Windows may mark a UTF-8 file at its beginning, which tomllib does not take.
-        return path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError as error:
-        raise ScenarioError("no such file: expected a scenario in TOML") from error
-    except IsADirectoryError as error:
-        raise ScenarioError("is a directory: expected a scenario in TOML") from error
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"not a text in UTF-8, at byte {error.start}: expected a scenario in TOML") from error
-    except OSError as error:
-        raise ScenarioError(f"cannot be read: {error.strerror}") from error
+        return file_text(path, MOST_BYTES)
+    except UnreadableError as error:
+        raise ScenarioError(f"{error}: expected a scenario in TOML") from error
 
 
 def _document(text: str) -> dict[str, Any]:
@@ -120,6 +120,8 @@ def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, 
     variants = (*variants, path.resolve())
     if base in variants:
         raise ScenarioError(f"is based on {shown(name)}, which is based on it in turn")
+    if len(variants) > MOST_BASES:
+        raise ScenarioError(f"expected at most {MOST_BASES} files that are based on each other")
     try:
         inherited = _document_of_file(base, variants)
     except ScenarioError as error:
@@ -137,7 +139,10 @@ def _make_paths_absolute(folder: Path, document: dict[str, Any]) -> None:
 
 
 def _absolute(folder: Path, path: str) -> str:
-    return str((folder / path).resolve())
+    try:
+        return str((folder / path).resolve())
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL in it, for one, or links that lead in a circle
+        raise ScenarioError(f"{shown(path)} is no path of a file: {error}") from error
 
 
 def _scenario(document: dict[str, Any]) -> Scenario:

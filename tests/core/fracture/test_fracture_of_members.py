@@ -150,14 +150,21 @@ def test_files_that_hold_no_points_are_refused(tmp_path, content, text):
 
 
 def test_a_missing_file_of_points_is_refused(tmp_path):
-    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*cannot be read"):
+    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*: no such file"):
         points_from_file(tmp_path / "none.csv")
 
 
 def test_a_file_of_points_that_is_no_text_is_refused(tmp_path):
     path = tmp_path / "points.csv"
     path.write_bytes(b"\xff\xfe\x00x")
-    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*: is no text file in UTF-8"):
+    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*: not a text in UTF-8"):
+        points_from_file(path)
+
+
+def test_a_field_longer_than_any_number_is_refused(tmp_path):
+    path = tmp_path / "points.csv"
+    path.write_text("1," * 3 + "1" * 200_000, encoding="utf-8")
+    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*field larger than field limit"):
         points_from_file(path)
 
 

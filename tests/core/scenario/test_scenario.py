@@ -161,7 +161,7 @@ def test_frames_cover_the_duration():
         (
             BRIDGE,
             {"span_lengths_m": []},
-            "bridge.span_lengths_m is a list of length 0: expected a list of one or more numbers from 0.001 to 10000.0 (m)",
+            "bridge.span_lengths_m is a list of length 0: expected a list of one or more numbers from 0.001 to 10000.0",
         ),
         (BRIDGE, {"span_lengths_m": [13, -1]}, "bridge.span_lengths_m[1] is -1: expected a list of one or more "),
         (BRIDGE, {"deck": 5}, "bridge.deck is 5: expected a table"),

@@ -99,6 +99,20 @@ def test_two_that_are_based_on_each_other(folder):
         read_scenario(variant(folder, name="second.toml", base="first.toml"))
 
 
+def test_a_chain_of_variants_has_an_end(folder):
+    for number in range(1500):
+        variant(folder, name=f"{number}.toml", base=f"{number + 1}.toml")
+    with pytest.raises(ScenarioError, match="at most 20 files that are based on each other"):
+        read_scenario(folder / "0.toml")
+
+
+def test_a_base_larger_than_any_scenario_is_not_read(folder):
+    with (folder / "large.toml").open("wb") as file:
+        file.truncate(10_000_001)
+    with pytest.raises(ScenarioError, match=r"has 10\.0 MB: expected at most 10 MB"):
+        read_scenario(folder / "large.toml")
+
+
 def test_leaving_out_needs_a_base(folder):
     path = folder / "alone.toml"
     path.write_text(I235_FILE.read_text().replace("[scenario]", '[scenario]\nwithout = ["ball"]'))
