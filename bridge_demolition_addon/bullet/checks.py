@@ -78,7 +78,7 @@ def check_bodies(
         Evaluated for the present frame: it knows where the bodies are.
     """
     scene = depsgraph.scene
-    gravity = np.array(scene.gravity) if scene.use_gravity else np.zeros(3)
+    gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
     for body, holder, address in bodies:
         _check_body(layout, body, holder, address, gravity)
         _check_place(layout, body.evaluated_get(depsgraph), address)
@@ -147,7 +147,7 @@ def _check_weight(name: str, weight: tuple[float, ...], inverse_mass: float, gra
     """Bullet keeps the weight of every body that moves; Blender has just set it from the scene's gravity."""
     if inverse_mass == 0.0:
         return
-    difference = np.array(weight) * inverse_mass - gravity
+    difference = np.array(weight, float) * inverse_mass - gravity
     _expect_close(f"weight {name}", abs(difference).max() / max(1.0, abs(gravity).max()), 0.0)
 
 
@@ -162,7 +162,7 @@ def _check_place(layout: Layout, body: bpy.types.Object, address: int) -> None:
         raise LayoutError(f"transform of body {body.name!r} cannot be read")
     transform = np.frombuffer(raw)
     place, rotation, _ = body.matrix_world.decompose()
-    expected = np.column_stack((np.array(rotation.to_matrix()), np.zeros(3)))
+    expected = np.column_stack((np.array(rotation.to_matrix(), float), np.zeros(3)))
     size = 1.0 + np.abs(place).max()
     _expect_close(f"place of body {body.name!r}", abs(transform[12:] - place).max() / size, 0.0)
     # Rotations pass through single-precision quaternions, which costs some digits.

@@ -63,7 +63,7 @@ def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 def scaled_mesh(body: bpy.types.Object) -> TriangleMesh:
     """Return a body's triangles, scaled as it is, from its origin, which Bullet takes for its centre of mass."""
     mesh = triangle_mesh(body.data)
-    return TriangleMesh(mesh.vertices * np.array(body.matrix_world.to_scale()), mesh.triangles)
+    return TriangleMesh(mesh.vertices * np.array(body.matrix_world.to_scale(), float), mesh.triangles)
 
 
 def triangle_mesh(mesh: bpy.types.Mesh) -> TriangleMesh:

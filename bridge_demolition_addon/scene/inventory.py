@@ -38,7 +38,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         vertex_counts=np.array([len(mesh.vertices) for mesh in meshes], int),
         connection_names=np.array([connection.name for connection in connections]),
         pairs=pairs,
-        points_m=np.array([each.matrix_world.translation for each in connections]).reshape(-1, 3),
+        points_m=np.array([each.matrix_world.translation for each in connections], float).reshape(-1, 3),
         areas_m2=areas,
         normals=normals,
         second_moments_m4=second_moments,

@@ -45,5 +45,5 @@ def events_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], invent
     changes = changes_of(scene)
     if not changes:
         return ()
-    centres = np.array([body.matrix_world.translation for body in bodies]).reshape(-1, 3)
+    centres = np.array([body.matrix_world.translation for body in bodies], float).reshape(-1, 3)
     return schedule(changes, recorded_structure(inventory, centres))

@@ -43,7 +43,7 @@ class RunContext:
     @classmethod
     def of(cls, scene: bpy.types.Scene, title: str, scenario: Scenario | None) -> RunContext:
         """Return the context of a scene as it is now."""
-        return cls(title, np.array(scene.gravity), scene_time_step(scene).substep_s, scenario)
+        return cls(title, np.array(scene.gravity, float), scene_time_step(scene).substep_s, scenario)
 
 
 def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:

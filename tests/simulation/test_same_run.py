@@ -91,6 +91,15 @@ def test_much_comes_to_pass_in_these_runs(usual):
             assert len(list(csv.reader(file))) > 1
 
 
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_everything_is_recorded_in_double_precision(usual, name):
+    """Blender's vectors become arrays of single precision in some of its versions, and of double in others."""
+    folder, _ = usual
+    with np.load(folder / name / "results.npz") as arrays:
+        types = {key: arrays[key].dtype for key in arrays}
+    assert {key for key, each in types.items() if each.kind == "f" and each != np.float64} == set()
+
+
 @pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.kernel)
 def test_runs_are_the_same_on_another_processor(usual, tmp_path, machine):
     flags = CPU_INFORMATION.read_text().split() if CPU_INFORMATION.exists() else []

@@ -97,7 +97,11 @@ def _file_mesh(path: Path) -> TriangleMesh:
         raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
     if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
         raise GeometryError(f"{path}: has no faces; export a closed surface.")
-    return TriangleMesh(np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int64))
+    vertices = np.asarray(mesh.vertices, dtype=float)
+    if path.suffix.lower() == ".glb":
+        # Of single precision in the file; trimesh has placed them by products whose last bits differ by processor.
+        vertices = vertices.astype(np.float32).astype(float)
+    return TriangleMesh(vertices, np.asarray(mesh.faces, dtype=np.int64))
 
 
 def _check_extent(mesh: TriangleMesh, name: str) -> None:

@@ -119,7 +119,7 @@ def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m
     """
     place, rotation, _ = matrix.decompose()
     frames = _frames(lift_frame, shares)
-    key_values(ball, "location", frames, lift_path(np.array(place), end_m, shares))
+    key_values(ball, "location", frames, lift_path(np.array(place, float), end_m, shares))
     key_values(ball, "rotation_euler", frames[:1], [rotation.to_euler(ball.rotation_mode)], constant=True)
 
 

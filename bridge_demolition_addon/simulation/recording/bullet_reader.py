@@ -58,7 +58,7 @@ class BulletReader:
             inventory.masses_kg,
             np.array([body.rigid_body.linear_damping for body in bodies]),
             np.array([body.rigid_body.angular_damping for body in bodies]),
-            np.array(scene.gravity),
+            np.array(scene.gravity, float),
             Motion(world.positions()[0], world.velocities(), world.angular_velocities()),
         )
         self._substeps = SubstepRecorder(world, inventory, breaking, self._events, blast, normal_substep_s, work)

@@ -42,7 +42,7 @@ class MomentumReader:
 
     def read_frame(self, depsgraph: bpy.types.Depsgraph) -> Frame:
         """Return the frame just evaluated, one on from the last; of a blast it has nothing yet."""
-        matrices = np.array([body.evaluated_get(depsgraph).matrix_world for body in self._bodies])
+        matrices = np.array([body.evaluated_get(depsgraph).matrix_world for body in self._bodies], float)
         positions, axes = matrices[:, :3, 3], matrices[:, :3, :3]
         rotations = axes / length(np.swapaxes(axes, 1, 2))[:, None]
         last, step = self._last, time_step_at(self._scene, self._scene.frame_current)
@@ -73,5 +73,5 @@ class MomentumReader:
 
     def _loads(self, accelerations: np.ndarray) -> FrameLoads:
         """Net forces under accelerations (n, 3); everything else is unknown."""
-        forces = self._masses_kg[:, None] * (accelerations - np.array(self._scene.gravity))
+        forces = self._masses_kg[:, None] * (accelerations - np.array(self._scene.gravity, float))
         return replace(self._no_loads, body_forces_n=forces, body_peaks_n=length(forces))

@@ -260,7 +260,7 @@ class Recording:
         strength, ductility = (astuple(each) if each else () for each in (breaking.strength, breaking.ductility))
         thresholds = [each.rigid_body_constraint.breaking_threshold for each in self._connections]
         step = time_step_at(self.scene, self._start_frame)
-        matrices = np.array([body.matrix_world for body in self._bodies])
+        matrices = np.array([body.matrix_world for body in self._bodies], float)
         places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
         return built_digest(
             self.inventory,
