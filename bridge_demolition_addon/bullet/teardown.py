@@ -99,15 +99,7 @@ class Fingerprints:
 
 
 class ConnectionSettings:
-    """The settings of connections, to see quickly which of them were edited.
-
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    connections
-        Objects with a rigid-body constraint.
-    """
+    """The settings of connections, to see quickly which of them were edited."""
 
     def __init__(self, layout: Layout, connections: Sequence[bpy.types.Object]):
         addresses = [each.rigid_body_constraint.as_pointer() for each in connections]

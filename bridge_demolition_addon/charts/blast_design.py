@@ -91,6 +91,11 @@ class ChartSettings:
         return "overpressure / ambient pressure" if self.as_ratio else "overpressure (kPa)"
 
     @property
+    def time_label(self) -> str:
+        """Time axes, in words."""
+        return "time / W$^{1/3}$ (ms/kg$^{1/3}$)" if self.scaled else "time since the detonation (ms)"
+
+    @property
     def source(self) -> str:
         """Where the numbers come from, for the titles."""
         names = {BlastModel.KINGERY_BULMASH: "Kingery-Bulmash", BlastModel.KINNEY_GRAHAM: "Kinney-Graham"}
@@ -112,8 +117,7 @@ def pressure_over_time(settings: ChartSettings) -> Figure:
         # Up the front first, which takes no time.
         axes.plot(np.append(time[0], time) / time_unit, np.append(0.0, pressure), label=label, **style)
     axes.set_title(f"Pulses of {_mass(settings.pulse_charge_kg)} of TNT as they pass\n{settings.source}")
-    axes.set_xlabel("time / W$^{1/3}$ (ms/kg$^{1/3}$)" if settings.scaled else "time since the detonation (ms)")
-    axes.set_ylabel(settings.pressure_label)
+    axes.set(xlabel=settings.time_label, ylabel=settings.pressure_label)
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
     axes.legend(title="scaled distance" if settings.scaled else "distance", frameon=False)
@@ -185,7 +189,7 @@ def two_span_charges(settings: ChartSettings) -> Figure:
     places = _along_the_spans()
     peaks = _pulses_along_bridge(places, settings).peaks_pa
     for charge, peak, style in zip(settings.pier_charges, peaks.T, _line_styles(), strict=False):
-        axes.semilogy(places, peak / settings.pressure_unit_pa, label=charge.name, **style)
+        axes.semilogy(places / _scale(settings), peak / settings.pressure_unit_pa, label=charge.name, **style)
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of each charge")
     return figure
 
@@ -197,9 +201,9 @@ def two_span_total(settings: ChartSettings) -> Figure:
     pulses = _pulses_along_bridge(places, settings)
     # The pressure can only be largest when a front has just arrived.
     at_arrivals = [pressure_at(pulses, arrivals[:, None]).sum(axis=1) for arrivals in pulses.arrivals_s.T]
-    unit = settings.pressure_unit_pa
-    axes.semilogy(places, pulses.peaks_pa.sum(axis=1) / unit, "--", color="black", label="sum of the peaks, as in 2019")
-    axes.semilogy(places, np.max(at_arrivals, axis=0) / unit, "-", color="#b2182b", label="largest sum at one time")
+    unit, along = settings.pressure_unit_pa, places / _scale(settings)
+    axes.semilogy(along, pulses.peaks_pa.sum(axis=1) / unit, "--", color="black", label="sum of the peaks, as in 2019")
+    axes.semilogy(along, np.max(at_arrivals, axis=0) / unit, "-", color="#b2182b", label="largest sum at one time")
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of all charges")
     return figure
 
@@ -207,7 +211,6 @@ def two_span_total(settings: ChartSettings) -> Figure:
 def two_span_over_time(settings: ChartSettings) -> Figure:
     """The overpressure along the bridge as time goes on: where the waves run and meet."""
     figure, axes = _figure()
-    cube_root = _bridge_cube_root(settings) if settings.scaled else 1.0
     places = _along_the_spans()
     pulses = _pulses_along_bridge(places, settings)
     meeting_s = pulses.arrivals_s.min(axis=1).max()
@@ -215,8 +218,8 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
     pressures = np.array([pressure_at(pulses, time).sum(axis=1) for time in times]) / settings.pressure_unit_pa
     smallest = SMALLEST_SHADE_PA / settings.pressure_unit_pa
     image = axes.pcolormesh(
-        places / cube_root,
-        1e3 * times / cube_root,
+        places / _scale(settings),
+        1e3 * times / _scale(settings),
         np.maximum(pressures, smallest),
         norm=LogNorm(smallest, 1e3 * smallest),
         cmap="Greys",
@@ -226,8 +229,7 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
     bar = figure.colorbar(image, ax=axes, extend="both", label=settings.pressure_label)
     bar.formatter = PLAIN
     axes.set_title(f"Overpressure of all charges over time\n{_bridge_in_words(settings)}\n{settings.source}")
-    axes.set_xlabel(_along_bridge(settings))
-    axes.set_ylabel("time / W$^{1/3}$ (ms/kg$^{1/3}$)" if settings.scaled else "time since the detonation (ms)")
+    axes.set(xlabel=_along_bridge(settings), ylabel=settings.time_label)
     return figure
 
 
@@ -358,8 +360,9 @@ def _circles(places: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndar
     return x.ravel(), y.ravel()
 
 
-def _bridge_cube_root(settings: ChartSettings) -> float:
-    return float(np.cbrt(settings.pier_charge_kg))
+def _scale(settings: ChartSettings) -> float:
+    """What distances along the bridge, and times there, are divided by."""
+    return float(np.cbrt(settings.pier_charge_kg)) if settings.scaled else 1.0
 
 
 def _bridge_in_words(settings: ChartSettings) -> str:
@@ -388,11 +391,6 @@ def _pulses_along_bridge(places_m: np.ndarray, settings: ChartSettings) -> Pulse
 
 
 def _finish_bridge_chart(figure: Figure, axes: Axes, settings: ChartSettings, title: str) -> None:
-    cube_root = _bridge_cube_root(settings) if settings.scaled else 1.0
-    for line in axes.lines:
-        line.set_xdata(np.asarray(line.get_xdata()) / cube_root)
-    axes.relim()
-    axes.autoscale_view()
     axes.set_title(f"{title}\n{_bridge_in_words(settings)}\n{settings.source}")
     axes.set(xlabel=_along_bridge(settings), ylabel=f"peak {settings.pressure_label}", xmargin=0.0)
     _label_plainly(axes)

@@ -10,18 +10,9 @@ from .style import blank_figure
 
 
 def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
-    """Draw the largest force on any shard, and the connections that still hold, over time.
+    """Draw the largest force on any shard, and the connections that still hold, over time, as a picture.
 
-    Parameters
-    ----------
-    results
-        What was recorded.
-    path
-        Picture to write; its ending chooses the format.
-    title
-        Heading.
-    impact_s
-        When the ball hit, marked by a line; None for no mark.
+    A line marks when the ball hit, if it did.
     """
     figure = blank_figure(9.0, 5.0, dpi=120, layout="constrained")
     force_axes = figure.add_subplot()

@@ -50,19 +50,7 @@ _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.
 def debris_map(
     figure: FigureBase, results: Results, debris: Debris, zones: Sequence[Zone] = (), *, trajectories: bool = False
 ) -> None:
-    """Draw where the debris lies, and where the bridge stood.
-
-    Parameters
-    ----------
-    figure
-        Figure or part of one to draw into.
-    results, debris
-        What was recorded, and its debris.
-    zones
-        Zones of the site.
-    trajectories
-        Whether to draw the path of every shard's centre of mass.
-    """
+    """Draw where the debris lies, where the bridge stood and, if asked for, the paths of the shards' centres."""
     axes = _plan_axes(figure)
     draw_zones(axes, zones)
     for body in debris.bodies:

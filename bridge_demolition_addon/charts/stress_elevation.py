@@ -17,17 +17,7 @@ DECADES = 2.0
 
 
 def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
-    """Draw all shards and balls as seen across the road, those in front last.
-
-    Parameters
-    ----------
-    figure
-        Figure or part of one to draw into.
-    results
-        What was recorded.
-    step
-        Recorded step.
-    """
+    """Draw all shards and balls at a recorded step as seen across the road, those in front last."""
     shards = results.inventory.of_kind("shard")
     stresses_mpa = np.nan_to_num(results.frames.loads.von_mises_pa[step, shards]) / 1e6
     largest = float(stresses_mpa.max(initial=0.0)) or 1.0

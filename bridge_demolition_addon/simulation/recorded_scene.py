@@ -21,11 +21,6 @@ class RecordedScene:
     guard comes before the recording, as it has to see what was removed while Bullet still has it, and contours come
     last, as they show what was recorded.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-
     Attributes
     ----------
     scene

@@ -63,7 +63,7 @@ def no_world(context: bpy.types.Context) -> str | None:
     return "This scene has no rigid-body world: build a scenario first"
 
 
-def recording_runs() -> str | None:
+def recording_runs(_context: bpy.types.Context) -> str | None:
     """Return a sentence where a recording runs, else None."""
     return "A recording runs: unregister its handler first" if running_recording() else None
 

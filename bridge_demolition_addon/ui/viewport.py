@@ -20,12 +20,7 @@ def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object])
 def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> None:
     """Make the 3D view that the mouse is in, if any, show what is selected, beside the sidebar.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Its area is the 3D view.
-    surroundings : float
-        How many times as far away as needed to look from.
+    It looks from `surroundings` times as far away as needed.
     """
     if not context.area or context.area.type != "VIEW_3D":
         return

@@ -22,13 +22,13 @@ _NEAREST_M = 1e-3
 """At a charge itself the ground's velocity would be infinite."""
 
 
-def charges_per_delay(charges: Sequence[Charge], window_s: float = ONE_DELAY_S) -> list[tuple[Charge, ...]]:
-    """Group charges that shake the ground together, in order of time: each within a window from its first charge."""
+def charges_per_delay(charges: Sequence[Charge]) -> list[tuple[Charge, ...]]:
+    """Group charges that shake the ground together, in order of time: each within `ONE_DELAY_S` from its first."""
     groups: list[list[Charge]] = []
     for charge in sorted(charges, key=lambda each: each.delay_s):
         if charge.mass_kg <= 0.0:
             continue
-        if groups and charge.delay_s - groups[-1][0].delay_s < window_s:
+        if groups and charge.delay_s - groups[-1][0].delay_s < ONE_DELAY_S:
             groups[-1].append(charge)
         else:
             groups.append([charge])
@@ -68,7 +68,6 @@ def loads_at(
     place_m: Sequence[float],
     charges: Sequence[Charge],
     model: BlastModel = BlastModel.KINGERY_BULMASH,
-    ground: vibration.Ground = vibration.FREE_FACE_AVERAGE,
 ) -> PlaceLoads:
     """Return the loads of charges, at least one of them above 0 kg, at a position (3,), m.
 
@@ -92,7 +91,7 @@ def loads_at(
         pressures_pa=pressures,
         peak_pa=float(pressures.max()),
         impulse_pa_s=float(impulses.sum()),
-        peak_velocity_m_s=_peak_velocity(place_m, charges, ground),
+        peak_velocity_m_s=_peak_velocity(place_m, charges),
     )
 
 
@@ -120,11 +119,11 @@ def _times(pulses: Pulses) -> np.ndarray:
     return np.unique(np.concatenate([[0.0], before, within, [1.05 * ends.max()]]))
 
 
-def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge], ground: vibration.Ground) -> float:
+def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge]) -> float:
     """Return the largest of all groups, each at the distance of its nearest charge, which is on the safe side."""
     velocities = []
     for group in charges_per_delay(charges):
         nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()
         mass = sum(charge.mass_kg for charge in group)
-        velocities.append(float(vibration.peak_particle_velocity(max(nearest, _NEAREST_M), mass, ground)))
+        velocities.append(float(vibration.peak_particle_velocity(max(nearest, _NEAREST_M), mass)))
     return max(velocities)

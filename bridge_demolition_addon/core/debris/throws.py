@@ -104,15 +104,15 @@ class HeightMap:
         return float(cell * np.maximum(np.nan_to_num(self.heights_m), 0.0).sum())
 
 
-def height_map(results: Results, bodies: np.ndarray, step: int = -1, cells: int = 200) -> HeightMap:
-    """Return the heights of the convex hulls of bodies (d,); the longer side of their plan is cut into `cells`.
+def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> HeightMap:
+    """Return the last heights of the convex hulls of bodies (d,); the longer side of their plan is cut into `cells`.
 
     A body whose hull is flat has no upper side, and is left out.
     """
     solid = [body for body in bodies if results.inventory.volumes_m3[body] > 0.0]
     if not solid:
         return HeightMap(np.zeros(0), np.zeros(0), np.zeros((0, 0)))
-    all_corners = [corners_at(results, step, body) for body in solid]
+    all_corners = [corners_at(results, -1, body) for body in solid]
     low = np.min([each[:, :2].min(axis=0) for each in all_corners], axis=0)
     high = np.max([each[:, :2].max(axis=0) for each in all_corners], axis=0)
     size = float((high - low).max()) / cells
@@ -122,8 +122,8 @@ def height_map(results: Results, bodies: np.ndarray, step: int = -1, cells: int 
     hulls = convex_hulls([results.inventory.vertices_of(body) for body in solid])
     for number, (body, corners) in enumerate(zip(solid, all_corners, strict=True)):
         faces = slice(hulls.starts[number], hulls.starts[number + 1])
-        normals = transformed(results.frames.rotations[step, body], hulls.normals[faces])
-        offsets = hulls.offsets[faces] + dot(normals, results.frames.positions_m[step, body])
+        normals = transformed(results.frames.rotations[-1, body], hulls.normals[faces])
+        offsets = hulls.offsets[faces] + dot(normals, results.frames.positions_m[-1, body])
         columns = slice(*np.searchsorted(xs, [corners[:, 0].min(), corners[:, 0].max()]))
         rows = slice(*np.searchsorted(ys, [corners[:, 1].min(), corners[:, 1].max()]))
         upper = _upper_side(normals, offsets, xs[columns], ys[rows])

@@ -53,9 +53,7 @@ class FracturedMembers:
     faces: SharedFaces
 
 
-def fractured_members(
-    scenario: Scenario, members: Sequence[Member], density: PointDensity | None = None
-) -> FracturedMembers:
+def fractured_members(scenario: Scenario, members: Sequence[Member]) -> FracturedMembers:
     """Members in shards as a scenario asks for; the same seed gives the same shards.
 
     Parameters
@@ -64,8 +62,6 @@ def fractured_members(
         Says how many shards, and how they are cut.
     members : sequence of Member
         What is cut.
-    density : PointDensity, optional
-        Where the points lie closer, in place of what the scenario says.
 
     Raises
     ------
@@ -75,7 +71,7 @@ def fractured_members(
         The members cannot be cut into that many shards, or a point lies outside of all.
     """
     settings = scenario.fracture
-    density = density or _density(settings)
+    density = _density(settings)
     own_points = _points_by_member(settings, members)
     rules = _rules(settings, members)
     counts = _counts(scenario, members, rules, own_points, density)
@@ -232,13 +228,7 @@ def _shared_counts(
 
 
 def _distribute_rest(counts: np.ndarray, amounts: np.ndarray, wanted: int) -> np.ndarray:
-    """The counts (k,), with the rest of the wanted shards distributed by volume among members that have none yet.
-
-    Raises
-    ------
-    GeometryError
-        There are too few shards left, or some that no member may have.
-    """
+    """The counts (k,), with the rest of the wanted shards distributed by volume among members that have none yet."""
     is_open, taken = counts == 0, int(counts.sum())
     if is_open.all():
         return shards_per_member(amounts, wanted)

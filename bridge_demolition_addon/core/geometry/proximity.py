@@ -100,7 +100,6 @@ def nearest_points(points: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarr
     Parameters
     ----------
     points : (n, 3) float
-        .
     count : int
         How many for each; all others where there are no more.
 
@@ -127,18 +126,9 @@ def nearest_points(points: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarr
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Grid:
-    """Points (n, 3) sorted by the number of their cell, an empty layer of cells around them.
+    """Points (n, 3) with the numbers of their cells (n,), also in ascending order; an empty layer of cells is around.
 
-    Attributes
-    ----------
-    points : (n, 3) float
-        The points.
-    keys : (n,) int
-        Numbers of their cells.
-    steps : (9,) int
-        Differences of these numbers to the rows of cells beside and around one.
-    order, sorted_keys : (n,) int
-        Points in ascending order of their cells, and the numbers of these.
+    The steps (9,) lead from the number of a cell to those of the rows of cells beside and around it.
     """
 
     points: np.ndarray

@@ -21,15 +21,7 @@ _HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamm
 
 @dataclass(frozen=True, slots=True)
 class Elasticity:
-    """Elastic constants of a material.
-
-    Attributes
-    ----------
-    young_modulus_pa : float
-        Young's modulus.
-    poisson_ratio : float
-        Poisson's ratio.
-    """
+    """Elastic constants of a material."""
 
     young_modulus_pa: float
     poisson_ratio: float

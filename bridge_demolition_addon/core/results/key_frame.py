@@ -19,14 +19,8 @@ def key_step(results: Results, gravity_m_s2: np.ndarray) -> tuple[int, str]:
     """Return the recorded step that shows most, and which moment it is.
 
     It is the impact of the ball; without one, shortly after the blast; without that, when half of all connections that
-    broke in the course of the run had broken; where none did, that of the largest force on a shard.
-
-    Parameters
-    ----------
-    results
-        What was recorded.
-    gravity_m_s2 : (3,) float
-        Acceleration of gravity.
+    broke in the course of the run had broken; where none did, that of the largest force on a shard. The acceleration of
+    gravity is a vector (3,).
     """
     frames = results.frames
     impact = impact_step(results, gravity_m_s2)

@@ -44,17 +44,7 @@ ol.contents a { color: inherit; }
 
 
 def write_html(document: Document, path: Path, drawn: Callable[[Picture], None] = lambda _: None) -> None:
-    """Write a report as a page.
-
-    Parameters
-    ----------
-    document
-        What to write.
-    path
-        File to write.
-    drawn
-        Called with every picture that is drawn.
-    """
+    """Write a report as a page; `drawn` is called with every picture that is drawn."""
     path.write_text("\n".join(_lines(document, drawn)) + "\n", encoding="utf-8")
 
 

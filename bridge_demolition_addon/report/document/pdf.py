@@ -35,17 +35,7 @@ PHOTO_DOTS_PER_INCH = 150.0
 
 
 def write_pdf(document: Document, path: Path, finished: Callable[[int, int], None] = lambda *_: None) -> None:
-    """Write a report as pages.
-
-    Parameters
-    ----------
-    document
-        What to write.
-    path
-        File to write.
-    finished
-        Called with how many pages are written, and how many there are.
-    """
+    """Write a report as pages; `finished` is called with how many are written, and how many there are."""
     # Letters that stay letters: text can be searched and copied.
     with matplotlib.rc_context({"pdf.fonttype": 42}):
         pages = laid_out(document)

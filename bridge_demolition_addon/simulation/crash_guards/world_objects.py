@@ -12,13 +12,7 @@ _MOST_NAMES = 3
 
 
 class WorldObjects:
-    """The objects of a scene's rigid-body world as they are now.
-
-    Parameters
-    ----------
-    scene
-        Scene with a rigid-body world.
-    """
+    """The objects of a scene's rigid-body world as they are now."""
 
     def __init__(self, scene: bpy.types.Scene):
         self._scene = scene

@@ -19,11 +19,6 @@ from ..recording.recorder import Recording
 class ContourDisplay:
     """Colours of the bodies of one scene.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-
     Attributes
     ----------
     scene

@@ -75,9 +75,7 @@ class BDA_OT_build_force_objects(Action, bpy.types.Operator):
     bl_label = "Build Force Objects"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return no_world(context)
+    why_not = staticmethod(no_world)
 
     def act(self, context: bpy.types.Context) -> str:
         keep_shown_blast(context.scene)
@@ -92,9 +90,7 @@ class BDA_OT_show_total_mass(Action, bpy.types.Operator):
     bl_label = "Show Total Mass of Particles"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return no_world(context)
+    why_not = staticmethod(no_world)
 
     def act(self, context: bpy.types.Context) -> str:
         text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")

@@ -150,17 +150,7 @@ def _draw_on_screen(context: bpy.types.Context) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _BarLayout:
-    """Where the parts of the colour bar are, px from the lower left of the view.
-
-    Attributes
-    ----------
-    left, bottom
-        Of the panel's texts, and of the panel.
-    scale
-        Of Blender's interface.
-    heading_lines
-        How many lines stand above the bar.
-    """
+    """Where the parts of the colour bar are, px from the lower left of the view."""
 
     left: float
     bottom: float

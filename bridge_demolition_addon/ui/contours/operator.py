@@ -24,7 +24,9 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        return recording_runs() or (None if context.scene.bda.results_path else "Choose a file results.npz first")
+        return recording_runs(context) or (
+            None if context.scene.bda.results_path else "Choose a file results.npz first"
+        )
 
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
@@ -47,7 +49,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if reason := recording_runs():
+        if reason := recording_runs(context):
             return reason
         if not context.scene.bda.film_directory:
             return "Choose a folder for the film first"

@@ -20,9 +20,7 @@ class _LogPathOperator(Action, FileWriter):
     setting: str
     usual_name: str
 
-    @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
-        return recording_runs()
+    why_not = staticmethod(recording_runs)
 
     def usual_path(self, context: bpy.types.Context) -> str:
         return getattr(context.scene.bda, self.setting) or self.usual_name

@@ -32,15 +32,24 @@ _contexts: WeakKeyDictionary[Recording, RunContext] = WeakKeyDictionary()
 """What each recording is of."""
 
 
+def why_not_recorded(context: bpy.types.Context) -> str | None:
+    """Return why a scene cannot be recorded now, in a sentence, or None where it can."""
+    if reason := no_world(context) or recording_runs(context):
+        return reason
+    if context.scene.rigidbody_world.point_cache.is_baked:
+        return "The simulation is baked and only played back: delete the bake first"
+    if not context.scene.bda.output_directory:
+        return "Choose a folder for the results first"
+    return None
+
+
 class BDA_OT_register_handler(Action, bpy.types.Operator):
     """Go to the start frame, and record forces and debris from there while the timeline plays"""
 
     bl_idname = "bda.register_handler"
     bl_label = "Register Handler"
 
-    @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return why_not_recorded(context)
+    why_not = staticmethod(why_not_recorded)
 
     def act(self, context: bpy.types.Context) -> str:
         recording = new_recording(context.scene)
@@ -67,17 +76,6 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
 
 
 CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler)
-
-
-def why_not_recorded(context: bpy.types.Context) -> str | None:
-    """Return why a scene cannot be recorded now, in a sentence, or None where it can."""
-    if reason := no_world(context) or recording_runs():
-        return reason
-    if context.scene.rigidbody_world.point_cache.is_baked:
-        return "The simulation is baked and only played back: delete the bake first"
-    if not context.scene.bda.output_directory:
-        return "Choose a folder for the results first"
-    return None
 
 
 def new_recording(scene: bpy.types.Scene) -> Recording:

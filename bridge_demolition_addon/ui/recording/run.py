@@ -33,9 +33,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     bl_idname = "bda.run"
     bl_label = "Run"
 
-    @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return why_not_recorded(context)
+    why_not = staticmethod(why_not_recorded)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """The whole run in one call, for scripts."""
@@ -113,7 +111,7 @@ class BDA_OT_bake(Action, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if reason := no_world(context) or recording_runs():
+        if reason := no_world(context) or recording_runs(context):
             return reason
         if context.scene.rigidbody_world.point_cache.is_baked:
             return "The simulation is baked already"

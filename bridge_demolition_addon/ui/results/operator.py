@@ -33,7 +33,7 @@ class BDA_OT_go_to_body(Action, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        return recording_runs() or (None if context.mode == "OBJECT" else "Go to object mode first")
+        return recording_runs(context) or (None if context.mode == "OBJECT" else "Go to object mode first")
 
     def act(self, context: bpy.types.Context) -> str | None:
         body = context.view_layer.objects.get(self.body)
@@ -98,7 +98,7 @@ class BDA_OT_make_report(Action, bpy.types.Operator):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         if not context.scene.bda.output_directory:
             return "Choose the folder with the results first"
-        return recording_runs()
+        return recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> str | None:
         # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.

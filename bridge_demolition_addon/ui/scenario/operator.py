@@ -129,7 +129,7 @@ class _Removal(Action):
     def why_not(cls, context: bpy.types.Context) -> str | None:
         if no_world(context):
             return "This scene has no rigid-body world: there is nothing to remove"
-        return recording_runs()
+        return recording_runs(context)
 
 
 class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
