@@ -133,8 +133,8 @@ class LoadAccumulator:
         self._connection_peak_forces, self._connection_peak_moments = np.zeros((2, connections, 3))
         self._body_peaks, self._body_peak_sums = np.zeros((2, bodies))
 
-    def add(self, loads: SubstepLoads) -> None:
-        """Add the loads of one sub-step."""
+    def add(self, loads: SubstepLoads) -> np.ndarray:
+        """Add the loads of one sub-step. Return the resultant force (n, 3) on every body."""
         count, substep_s = len(self._volumes), loads.substep_s
         by_contacts = resultants(loads.contact_pairs, loads.contact_impulses_ns, count)
         resultant = resultants(self._pairs, loads.connection_forces_n, count) + by_contacts / substep_s
@@ -150,6 +150,7 @@ class LoadAccumulator:
         self._contact_stress_impulses += self._stress_impulses_of_contacts(loads)
         self._duration_s += substep_s
         self._last = loads
+        return resultant
 
     def finish(self) -> FrameLoads:
         """Return means and peaks of the frame so far, and the impulses of contacts; all 0 where no time passed."""

@@ -17,7 +17,6 @@ import numpy as np
 
 from ..arithmetic import power
 from ..geometry.vectors import cross, dot
-from .forces import resultants
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +33,10 @@ class Motion:
     centres_m: np.ndarray
     velocities_m_s: np.ndarray
     angular_velocities_rad_s: np.ndarray
+
+    def rests(self) -> bool:
+        """Return whether no body has a velocity."""
+        return not (self.velocities_m_s.any() or self.angular_velocities_rad_s.any())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,7 +124,9 @@ class WorkAccumulator:
         start: Motion,
     ):
         self._masses, self._gravity = masses_kg, gravity_m_s2
-        self._linear_left, self._angular_left = 1.0 - linear_damping, 1.0 - angular_damping
+        self._left_per_second = 1.0 - np.stack((linear_damping, angular_damping))
+        self._step_s = 0.0
+        self._linear_left = self._angular_left = np.ones((len(masses_kg), 1))
         self._before = start
         self._begin()
 
@@ -154,6 +159,7 @@ class WorkAccumulator:
         free: np.ndarray,
         of_connections: PairImpulses,
         of_contacts: PairImpulses,
+        resultants_ns: np.ndarray,
         substep_s: float,
     ) -> None:
         """Add a sub-step.
@@ -166,58 +172,76 @@ class WorkAccumulator:
             Bodies that move freely in it. The others rest, or move as animation says.
         of_connections, of_contacts : PairImpulses
             All impulses between bodies.
+        resultants_ns : (n, 3) float
+            Their sum on every body.
         substep_s : float
             Its length.
         """
         before, masses = self._before, np.where(free, self._masses, 0.0)
+        self._before = after
+        if before.rests() and after.rests() and np.array_equal(before.centres_m, after.centres_m):
+            return
+        self._set_step(substep_s)
         # Bullet damps velocities first, then adds gravity, loads and the solver's impulses.
-        damped = power(self._linear_left, substep_s)[:, None] * before.velocities_m_s
-        turning = power(self._angular_left, substep_s)[:, None] * before.angular_velocities_rad_s
+        damped = self._linear_left * before.velocities_m_s
+        turning = self._angular_left * before.angular_velocities_rad_s
         mean = Motion(
             after.centres_m,
             0.5 * (damped + after.velocities_m_s),
             0.5 * (turning + after.angular_velocities_rad_s),
         )
-        rest = masses[:, None] * (after.velocities_m_s - damped - substep_s * self._gravity)
-        for cause, each in enumerate((of_connections, of_contacts)):
-            self._made_by[cause] += self._add_pairs(each, mean, free)
-            rest -= resultants(each.pairs, each.impulses_ns, len(masses))
+        momenta = masses[:, None] * (after.velocities_m_s - damped - substep_s * self._gravity)
+        self._loads_j += float(dot(momenta - resultants_ns, mean.velocities_m_s)[free].sum())
         self._gravity_j += substep_s * float((masses * dot(mean.velocities_m_s, self._gravity)).sum())
-        self._loads_j += float(dot(rest, mean.velocities_m_s)[free].sum())
         squares = dot(before.velocities_m_s, before.velocities_m_s) - dot(damped, damped)
         self._damping_j += 0.5 * float((masses * squares).sum())
-        self._made_by[2] += self._add_lifting(after, masses, substep_s)
-        self._before = after
+        for cause, each in enumerate((of_connections, of_contacts)):
+            self._made_by[cause] += self._add_pairs(each, mean, free)
+        self._made_by[2] += self._add_lifting(before, after, masses, substep_s)
+
+    def _set_step(self, substep_s: float) -> None:
+        """Have the shares of the velocities that Bullet's damping leaves in a sub-step; most have the same length."""
+        if substep_s != self._step_s:
+            self._step_s = substep_s
+            self._linear_left, self._angular_left = power(self._left_per_second, substep_s)[..., None]
 
     def _add_pairs(self, between: PairImpulses, mean: Motion, free: np.ndarray) -> float:
         """Add work between bodies: what is taken away, what tools did, what each body got. Return what is made."""
+        # The velocity of a point p of a body is v + ω × (p - c): of what it has at the origin and of ω.
+        at_origin = mean.velocities_m_s - cross(mean.angular_velocities_rad_s, mean.centres_m)
+        motion = np.concatenate((at_origin, mean.angular_velocities_rad_s), axis=1)
+        about_origin = cross(between.points_m, between.impulses_ns)
+        if between.angular_impulses_nms is not None:
+            about_origin = about_origin + between.angular_impulses_nms
+        loads = np.concatenate((between.impulses_ns, about_origin), axis=1)
         first, second = between.pairs.T
-        moves = free[first], free[second]
-        works = _work_on(first, between, mean), -_work_on(second, between, mean)
-        total = np.where(moves[0] | moves[1], works[0] + works[1], 0.0)
-        gains = [np.where(mover, work, 0.0) for mover, work in zip(moves, works, strict=True)]
-        self._tools_j += float((gains[0] + gains[1] - total).sum())
+        total = dot(loads, motion.take(first, axis=0) - motion.take(second, axis=0))
+        total[~(free[first] | free[second])] = 0.0
         self._dissipated_j -= float(np.minimum(total, 0.0).sum())
-        gains = [np.maximum(gain, 0.0) for gain in gains]
+        self._add_tools(between, loads, motion, free)
+        rows = np.flatnonzero(total > 0.0)
+        gains = [
+            np.maximum(sign * dot(loads[rows], motion[bodies[rows]]), 0.0) * free[bodies[rows]]
+            for sign, bodies in ((1.0, first), (-1.0, second))
+        ]
         both = gains[0] + gains[1]
-        made = np.maximum(total, 0.0)
-        share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
+        share = np.divide(total[rows], both, out=np.zeros_like(both), where=both > 0.0)
         for bodies, gain in zip((first, second), gains, strict=True):
-            self._made_j += np.bincount(bodies, share * gain, len(free))
-        return float(made.sum())
+            self._made_j += np.bincount(bodies[rows], share * gain, len(free))
+        return float(total[rows].sum())
 
-    def _add_lifting(self, after: Motion, masses: np.ndarray, substep_s: float) -> float:
+    def _add_tools(self, between: PairImpulses, loads: np.ndarray, motion: np.ndarray, free: np.ndarray) -> None:
+        """Add the work of bodies that move as animation says on those that move freely."""
+        led = ~free & motion.any(axis=1)
+        if not led.any():
+            return
+        for sign, bodies, others in ((-1.0, *between.pairs.T), (1.0, *between.pairs.T[::-1])):
+            rows = np.flatnonzero(led[bodies] & free[others])
+            self._tools_j += sign * float(dot(loads[rows], motion[bodies[rows]]).sum())
+
+    def _add_lifting(self, before: Motion, after: Motion, masses: np.ndarray, substep_s: float) -> float:
         """Return the energy of bodies that Bullet moved up without a velocity: so it parts hulls that overlap."""
-        pushed = after.centres_m - self._before.centres_m - substep_s * after.velocities_m_s
+        pushed = after.centres_m - before.centres_m - substep_s * after.velocities_m_s
         made = np.maximum(-masses * dot(pushed, self._gravity), 0.0)
         self._made_j += made
         return float(made.sum())
-
-
-def _work_on(bodies: np.ndarray, between: PairImpulses, mean: Motion) -> np.ndarray:
-    """Work (k,) of impulses on bodies (k,), J."""
-    arms, turning = between.points_m - mean.centres_m[bodies], mean.angular_velocities_rad_s[bodies]
-    work = dot(between.impulses_ns, mean.velocities_m_s[bodies] + cross(turning, arms))
-    if between.angular_impulses_nms is not None:
-        work += dot(between.angular_impulses_nms, turning)
-    return work

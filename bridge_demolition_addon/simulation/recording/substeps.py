@@ -166,15 +166,14 @@ class SubstepRecorder:
         loads = self._reader.read(substep_s)
         if self._reinforcement:
             loads.connection_forces_n[:] += self._reinforcement.forces_n
-        self._frame.add(loads)
-        self._add_work(loads)
+        self._add_work(loads, self._frame.add(loads))
         self._break_overloaded(loads)
         self._note_breaks(loads)
         self._world.let_broken_collide()
         if len(self._balls):
             self._note_balls(loads)
 
-    def _add_work(self, loads: SubstepLoads) -> None:
+    def _add_work(self, loads: SubstepLoads, resultants_n: np.ndarray) -> None:
         motion = Motion(loads.centres_m, self._world.velocities(), self._world.angular_velocities())
         if self._is_warming_up:
             self._work.pass_over(motion)
@@ -186,7 +185,8 @@ class SubstepRecorder:
             loads.substep_s * loads.connection_moments_nm,
         )
         of_contacts = PairImpulses(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m)
-        self._work.add(motion, self._world.can_move(), of_connections, of_contacts, loads.substep_s)
+        resultants_ns = loads.substep_s * resultants_n
+        self._work.add(motion, self._world.can_move(), of_connections, of_contacts, resultants_ns, loads.substep_s)
 
     def _break_overloaded(self, loads: SubstepLoads) -> None:
         """Break what its strength does not bear; Bullet's own threshold has been at work within the sub-step."""
