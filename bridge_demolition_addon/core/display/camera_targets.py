@@ -19,13 +19,6 @@ middle half as far."""
 def points_to_see(scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
     """Return the points that a camera is to see: the bridge, what works on it, and the ground where members fall.
 
-    Parameters
-    ----------
-    scenario
-        What happens.
-    members
-        All members of the scenario.
-
     Returns
     -------
     (n, 3) float

@@ -47,17 +47,10 @@ def blocks(counts: np.ndarray) -> Iterator[slice]:
 
 
 def boxes_that_meet(lower: np.ndarray, upper: np.ndarray, distance: float = 0.0) -> np.ndarray:
-    """Pairs of boxes that are no further apart than a distance in every direction.
+    """Pairs of boxes, by corners (n, 3), that are no further apart than a distance in every direction.
 
     Every box is noted in all cells that it reaches into, and boxes noted in the same cell are compared. A pair is taken
     in the first cell that both are noted in, so that none is found twice.
-
-    Parameters
-    ----------
-    lower, upper : (n, 3) float
-        Corners of the boxes.
-    distance : float
-        In the unit of the corners.
 
     Returns
     -------

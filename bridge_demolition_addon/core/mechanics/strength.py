@@ -184,15 +184,6 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
 
     The stress of a rectangle is largest at a corner: bending about its two axes adds up.
 
-    Parameters
-    ----------
-    forces : SectionForces
-        Of m connections.
-    sections : Sections
-        Of the same connections.
-    strength : Strength
-        Of all, or of each of them.
-
     Returns
     -------
     (m,) float

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
-from ..mechanics.strength import MATERIALS, Strength
+from ..mechanics.strength import MATERIALS
 from ..schema import LARGEST_INTEGER, Table, check_exactly_one, key
 from ..units import STANDARD_GRAVITY_M_S2
 
@@ -22,7 +22,7 @@ _STIFFENED = "Bullet softens what is stiffer than a 16th of the body's {} by the
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointSettings(Table):
-    """The type of a connection, what is free in it, and its springs."""
+    """The type of a connection, what is free in it, and its springs; each table of these also has a breaking force."""
 
     type: str | None = key("Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES)
     free: tuple[str, ...] | None = key(
@@ -45,6 +45,13 @@ class JointSettings(Table):
         above=0,
     )
     turning_damping_nms_rad: float | None = key("Damping with it.", default=None, unit="N·m·s/rad", at_least=0)
+
+    @property
+    def breaking_force_newton(self) -> float | None:
+        """Return the force that breaks it, N; None where none was given."""
+        if self.breaking_force_kgf is not None:
+            return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
+        return self.breaking_force_n
 
     @property
     def springs(self) -> Springs:
@@ -113,13 +120,6 @@ class ConnectionBetween(JointSettings):
     def changes_joint(self) -> bool:
         """Return whether type, freedom or springs are given; then those of `[connections]` do not count."""
         return any(getattr(self, name) is not None for name in _JOINT)
-
-    @property
-    def breaking_force_newton(self) -> float | None:
-        """Return the force that breaks it, N; None where none was given."""
-        if self.breaking_force_kgf is not None:
-            return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
-        return self.breaking_force_n
 
     def _check_together(self) -> None:
         breaking = [
@@ -214,18 +214,9 @@ class ConnectionSettings(JointSettings):
     between: tuple[ConnectionBetween, ...] = ()
 
     @property
-    def breaking_force_newton(self) -> float | None:
-        """Return the force that breaks a connection, N; None for a material."""
-        if self.material is not None:
-            return None
-        if self.breaking_force_n is not None:
-            return self.breaking_force_n
-        return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
-
-    @property
     def joints(self) -> tuple[Joint, ...]:
         """Return the joint of connections that follow no rule, then that of each rule."""
-        own = Joint(self.type, self.free or (), self.springs, self.breaking_force_newton, _strength(self.material))
+        own = Joint(self.type, self.free or (), self.springs, self.breaking_force_newton, MATERIALS.get(self.material))
         return (own, *(_joint_between(own, rule) for rule in self.between))
 
     def _check_together(self) -> None:
@@ -257,11 +248,7 @@ class ConnectionSettings(JointSettings):
 def _joint_between(own: Joint, rule: ConnectionBetween) -> Joint:
     kind = rule.type or own.type
     free, springs = (rule.free or (), rule.springs) if rule.changes_joint else (own.free, own.springs)
-    force, strength = rule.breaking_force_newton, _strength(rule.material)
+    force, strength = rule.breaking_force_newton, MATERIALS.get(rule.material)
     if force is None and strength is None:
         force, strength = own.breaking_force_n, own.strength
     return Joint(kind, free, springs, force, strength)
-
-
-def _strength(material: str | None) -> Strength | None:
-    return None if material is None else MATERIALS[material]

@@ -16,23 +16,9 @@ _RAISING_S = 1.0
 
 
 def chisel_tip_positions(hammer: Jackhammer, deck_top_m: float, times_s: np.ndarray) -> np.ndarray:
-    """Return the positions of a chisel's tip at given times.
+    """Return the positions (k, 3) of a chisel's tip at given times (k,), m.
 
     It goes up and down as a cosine between the top of its stroke and its depth below the deck, beginning at the top.
-
-    Parameters
-    ----------
-    hammer : Jackhammer
-        The tool.
-    deck_top_m : float
-        Height of the deck's top.
-    times_s : (k,) float
-        Times, s.
-
-    Returns
-    -------
-    (k, 3) float
-        Positions, m.
     """
     times = np.asarray(times_s, float)
     worked_s = np.clip(times, hammer.start_time_s, hammer.end_time_s) - hammer.start_time_s

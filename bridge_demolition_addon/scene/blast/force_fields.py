@@ -91,13 +91,6 @@ def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> lis
 class ForceFields:
     """The force objects of n bodies, as they push in the coming frame.
 
-    Parameters
-    ----------
-    scene
-        Scene with the bodies.
-    bodies
-        The n bodies.
-
     Raises
     ------
     SimulationError

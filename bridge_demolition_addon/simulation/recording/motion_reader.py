@@ -25,13 +25,7 @@ class MomentumReader:
     Connections are not seen: not their forces, nor whether they hold. Of a body, only the mean of all forces on it
     but gravity is known, and that one frame late in its velocity: a force of one frame is spread over two.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    bodies : sequence of bpy.types.Object
-        Its bodies.
-    inventory : Inventory
-        The same bodies, without connections.
+    The inventory is of the same bodies, without connections.
     """
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory):
