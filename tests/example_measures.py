@@ -102,13 +102,13 @@ def hit_of_the_ball(run: ExampleRun) -> dict[str, float | None]:
 
 
 def second_span(run: ExampleRun) -> dict[str, float | None]:
-    """How far the span beside the one that is hit has moved, and the pier at its far end."""
-    deck = run.of_members("deck")
+    """How far the span beside the one that is hit has moved, and the pier at its far end, soon and later."""
+    deck, soon = run.of_members("deck"), run.at(3.0)
     neighbour = deck[run.results.frames.positions_m[0, deck, 0] > 13.0]
-    pier = np.isin(run.results.inventory.body_members[run.shards], ["pier 3 cap", "pier 3 column 1"])
     return {
+        "neighbour_moved_at_3_s_m": run.moved_m(neighbour, soon).max(),
+        "far_pier_moved_at_3_s_m": run.moved_m(run.members_of("pier 3 cap", "pier 3 column 1"), soon).max(),
         "neighbour_moved_m": run.moved_m(neighbour).max(),
-        "far_pier_moved_m": run.moved_m(run.shards[pier]).max(),
     }
 
 

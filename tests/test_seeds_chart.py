@@ -69,10 +69,12 @@ def test_every_claim_of_a_test_holds_in_at_least_twenty_draws(name):
     assert {row["seed"]: beyond for row in rows if (beyond := beyond_claims(name, row))} == {}
 
 
-def test_the_span_beside_the_ball_stood_in_every_run():
+def test_the_example_says_how_often_the_span_beside_the_ball_fell_as_well():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("two_spans_13m_ball"))
-    assert (runs["span_2_share_fallen_2_m"] == 0.0).all()
-    assert f"stood with each of {len(runs)} seeds" in words(EXAMPLES / "two_spans_13m_ball.toml")
+    fell = (runs["span_2_share_fallen_2_m"] > 0.5).sum()
+    assert f"In {fell} of {len(runs)} seeds the debris broke the middle pier" in words(
+        EXAMPLES / "two_spans_13m_ball.toml"
+    )
 
 
 def test_the_chart_shows_both_throws_of_every_run(runs):
