@@ -52,6 +52,16 @@ def test_formats_give_the_same_member(file_of, suffix):
     np.testing.assert_allclose(member.solid.bounds, [[-2, -0.5, 0], [2, 0.5, 4]], atol=SINGLE_M)
 
 
+def test_a_glb_file_gives_vertices_of_its_own_precision_wherever_they_are_placed(tmp_path):
+    """The product that places them has other last bits on other processors."""
+    scene = trimesh.Scene()
+    scene.add_geometry(as_trimesh(L_SHAPE), transform=trimesh.transformations.rotation_matrix(0.3, [1, 2, 3]))
+    path = tmp_path / "part.glb"
+    path.write_bytes(scene.export(file_type="glb"))
+    vertices = placed_mesh(member_of(str(path))).vertices
+    assert (vertices == vertices.astype(np.float32)).all()
+
+
 def test_a_glb_file_has_y_up_and_transforms_of_its_own(tmp_path):
     scene = trimesh.Scene()
     standing = as_trimesh(turned(L_SHAPE, -np.pi / 2, [1, 0, 0]))  # z up to y up
