@@ -236,6 +236,8 @@ def i235_deck_that_is_hit(run: ExampleRun) -> dict[str, float | None]:
         "hit_deck_down_share": masses_kg[run.fallen_m(deck) > 1.0].sum() / masses_kg.sum(),
         "load_near_over_far": loads_n[apart_m < 2.0].mean() / loads_n[apart_m > 4.0].mean(),
         "largest_reach_m": debris_of(run.results).reaches_m.max(),
+        "hit_deck_highest_m": run.results.frames.positions_m[-1, deck, 2].max(),
+        "lowest_shard_m": run.results.frames.positions_m[-1, run.shards, 2].min(),
         "deck_above_ball_share": None,
         "ball_highest_afterwards_m": None,
     }
