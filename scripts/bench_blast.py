@@ -132,10 +132,10 @@ class _Unrecorded(Recording):
         super().__init__(scene, folder, every_substep=False)
 
     def _keep(self, frame):
-        self._frames.append(frame)
+        self.frames.append(frame)
 
     def _begin_blast(self, world):
-        self._blast = blast.Blast(self.scene, self._bodies, self._inventory, world)
+        self._blast = blast.Blast(self.scene, self._bodies, self.inventory, world)
         self._logs = _NoLogs()
 
 
