@@ -20,6 +20,7 @@ from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.models import BlastModel, blast_wave
 from ..core.blast.pulses import Pulses, blast_pulses, pressure_at
 from ..core.blast.wave import AMBIENT_PRESSURE_PA, Burst
+from ..core.disk import whole_file
 from ..core.errors import OutputError
 from .style import blank_figure
 
@@ -295,7 +296,9 @@ def write_charts(folder: Path, settings: ChartSettings) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name, draw in CHARTS.items():
             paths.append(folder / f"{name}.png")
-            draw(settings).savefig(paths[-1])
+            figure = draw(settings)
+            with whole_file(paths[-1]) as part:
+                figure.savefig(part)
     except OSError as error:
         raise OutputError(f"{folder}: charts cannot be written: {error.strerror or error}") from error
     return paths

@@ -8,6 +8,7 @@ from textwrap import wrap
 import numpy as np
 from matplotlib.image import imread, imsave
 
+from ..core.disk import whole_file
 from ..core.display.colour_bar import colour_bar
 from ..core.display.colour_scale import colours
 from ..core.display.contours import ContourFrame, ContourSettings
@@ -25,7 +26,8 @@ def add_legend(picture: Path, settings: ContourSettings, frame: ContourFrame) ->
     """Put a colour bar with ticks, unit, name of the quantity, frame and time to the left of a PNG picture."""
     pixels = _opaque(imread(picture))
     legend = legend_pixels(pixels.shape[0], settings, frame)
-    imsave(picture, np.clip(np.hstack((legend, pixels)), 0.0, 1.0))
+    with whole_file(picture) as part:
+        imsave(part, np.clip(np.hstack((legend, pixels)), 0.0, 1.0))
 
 
 def legend_width(height_px: int) -> int:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..core.disk import whole_file
 from ..core.results.arrays import Results
 from ..core.results.force_history import largest_on_a_shard
-from .style import blank_figure
+from .style import blank_figure, plain
 
 
 def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
@@ -21,7 +22,7 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     times = results.frames.time_s
     lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
     lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
-    force_axes.set_title(title, parse_math=False, wrap=True)  # a title may hold dollar signs
+    force_axes.set_title(plain(title), wrap=True)
     force_axes.set(xlabel="time (s)", ylabel="force (kN)", xmargin=0.0)
     force_axes.set_ylim(bottom=0.0)
     force_axes.grid(alpha=0.3)
@@ -32,4 +33,5 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     if impact_s is not None:
         lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
     figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
-    figure.savefig(path)
+    with whole_file(path) as part:
+        figure.savefig(part)

@@ -66,8 +66,8 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
     axes = _time_axes(figure, "height above the ground (m)", times_s)
     for number, span in enumerate(spans):
         style = line_style(number)
-        axes.plot(times_s, span.heights_m, **style, label=f"{span.name}: centre of mass")
-        axes.plot(times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=f"{span.name}: lowest shard")
+        axes.plot(times_s, span.heights_m, **style, label=plain(f"{span.name}: centre of mass"))
+        axes.plot(times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=plain(f"{span.name}: lowest shard"))
     highest = max((float(span.heights_m.max()) for span in spans), default=0.0)
     axes.set_ylim(min(0.0, axes.get_ylim()[0]), 1.05 * highest if highest > 0.0 else None)
     _finish(figure, axes, impact_s, columns=2)

@@ -37,5 +37,9 @@ def blank_figure(
 
 
 def plain(text: object) -> str:
-    """Return a text that matplotlib does not take for a formula."""
-    return str(text).replace("$", r"\$")
+    r"""Return a text that matplotlib writes as it is: no formula, and in a legend even where it begins with ``_``.
+
+    Not `parse_math=False`: a title that is wrapped, and a legend, look for formulas all the same.
+    """
+    shown = str(text).replace("$", r"\$")
+    return f" {shown}" if shown.startswith("_") else shown

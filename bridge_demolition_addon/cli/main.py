@@ -1,20 +1,23 @@
 """Command line ``bda``: its commands, and what each kind of failure prints and returns."""
 
 import argparse
-import io
 import os
+import signal
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
-from typing import NoReturn, Self
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import NoReturn
 
 from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError
+from ..core.signals import Interrupted, interrupt
 from . import charge, charts, check, report, run
+from .console import StandardStream
 
 DONE = 0
 RUN_FAILED = 1
 WRONG_INPUT = 2
-INTERRUPTED = 130
+SIGNALLED = 128
+"""Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
 COMMANDS = (check, run, report, charge, charts)
 
@@ -31,31 +34,6 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(f"{message}; see {self.prog} --help")
 
 
-class _Stream(io.TextIOWrapper):
-    """A standard stream whose errors name it, as those of files do."""
-
-    @classmethod
-    def of(cls, stream: io.TextIOWrapper) -> Self:
-        """Return a stream in the place of another, which shows letters that a console lacks as numbers."""
-        encoding, by_lines = stream.encoding, stream.line_buffering
-        return cls(stream.detach(), encoding, "backslashreplace", line_buffering=by_lines)
-
-    def write(self, text: str) -> int:
-        with self._naming():
-            return super().write(text)
-
-    def flush(self) -> None:
-        with self._naming():
-            super().flush()
-
-    @contextmanager
-    def _naming(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise OSError(error.errno, error.strerror, self.name) from error
-
-
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return the exit status.
 
@@ -67,22 +45,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0 done, 1 the run failed, 2 the input is wrong, 130 interrupted.
+        0 done, 1 the run failed, 2 the input is wrong, 130 interrupted; 143 where the system asked for the end.
     """
     try:
         arguments = _parser().parse_args(argv)
         arguments.execute(arguments)
     except (UsageError, ScenarioError, GeometryError, BlastError, OutputError) as error:
         return _failed(error, WRONG_INPUT)
-    except BrokenPipeError:
-        raise
-    except DemolitionError as error:
+    except (DemolitionError, OSError) as error:  # a full disk, for one
         return _failed(error, RUN_FAILED)
-    except OSError as error:  # a full disk, for one
-        return _failed(error, RUN_FAILED)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interruption:
         _say("interrupted")
-        return INTERRUPTED
+        return SIGNALLED + (interruption.signal_number if isinstance(interruption, Interrupted) else signal.SIGINT)
     except SystemExit as leaving:  # argparse, after --help
         return leaving.code or DONE
     return DONE
@@ -90,15 +64,13 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def entry() -> NoReturn:
     """Run the command line and end the process with its exit status."""
-    sys.stdout, sys.stderr = _Stream.of(sys.stdout), _Stream.of(sys.stderr)
+    sys.stdout, sys.stderr = StandardStream.of(sys.stdout), StandardStream.of(sys.stderr)
+    signal.signal(signal.SIGTERM, interrupt)
     try:
         status = main()
         sys.stdout.flush()
-    except BrokenPipeError:  # whoever read the output, such as head, has seen enough
-        _drop_output()
-        status = RUN_FAILED
     except OSError as error:
-        _drop_output()
+        sys.stdout.drop()  # or Python would try again when it ends
         status = _failed(error, RUN_FAILED)
     if "bpy" in sys.modules:
         os._exit(status)  # Blender's own clean-up may hang or crash when Python ends
@@ -111,11 +83,6 @@ def _parser() -> Parser:
     for command in COMMANDS:
         command.add_to(commands)
     return parser
-
-
-def _drop_output() -> None:
-    """Send what is still to be written to standard output nowhere: Python would try again when it ends."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _failed(error: DemolitionError | OSError, status: int) -> int:

@@ -2,9 +2,7 @@
 
 import argparse
 import os
-import signal
 import sys
-import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
@@ -17,6 +15,7 @@ from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
+from ..core.signals import Interrupted, signals_noted
 from ..core.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
 from .arguments import naming
@@ -150,18 +149,11 @@ def _run_scenario(
 
 @contextmanager
 def _interrupted_afterwards() -> Iterator[None]:
-    """Let Ctrl-C wait: Blender prints it as an error of one of its own scripts, and goes on."""
-    if threading.current_thread() is not threading.main_thread():
+    """Let Ctrl-C and SIGTERM wait: Blender prints them as errors of its own scripts, and goes on."""
+    with signals_noted() as signals:
         yield
-        return
-    pressed = threading.Event()
-    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
-    if pressed.is_set():
-        raise KeyboardInterrupt
+    if signals:
+        raise Interrupted(signals[0])
 
 
 @contextmanager

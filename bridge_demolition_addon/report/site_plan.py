@@ -12,6 +12,7 @@ import numpy as np
 from manifold3d import CrossSection
 from pymap3d import enu2geodetic
 
+from ..core.disk import write_whole_text
 from ..core.geometry.plan_areas import outlines, signed_area
 from ..core.scenario import Site
 
@@ -33,7 +34,7 @@ def write_dxf(path: Path, layers: Mapping[str, CrossSection]) -> None:
                 lines += ["0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0"]
             lines += ["0", "SEQEND", "8", layer]
     lines += ["0", "ENDSEC", "0", "EOF"]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\r\n")
+    write_whole_text(path, "\n".join(lines) + "\n", encoding="ascii", newline="\r\n")
 
 
 def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) -> None:
@@ -47,7 +48,7 @@ def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) ->
         for name, area in layers.items()
     ]
     text = json.dumps({"type": "FeatureCollection", "features": features}, indent=1)
-    path.write_text(text + "\n", encoding="utf-8")
+    write_whole_text(path, text + "\n")
 
 
 def degrees(points_m: np.ndarray, site: Site) -> np.ndarray:

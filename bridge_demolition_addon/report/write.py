@@ -13,6 +13,7 @@ from manifold3d import CrossSection
 from ..core.debris.footprint import footprint
 from ..core.errors import OutputError
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..core.results.folder_lock import FolderLock
 from ..core.scenario.file import scenario_text
 from .comparison import comparison
 from .document.blocks import DataTable, Document, Picture, write_tables
@@ -64,7 +65,8 @@ def write_report(
     Raises
     ------
     OutputError
-        A folder holds no run, several runs are to be compared without a folder for it, or something cannot be written.
+        A folder holds no run, several runs are to be compared without a folder for it, something cannot be written, or
+        a run or another report is being written to the folder.
     """
     if output is None and len(folders) > 1:
         raise OutputError("several runs are compared in a folder of their own: give one with --output")
@@ -73,9 +75,10 @@ def write_report(
     target = folders[0] if output is None else output
     try:
         target.mkdir(parents=True, exist_ok=True)
-        if len(runs) > 1:
-            return _written(comparison(runs, add_on_version()), target, progress)
-        return _write_one(runs[0], target, trajectories, progress)
+        with FolderLock(target):
+            if len(runs) > 1:
+                return _written(comparison(runs, add_on_version()), target, progress)
+            return _write_one(runs[0], target, trajectories, progress)
     except OSError as error:
         raise OutputError(f"{target}: the report cannot be written ({error.strerror or error})") from error
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
+from ..core.disk import part_of, write_whole_text
 from ..core.errors import OutputError, writing
 from ..core.results.arrays import Results
 from ..core.results.files import (
@@ -17,29 +19,57 @@ from ..core.results.files import (
     SUMMARY_FILE,
     TABLE_FOLDER,
 )
+from ..core.results.folder_lock import FolderLock, check_unlocked
 from ..core.results.summary import first_hit_s
 
+_BLENDERS_LONGEST_PATH = 1023
+"""Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""
 
-def prepared_folder(folder: Path, *, overwrite: bool) -> Path:
-    """Make the folder, or clear it of an earlier run's results and of nothing else.
+
+def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
+    """Make the folder, or clear it of an earlier run's results and of nothing else, and keep others out of it.
 
     Raises
     ------
     OutputError
-        The folder is there already and may not be overwritten, is no folder, or cannot be written.
+        The folder is there already and may not be overwritten, is no folder, cannot be written, or another run is at
+        work in it.
     """
     check_folder(folder, overwrite=overwrite)
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        for name in RESULT_FILES:
-            (folder / name).unlink(missing_ok=True)
-        remove_report(folder)
-        (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
-    return folder
+    lock = FolderLock(folder)
+    try:
+        with writing(folder):
+            _clear(folder)
+    except OutputError:
+        lock.release()
+        raise
+    return lock
 
 
-def withdraw_folder(folder: Path) -> None:
+def lock_in_place(lock: FolderLock) -> FolderLock:
+    """Return the lock of the folder in which a run can still leave its results.
+
+    That is its own. Where it was moved or deleted it is made again, or, where something else is in its place, a folder
+    beside it that has a number.
+    """
+    if lock.in_place:
+        return lock
+    lock.release()
+    place, number = lock.folder, 1
+    while place.exists():
+        number += 1
+        place = lock.folder.with_name(f"{lock.folder.name}_{number}")
+    with writing(place):
+        (place / PICTURE_FOLDER).mkdir(parents=True)
+    return FolderLock(place)
+
+
+def withdraw_folder(lock: FolderLock) -> None:
     """Take back a folder that was prepared for a run which came to nothing; what is not of a run stays in it."""
+    folder = lock.folder
+    lock.release()
     for name in RESULT_FILES:
         (folder / name).unlink(missing_ok=True)
     for empty in (folder / PICTURE_FOLDER, folder):
@@ -53,13 +83,21 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
     Raises
     ------
     OutputError
-        The folder is there already and may not be overwritten, or is no folder.
+        The folder is there already and may not be overwritten, is no folder, has a path that is too long for Blender,
+        or another run is at work in it.
     """
     with writing(folder):
         if folder.exists() and not folder.is_dir():
             raise OutputError(f"{folder}: expected a folder for the results, found a file")
         if folder.exists() and not overwrite:
             raise OutputError(f"{folder}: exists already; choose another folder or allow overwriting")
+        longest = max(len(os.fsencode(folder.resolve() / name)) for name in RESULT_FILES)
+    if (excess := longest - _BLENDERS_LONGEST_PATH) > 0:
+        raise OutputError(
+            f"{folder}: its path is {excess} bytes too long, as Blender writes to none of more than "
+            f"{_BLENDERS_LONGEST_PATH} bytes: choose a shorter one"
+        )
+    check_unlocked(folder)
 
 
 def remove_report(folder: Path) -> None:
@@ -68,6 +106,15 @@ def remove_report(folder: Path) -> None:
         (folder / name).unlink(missing_ok=True)
     for table in (folder / TABLE_FOLDER).glob("*.csv"):
         table.unlink()
+
+
+def _clear(folder: Path) -> None:
+    """Remove what earlier runs left, parts of files of one that was killed included, and make the inner folder."""
+    for name in RESULT_FILES:
+        (folder / name).unlink(missing_ok=True)
+        part_of(folder / name).unlink(missing_ok=True)
+    remove_report(folder)
+    (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
 
 
 def checked_log(path: Path, *, overwrite: bool) -> Path:
@@ -96,5 +143,5 @@ def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> Non
     from ..charts.force_chart import plot_forces
 
     results.save(folder / RESULTS_FILE)
-    (folder / SUMMARY_FILE).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    write_whole_text(folder / SUMMARY_FILE, json.dumps(summary, indent=2) + "\n")
     plot_forces(results, folder / FORCE_CHART, summary["title"], first_hit_s(summary))

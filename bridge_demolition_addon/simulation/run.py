@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, Protocol
 
 import bpy
 
+from ..core.disk import write_whole_text
 from ..core.display.camera_targets import points_to_see
 from ..core.display.contours import ContourSettings
+from ..core.errors import DemolitionError, SimulationError
+from ..core.results.arrays import Results
 from ..core.results.files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
 from ..core.sequence.checked_model import checked_model
+from ..core.signals import Interrupted, signals_noted
 from ..core.structure.model import Model
 from ..scene.blast.charges import charge_objects, show_until
 from ..scene.demolition import build_demolition, first_frame_after
@@ -26,7 +28,7 @@ from ..scene.world import START_FRAME, keep_played_frames
 from .display.film import FilmRendering, FilmSettings
 from .playback import Playing
 from .recording.recorder import Recording
-from .results_folder import keep_results, prepared_folder
+from .results_folder import check_folder, keep_results, lock_in_place, prepare_folder
 from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
@@ -89,43 +91,81 @@ def run_scenario(
         The folder is there already or cannot be written.
     SimulationError, LayoutError
         The simulation cannot be run or read.
-    KeyboardInterrupt
-        Interrupted by the user; the results so far are kept.
+    Interrupted
+        By Ctrl-C, or by a request to end; the results so far are kept.
     """
+    check_folder(output, overwrite=overwrite)
     began = time.perf_counter()
     progress.stage("building the bridge and its shards")
     model = model or checked_model(scenario)
-    folder = prepared_folder(output, overwrite=overwrite)
-    (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
-    scene = _empty_scene(scenario.title)
-    build_demolition(scene, scenario, model)
-    _prepare_view(scene, scenario, model)
-    built_s = time.perf_counter() - began
-    progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
-    context = RunContext.of(scene, scenario.title, scenario)
-    playing, interrupted = _simulate(scene, folder, scenario, progress)
-    recording = playing.recording
-    if recording.distrust:
-        progress.stage(f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}")
-    results = recording.results()
-    summary = run_summary(recording, results, context, completed=not interrupted)
-    summary["density_kg_m3"] = model.density_kg_m3
-    summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
-    blender_s = playing.seconds - recording.seconds
-    summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
-    progress.stage("writing the results")
+    with ExitStack() as locks:
+        lock = locks.enter_context(prepare_folder(output, overwrite=overwrite))
+        _keep_scenario(lock.folder, scenario)
+        scene = _empty_scene(scenario.title)
+        build_demolition(scene, scenario, model)
+        _prepare_view(scene, scenario, model)
+        built_s = time.perf_counter() - began
+        progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
+        context = RunContext.of(scene, scenario.title, scenario)
+        with signals_noted() as signals:
+            playing = _simulate(scene, lock.folder, scenario, progress, signals)
+            recording = playing.recording
+            if recording.distrust:
+                distrust = f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}"
+                progress.stage(distrust)
+            results = recording.results()
+            summary = run_summary(recording, results, context, completed=not (signals or recording.error))
+            summary["density_kg_m3"] = model.density_kg_m3
+            summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
+            blender_s = playing.seconds - recording.seconds
+            summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
+            progress.stage("writing the results")
+            with _results_of_failure(recording.error):
+                lock = locks.enter_context(lock_in_place(lock))
+                _keep_all(lock.folder, scene, scenario, results, summary)
+        if recording.error:
+            raise SimulationError(f"{recording.error}; the results up to then are in {lock.folder}")
+        if signals:
+            raise Interrupted(signals[0])
+        if pictures:
+            progress.stage("rendering pictures")
+            _render(scene, lock.folder, summary["key_frame"]["frame"])
+        if film:
+            progress.stage("rendering the film")
+            _render_film(scene, lock.folder, progress)
+        if not lock.in_place:
+            raise SimulationError(f"{lock.folder}: was moved or deleted before all pictures were in it")
+    return summary
+
+
+def _keep_scenario(folder: Path, scenario: Scenario) -> None:
+    write_whole_text(folder / SCENARIO_FILE, scenario_text(scenario))
+
+
+def _keep_all(
+    folder: Path, scene: bpy.types.Scene, scenario: Scenario, results: Results, summary: dict[str, Any]
+) -> None:
+    """Leave results, scenario and scene in a folder."""
+    if not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
+        _keep_scenario(folder, scenario)
     keep_results(folder, results, summary)
     keep_played_frames(scene)
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder.resolve() / BLEND_FILE), check_existing=False, compress=True)
-    if interrupted:
-        raise KeyboardInterrupt
-    if pictures:
-        progress.stage("rendering pictures")
-        _render(scene, folder, summary["key_frame"]["frame"])
-    if film:
-        progress.stage("rendering the film")
-        _render_film(scene, folder, progress)
-    return summary
+    path = folder.resolve() / BLEND_FILE
+    try:  # Blender itself writes beside it and renames
+        bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
+    except RuntimeError as error:
+        raise SimulationError(f"{path}: Blender could not write it: {error}") from error
+
+
+@contextmanager
+def _results_of_failure(error: Exception | None) -> Iterator[None]:
+    """Where results cannot be kept of a recording that ended for an error, say so together with that."""
+    try:
+        yield
+    except (DemolitionError, OSError) as failure:
+        if error is None:
+            raise
+        raise SimulationError(f"{error}; the results up to then could not be kept: {failure}") from failure
 
 
 def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> None:
@@ -150,8 +190,10 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> N
             show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
 
 
-def _simulate(scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress) -> tuple[Playing, bool]:
-    """Play the timeline once; whether the user has cut it short, too.
+def _simulate(
+    scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress, signals: Sequence[int]
+) -> Playing:
+    """Play the timeline once, until a signal or an error cuts it short.
 
     A scene that is stopped at rest ends with the frame in which it is.
     """
@@ -159,30 +201,18 @@ def _simulate(scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress
     recording = Recording(scene, folder, every_substep=scenario.recording.every_substep)
     playing = Playing(recording, stop_at=rest)
     try:
-        with _interruptible() as interrupted:
-            while not playing.finished and not (interrupted.is_set() and recording.recorded_frames):
-                playing.step()
-                if recording.recorded_frames > 1:
-                    progress.frame(recording.recorded_frames - 1, playing.total - 1, recording.broken)
+        while not playing.finished and not (signals and recording.recorded_frames):
+            playing.step()
+            if recording.recorded_frames > 1:
+                progress.frame(recording.recorded_frames - 1, playing.total - 1, recording.broken)
+    except Exception:
+        if not (recording.error and recording.recorded_frames):  # or there is something to keep
+            raise
     finally:
         playing.end()
     if playing.at_rest:
         scene.frame_end = scene.frame_current
-    return playing, interrupted.is_set()
-
-
-@contextmanager
-def _interruptible() -> Iterator[threading.Event]:
-    """Note Ctrl-C instead of raising, so that it never cuts a frame or a line of a log in two."""
-    interrupted = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield interrupted
-        return
-    before = signal.signal(signal.SIGINT, lambda *_: interrupted.set())
-    try:
-        yield interrupted
-    finally:
-        signal.signal(signal.SIGINT, before or signal.SIG_DFL)  # none that Python knows of, inside Blender
+    return playing
 
 
 def _render(scene: bpy.types.Scene, folder: Path, key_frame: int) -> None:

@@ -10,7 +10,7 @@ from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.results.files import RESULT_FILES
 from bridge_demolition_addon.core.results.summary import summarise
-from bridge_demolition_addon.simulation.results_folder import keep_results, prepared_folder, withdraw_folder
+from bridge_demolition_addon.simulation.results_folder import keep_results, prepare_folder, withdraw_folder
 
 
 def files_in(folder):
@@ -19,7 +19,9 @@ def files_in(folder):
 
 @pytest.mark.parametrize("overwrite", [False, True])
 def test_a_new_folder_is_made_with_its_parents(tmp_path, overwrite):
-    folder = prepared_folder(tmp_path / "a" / "b", overwrite=overwrite)
+    with prepare_folder(tmp_path / "a" / "b", overwrite=overwrite) as lock:
+        folder = lock.folder
+        assert files_in(folder) == ["run.lock"]
     assert folder == tmp_path / "a" / "b"
     assert folder.is_dir() and files_in(folder) == []
     # Every result has a folder to go to.
@@ -30,7 +32,7 @@ def test_a_new_folder_is_made_with_its_parents(tmp_path, overwrite):
 def test_a_folder_that_is_there_is_not_touched(tmp_path):
     (tmp_path / "summary.json").write_text("kept")
     with pytest.raises(OutputError, match=r"exists already; choose another folder or allow overwriting"):
-        prepared_folder(tmp_path, overwrite=False)
+        prepare_folder(tmp_path, overwrite=False)
     assert (tmp_path / "summary.json").read_text() == "kept"
 
 
@@ -40,17 +42,18 @@ def test_overwriting_clears_results_and_nothing_else(tmp_path):
     others = ["notes.txt", "frames/mine.png", "scenario.toml", "summary.json.old", "tables/mine.txt"]
     for name in [*RESULT_FILES, "tables/debris.csv", *others]:
         (tmp_path / name).write_text("old")
-    prepared_folder(tmp_path, overwrite=True)
+    prepare_folder(tmp_path, overwrite=True).release()
     assert files_in(tmp_path) == sorted(others)
 
 
 def test_a_folder_is_withdrawn_but_for_what_is_not_of_a_run(tmp_path):
+    locks = []
     for name in ("alone", "shared"):
-        prepared_folder(tmp_path / name, overwrite=False)
+        locks.append(prepare_folder(tmp_path / name, overwrite=False))
         (tmp_path / name / "force_log.csv").write_text("", encoding="utf-8")
     (tmp_path / "shared" / "notes.txt").write_text("mine", encoding="utf-8")
-    for name in ("alone", "shared", "never there"):
-        withdraw_folder(tmp_path / name)
+    for lock in locks:
+        withdraw_folder(lock)
     assert [path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*")] == ["shared", "shared/notes.txt"]
 
 
@@ -58,16 +61,16 @@ def test_a_folder_is_withdrawn_but_for_what_is_not_of_a_run(tmp_path):
 def test_a_file_is_no_folder(tmp_path, overwrite):
     (tmp_path / "results").write_text("kept")
     with pytest.raises(OutputError, match="expected a folder for the results, found a file"):
-        prepared_folder(tmp_path / "results", overwrite=overwrite)
+        prepare_folder(tmp_path / "results", overwrite=overwrite)
     with pytest.raises(OutputError, match="cannot be written"):
-        prepared_folder(tmp_path / "results" / "inside", overwrite=overwrite)
+        prepare_folder(tmp_path / "results" / "inside", overwrite=overwrite)
     assert (tmp_path / "results").read_text() == "kept"
 
 
 def test_a_folder_in_the_place_of_a_result_stays(tmp_path):
     (tmp_path / "results.npz").mkdir()
     with pytest.raises(OutputError, match="cannot be written"):
-        prepared_folder(tmp_path, overwrite=True)
+        prepare_folder(tmp_path, overwrite=True)
     assert (tmp_path / "results.npz").is_dir()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +16,12 @@ MOST_BYTES = 1000 * MEGABYTE
 """Size up to which points are read: tens of millions of them."""
 
 _AMOUNTS = {3: "three", 4: "four"}
+_NUMBER = re.compile(r"""[\s"']*[-+]?(\.?\d|(nan|inf|infinity)\s*$)""", re.IGNORECASE)
+"""How a number begins, also one with a slip in it, such as ``1O.5`` or ``1.5;2;3``."""
 
 
 def points_from_file(path: Path) -> np.ndarray:
-    """Points in a CSV file, (n, 3) in m: x, y and z in a row; a first row that holds no numbers is skipped.
+    """Points in a CSV file, (n, 3) in m: x, y and z in a row; a first row without any number is a heading, and skipped.
 
     Raises
     ------
@@ -62,20 +65,24 @@ def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
 
 
 def _row(path: Path, number: int, row: list[str], columns: int) -> list[float] | None:
-    """The numbers in a row; None for a first row of names."""
+    """The numbers in a row; None for a first row of names, in none of which there is a number, not even a wrong one."""
+    if number == 1 and not any(map(_begins_with_number, row)):
+        return None
     try:
         numbers = [float(each) for each in row]
     except ValueError:
-        if number == 1:
-            return None
         numbers = []
     if len(numbers) != columns:
         raise ScenarioError(
             f"{path}, row {number}: expected {_AMOUNTS[columns]} numbers (m) with commas between them, "
             f"found {', '.join(row)}"
-        ) from None
+        )
     if not np.isfinite(numbers).all():
         raise ScenarioError(
             f"{path}, row {number}: expected {_AMOUNTS[columns]} finite numbers (m), found {', '.join(row)}"
         )
     return numbers
+
+
+def _begins_with_number(text: str) -> bool:
+    return _NUMBER.match(text) is not None

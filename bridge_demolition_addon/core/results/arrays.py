@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ..disk import whole_file
 from ..errors import OutputError
 from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.work import FrameWork
@@ -77,7 +78,8 @@ class Results:
 
     def save(self, path: Path) -> None:
         """Write all arrays into one file that `numpy.load` and `load_results` read."""
-        np.savez(path, **self.arrays())
+        with whole_file(path) as part:
+            np.savez(part, **self.arrays())
 
 
 def load_results(path: Path) -> Results:

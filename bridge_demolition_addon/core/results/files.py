@@ -14,6 +14,9 @@ PICTURE_FOLDER = "frames"
 PICTURES = ("before", "impact", "after")
 """Pictures in that folder, PNG."""
 
+LOCK_FILE = "run.lock"
+"""Keeps other runs and reports out of the folder while one writes to it; gone, or of no effect, afterwards."""
+
 FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 
 REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"

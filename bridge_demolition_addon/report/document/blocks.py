@@ -11,6 +11,8 @@ from typing import Any
 
 from matplotlib.figure import FigureBase
 
+from ...core.disk import whole_file
+
 MISSING = "-"
 """Stands in a table where a value is not known."""
 
@@ -145,7 +147,7 @@ def write_tables(tables: Iterable[DataTable], folder: Path) -> list[Path]:
     written = []
     for table in tables:
         path = folder / f"{table.name}.csv"
-        with path.open("w", encoding="utf-8", newline="") as file:
+        with whole_file(path) as part, part.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(column.key for column in table.columns)
             writer.writerows(["" if value is None else value for value in row] for row in table.rows)

@@ -12,6 +12,7 @@ import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, blank_figure
+from ...core.disk import write_whole_text
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
 
 _SHORT_TABLE_ROWS = 16
@@ -45,7 +46,7 @@ ol.contents a { color: inherit; }
 
 def write_html(document: Document, path: Path, drawn: Callable[[Picture], None] = lambda _: None) -> None:
     """Write a report as a page; `drawn` is called with every picture that is drawn."""
-    path.write_text("\n".join(_lines(document, drawn)) + "\n", encoding="utf-8")
+    write_whole_text(path, "\n".join(_lines(document, drawn)) + "\n")
 
 
 def _lines(document: Document, drawn: Callable[[Picture], None]) -> Iterator[str]:

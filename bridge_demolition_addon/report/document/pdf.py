@@ -14,6 +14,7 @@ from matplotlib.image import imread
 from matplotlib.textpath import TextToPath
 
 from ...charts.style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure
+from ...core.disk import whole_file
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 
 PAGE_MM = (210.0, 297.0)
@@ -40,7 +41,8 @@ def write_pdf(document: Document, path: Path, finished: Callable[[int, int], Non
     with matplotlib.rc_context({"pdf.fonttype": 42}):
         pages = laid_out(document)
         # Without a date the same run gives the same file.
-        with PdfPages(path, metadata={"Title": document.title, "CreationDate": None}) as file:
+        metadata = {"Title": document.title, "CreationDate": None}
+        with whole_file(path) as part, PdfPages(part, metadata=metadata) as file:
             for number, page in enumerate(pages, start=1):
                 file.savefig(page)
                 finished(number, len(pages))

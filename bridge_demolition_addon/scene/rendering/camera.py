@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
+from .plain_path import rendered_to
+
 _LENS_MM = 40.0
 _SENSOR_MM = 36.0
 _VIEW_FROM = Vector((-0.55, -1.0, 0.42)).normalized()
@@ -39,8 +41,8 @@ def prepare_pictures(scene: bpy.types.Scene, points: np.ndarray, width_px: int, 
 def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
     """Render a frame that was simulated already; Blender plays it back from its cache."""
     scene.frame_set(frame)
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    with rendered_to(path) as scene.render.filepath:
+        bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 def aim_camera(scene: bpy.types.Scene, points: np.ndarray, aspect: float) -> bpy.types.Object:

@@ -14,6 +14,7 @@ import numpy as np
 from ...core.errors import OutputError
 from ..bodies import bodies_of
 from .camera import aim_camera
+from .plain_path import rendered_to
 
 _RENDER_SETTINGS = ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage", "dither_intensity")
 _RENDERER = "BLENDER_WORKBENCH"
@@ -91,19 +92,20 @@ def encode_film(pictures: Sequence[Path], film: Path, pictures_per_second: float
     width_px, height_px = _size(pictures[0])
     scene = bpy.data.scenes.new("Film")
     try:
-        _set_up_encoder(scene.render, film, pictures_per_second)
+        _set_up_encoder(scene.render, pictures_per_second)
         scene.render.resolution_x, scene.render.resolution_y = width_px, height_px
         scene.render.resolution_percentage = 100
         scene.view_settings.view_transform = "Standard"
         _lay_out(scene, pictures)
-        bpy.ops.render.render(animation=True, scene=scene.name)
+        with rendered_to(film) as scene.render.filepath:
+            bpy.ops.render.render(animation=True, scene=scene.name)
     finally:
         bpy.data.scenes.remove(scene)
     if not film.exists():
         raise OutputError(f"{film}: Blender wrote no film; see what it says on its console")
 
 
-def _set_up_encoder(render: bpy.types.RenderSettings, film: Path, pictures_per_second: float) -> None:
+def _set_up_encoder(render: bpy.types.RenderSettings, pictures_per_second: float) -> None:
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "VIDEO"
     render.image_settings.file_format = "FFMPEG"
@@ -111,7 +113,7 @@ def _set_up_encoder(render: bpy.types.RenderSettings, film: Path, pictures_per_s
     render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "HIGH", "GOOD"
     render.fps = max(1, math.ceil(pictures_per_second - 1e-9))
     render.fps_base = render.fps / pictures_per_second
-    render.filepath, render.use_file_extension = str(film), False
+    render.use_file_extension = False
     render.use_sequencer, render.use_compositing = True, False
 
 

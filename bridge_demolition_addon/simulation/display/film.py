@@ -16,6 +16,7 @@ from ...core.display.film_frames import film_rows
 from ...core.errors import ContourError, OutputError, writing
 from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
+from ...scene.rendering.plain_path import rendered_to
 from ..blender_events import contours_of
 
 _PICTURE = "contours_{:06d}.png"
@@ -121,8 +122,8 @@ class FilmRendering:
             for frame in self._frames:
                 path = self._path(frame)
                 scene.frame_set(frame)
-                scene.render.filepath = str(path)
-                bpy.ops.render.render(write_still=True, scene=scene.name)
+                with rendered_to(path) as scene.render.filepath:
+                    bpy.ops.render.render(write_still=True, scene=scene.name)
                 if error := contours_of(scene).error:
                     raise error
                 if not path.exists():

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from ...core.blast.explosion import StepLoads
+from ...core.disk import is_in_place
+from ...core.errors import SimulationError
 from ...core.geometry.vectors import dot
 from ...core.mechanics.stress import principal_stresses
 from ...core.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
@@ -122,7 +124,7 @@ class Logs:
         self, folder: Path, inventory: Inventory, charges: Sequence[str] = (), files: LogFiles = _IN_THE_FOLDER
     ):
         names = inventory.body_names.tolist()
-        self._inventory = inventory
+        self._folder, self._inventory = folder, inventory
         self._forces = BodyLog(files.forces or folder / FORCE_LOG, FORCE_COLUMNS, names)
         self._debris = BodyLog(files.debris or folder / DEBRIS_LOG, DEBRIS_COLUMNS, names)
         self._breaking = CsvLog(folder / BREAKING_LOG, BREAKING_COLUMNS)
@@ -132,7 +134,15 @@ class Logs:
         self._largest_kinetic_j = np.zeros(len(names))
 
     def write_frame(self, frame: Frame) -> None:
-        """Log the loads of a frame; of the first frame, also where everything is."""
+        """Log the loads of a frame; of the first frame, also where everything is.
+
+        Raises
+        ------
+        SimulationError
+            The folder is not there any more: what is written to its open files would be lost with them.
+        """
+        if not self._breaking.in_place:
+            raise SimulationError(f"{self._folder}: was moved or deleted while a run wrote to it")
         loads = frame.loads
         columns = (
             loads.body_forces_n,
@@ -197,8 +207,14 @@ class CsvLog:
     """
 
     def __init__(self, path: Path, columns: Sequence[str]):
+        self._path = path
         self._file = path.open("w", encoding="utf-8", newline="")
         self.add(",".join(columns) + "\n")
+
+    @property
+    def in_place(self) -> bool:
+        """Whether the file is still where it was opened."""
+        return is_in_place(self._file.fileno(), self._path)
 
     def add(self, lines: str) -> None:
         """Add lines; a run that is killed keeps them."""

@@ -9,8 +9,10 @@ from weakref import WeakKeyDictionary
 import bpy
 import numpy as np
 
+from ...core.disk import write_whole_text
 from ...core.errors import DemolitionError, OutputError, ScenarioError, SimulationError
 from ...core.results.files import SCENARIO_FILE
+from ...core.results.folder_lock import FolderLock
 from ...core.scenario import RecordingSettings, Scenario
 from ...core.scenario.file import scenario_from_text, scenario_text
 from ...core.sequence.rest import Rest
@@ -19,7 +21,7 @@ from ...simulation.playback import start_over
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
-from ...simulation.results_folder import checked_log, keep_results, prepared_folder, withdraw_folder
+from ...simulation.results_folder import checked_log, keep_results, lock_in_place, prepare_folder, withdraw_folder
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
@@ -30,6 +32,9 @@ _TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_h
 
 _contexts: WeakKeyDictionary[Recording, RunContext] = WeakKeyDictionary()
 """What each recording is of."""
+
+_locks: WeakKeyDictionary[Recording, FolderLock] = WeakKeyDictionary()
+"""What keeps others out of each recording's folder, as long as it goes on."""
 
 
 def why_not_recorded(context: bpy.types.Context) -> str | None:
@@ -98,9 +103,10 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
         raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
     folder = absolute(settings.output_directory)
     recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
-    prepared_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
+    lock = prepare_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
+    _locks[recording] = lock
     if scenario:
-        (folder / SCENARIO_FILE).write_text(scenario_text(scenario), encoding="utf-8")
+        write_whole_text(folder / SCENARIO_FILE, scenario_text(scenario))
     _contexts[recording] = RunContext.of(scene, settings.title or scene.name, scenario)
     return recording
 
@@ -120,7 +126,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         In a sentence, that the user has stopped it before its time; empty where that is not so.
     """
     try:
-        _keep_recording(recording, completed=not (recording.error or stopped))
+        folder = _keep_recording(recording, completed=not (recording.error or stopped))
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return refused(operator, recording.error or error)
     if recording.error:
@@ -129,19 +135,30 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         operator.report({"WARNING"}, stopped)
     if recording.distrust:
         operator.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
-    operator.report({"INFO"}, f"Results are in {recording.folder}")
+    operator.report({"INFO"}, f"Results are in {folder}")
     return {"FINISHED"}
 
 
-def _keep_recording(recording: Recording, *, completed: bool) -> None:
+def withdraw_recording(recording: Recording) -> None:
+    """Take back the folder of a recording that came to nothing."""
+    withdraw_folder(_locks.pop(recording))
+
+
+def _keep_recording(recording: Recording, *, completed: bool) -> Path:
+    """Write what was recorded, and return the folder that it is in: another one where the recording's was moved."""
     try:
         results = recording.results()
     except SimulationError:
-        withdraw_folder(recording.folder)
+        withdraw_recording(recording)
         raise
-    summary = run_summary(recording, results, _contexts[recording], completed=completed)
-    keep_results(recording.folder, results, summary)
-    session.keep_recording(recording.folder, results, summary)
+    context = _contexts[recording]
+    summary = run_summary(recording, results, context, completed=completed)
+    with lock_in_place(_locks.pop(recording)) as lock:
+        if context.scenario and not (lock.folder / SCENARIO_FILE).exists():  # a folder in the place of one that moved
+            write_whole_text(lock.folder / SCENARIO_FILE, scenario_text(context.scenario))
+        keep_results(lock.folder, results, summary)
+    session.keep_recording(lock.folder, results, summary)
+    return lock.folder
 
 
 def rest_to_stop_at(recording: Recording) -> Rest | None:

@@ -6,10 +6,9 @@ from ...core.errors import DemolitionError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing
-from ...simulation.results_folder import withdraw_folder
 from ..operators import Action, Refusing, no_world, recording_runs, refused
 from . import session
-from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded
+from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded, withdraw_recording
 
 _TICK_S = 0.001
 """Between two frames, for Blender to draw and to read mouse and keyboard."""
@@ -82,7 +81,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except (DemolitionError, OSError) as error:
             if recording is not None:
-                withdraw_folder(recording.folder)
+                withdraw_recording(recording)
             refused(self, error)
             return False
         return True
