@@ -121,10 +121,13 @@ def run_scenario(
             summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
             progress.stage("writing the results")
             with _results_of_failure(recording.error):
-                lock = locks.enter_context(lock_in_place(lock))
-                _keep_all(lock.folder, scene, scenario, results, summary)
+                kept = locks.enter_context(lock_in_place(lock))
+                _keep_all(kept.folder, scene, scenario, results, summary)
         if recording.error:
-            raise SimulationError(f"{recording.error}; the results up to then are in {lock.folder}")
+            raise SimulationError(f"{recording.error}; the results up to then are in {kept.folder}")
+        if kept is not lock:
+            moved = f"{lock.folder}: was moved or deleted, and the logs with it"
+            raise SimulationError(f"{moved}; the results are in {kept.folder}")
         if signals:
             raise Interrupted(signals[0])
         if pictures:

@@ -125,6 +125,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
     stopped
         In a sentence, that the user has stopped it before its time; empty where that is not so.
     """
+    moved = not _locks[recording].in_place
     try:
         folder = _keep_recording(recording, completed=not (recording.error or stopped))
     except (DemolitionError, OSError) as error:  # a full disk, for one
@@ -133,6 +134,8 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         operator.report({"WARNING"}, f"The recording ended early: {recording.error}")
     elif stopped:
         operator.report({"WARNING"}, stopped)
+    if moved:
+        operator.report({"WARNING"}, f"{recording.folder} was moved or deleted, and the logs with it")
     if recording.distrust:
         operator.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
     operator.report({"INFO"}, f"Results are in {folder}")
