@@ -35,6 +35,11 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "other_decks_broken_share": (0.0, 0.05),  # 0.00 to 0.03
         "piers_fall_m": (0.0, 0.1),  # 0.01 to 0.03
     },
+    "single_span_awake": {
+        # Its own weight breaks parts of it in every draw. Most draws fall; the example says how many.
+        "broken_at_0_5_s": (5, MOST),  # 23 to 104 over 20 seeds
+        "largest_throw_m": (0.0, 10.0),  # 0.1 to 5.7
+    },
     "two_spans_13m_ball": {
         # Sag by Bullet's own compliance with 50 iterations, not by that of concrete; and slivers of faces.
         "moved_before_m": (0.0, 0.05),  # 0.02 to 0.04 over 20 seeds

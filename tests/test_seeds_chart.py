@@ -77,6 +77,13 @@ def test_the_example_says_how_often_the_span_beside_the_ball_fell_as_well():
     )
 
 
+def test_the_example_says_how_often_the_span_that_starts_awake_falls():
+    runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("single_span_awake"))
+    falls = (runs["span_1_median_fall_m"] > 4.0).sum()
+    assert falls > 0.5 * len(runs)
+    assert f"With {falls} of {len(runs)} seeds the piers give way" in words(EXAMPLES / "single_span_awake.toml")
+
+
 def test_the_chart_shows_both_throws_of_every_run(runs):
     farthest, most = seeds_chart.draw(runs).axes[0].lines
     np.testing.assert_array_equal(farthest.get_ydata(), runs["largest_throw_m"])
