@@ -139,9 +139,10 @@ def checked_log(path: Path, *, overwrite: bool) -> Path:
 
 def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:
     """Write arrays, summary and force chart of a recording beside its logs."""
-    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on need wait for.
-    from ..charts.force_chart import plot_forces
-
     results.save(folder / RESULTS_FILE)
     write_whole_text(folder / SUMMARY_FILE, json.dumps(summary, indent=2) + "\n")
+    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on need wait for. Where it
+    # is missing or broken, the results are written by now.
+    from ..charts.force_chart import plot_forces
+
     plot_forces(results, folder / FORCE_CHART, summary["title"], first_hit_s(summary))
