@@ -141,7 +141,7 @@ def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> Non
     """Write arrays, summary and force chart of a recording beside its logs."""
     results.save(folder / RESULTS_FILE)
     write_whole_text(folder / SUMMARY_FILE, json.dumps(summary, indent=2) + "\n")
-    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on need wait for. Where it
+    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on wait for. Where it
     # is missing or broken, the results are written by now.
     from ..charts.force_chart import plot_forces
 
