@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 from matplotlib.image import imread
 
-from ..core.errors import OutputError, ScenarioError
+from ..core.errors import OutputError, ScenarioError, UnreadableError
+from ..core.reading import MEGABYTE, file_text
 from ..core.results.arrays import Results, load_results
+from ..core.results.checks import checked_summary
 from ..core.results.files import (
     BREAKING_LOG,
     FORCE_LOG,
@@ -26,6 +28,9 @@ from ..core.results.removed_shards import without_removed
 from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
+
+MOST_SUMMARY_BYTES = 100 * MEGABYTE
+"""Size up to which a summary is read, which lists every frame."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -158,20 +163,18 @@ def _reason(error: Exception, path: Path) -> str:
 
 def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
     path = folder / SUMMARY_FILE
-    try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    if not path.exists():
         shortcomings.append(
             f"There is no {SUMMARY_FILE}: what the run came from, and the hits of the ball, are not known."
         )
         return None
-    except (OSError, ValueError) as error:
-        shortcomings.append(f"{SUMMARY_FILE} cannot be read, and what it says is left out: {error}")
-        return None
-    if not isinstance(summary, dict):
-        shortcomings.append(f"{SUMMARY_FILE} is not what a run writes, and is left out.")
-        return None
-    return summary
+    try:
+        return checked_summary(json.loads(file_text(path, MOST_SUMMARY_BYTES)))
+    except OutputError as error:
+        shortcomings.append(f"{SUMMARY_FILE} is not what a run writes, and is left out: {error}.")
+    except (UnreadableError, RecursionError, ValueError) as error:
+        shortcomings.append(f"{SUMMARY_FILE} cannot be read, and what it says is left out: {error}.")
+    return None
 
 
 def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:

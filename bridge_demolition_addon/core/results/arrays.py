@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
@@ -11,9 +12,11 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..disk import whole_file
-from ..errors import OutputError
+from ..errors import OutputError, UnreadableError
 from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.work import FrameWork
+from ..reading import check_file
+from .checks import check_arrays
 from .frames import BallHistory, FrameSeries
 from .inventory import Inventory
 
@@ -42,6 +45,24 @@ _STORED_NAMES = {
     },
 }
 """What arrays are called in the file, where not as here. Files of earlier versions have these names."""
+
+
+_UNREADABLE = (
+    OutputError,
+    UnreadableError,
+    AttributeError,  # a single array instead of an archive of them
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OSError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What the archive's reader raises for a file that is damaged, encrypted, or says that it holds more than there is."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,9 +112,12 @@ def load_results(path: Path) -> Results:
         The file is missing or was not written by a run.
     """
     try:
+        check_file(path)
         with np.load(path, allow_pickle=False) as stored:
-            return Results.of_arrays(stored)
-    except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile) as error:
+            arrays = dict(stored)
+        check_arrays(arrays)
+        return Results.of_arrays(arrays)
+    except _UNREADABLE as error:
         raise OutputError(f"{path}: expected the results of a run ({error})") from error
 
 
