@@ -256,6 +256,7 @@ def i235_decks_that_stay(run: ExampleRun) -> dict[str, float | None]:
     moved_m = abs(run.results.frames.positions_m[-1] - run.results.frames.positions_m[0])[staying]
     return {
         "other_decks_moved_m": moved_m.max(),
+        "other_decks_share_fallen_2_m": (run.fallen_m(staying) > 2.0).mean(),
         "other_decks_broken_share": (~run.results.frames.intact[-1, within]).mean(),
         "piers_fall_m": run.fallen_m(run.of_members("pier", "pier cap")).max(),
     }
