@@ -84,6 +84,12 @@ def test_the_example_says_how_often_the_span_that_starts_awake_falls():
     assert f"With {falls} of {len(runs)} seeds the piers give way" in words(EXAMPLES / "single_span_awake.toml")
 
 
+def test_the_example_says_how_often_a_span_between_charges_of_a_ton_is_falling():
+    runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("two_spans_20m_delays"))
+    falling = (np.maximum(runs["span_1_median_fall_m"], runs["span_2_median_fall_m"]) > 0.1).sum()
+    assert f"With {falling} of {len(runs)} seeds a span is falling" in words(EXAMPLES / "two_spans_20m_delays.toml")
+
+
 def test_the_chart_shows_both_throws_of_every_run(runs):
     farthest, most = seeds_chart.draw(runs).axes[0].lines
     np.testing.assert_array_equal(farthest.get_ydata(), runs["largest_throw_m"])

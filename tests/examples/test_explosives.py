@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from example_claims import assert_claims
 from example_runs import example, run_example
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
@@ -35,6 +36,12 @@ def test_bridge_stands_until_its_charges_go_off(loud):
     assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.03 * loud.summary["connections"]["count"]
 
 
+@pytest.mark.parametrize("loud", ["two_spans_20m_delays"], indirect=True)
+def test_charges_of_a_ton_break_some_of_the_bridge_in_every_draw(loud):
+    assert_claims("two_spans_20m_delays", loud)
+
+
+@pytest.mark.parametrize("loud", ["single_span_explosives"], indirect=True)
 def test_bridge_comes_down_with_its_charges(loud):
     assert loud.summary["connections"]["broken"] > 0.1 * loud.summary["connections"]["count"]
     deck, spans_m = loud.of_members("deck"), loud.scenario.bridge.spans_m
