@@ -111,7 +111,7 @@ def test_facts_and_events_of_a_swing():
         ),
         (
             {"drop_height_m": None, "cable": None},
-            r"ball.drop_height_m is missing: expected a number above 0 \(m\), or a",
+            r"ball.drop_height_m is missing: expected a number above 0 and up to 10000.0 \(m\), or a",
         ),
         (
             {"target_m": None, "drop_height_m": None, "cable": replace(CABLE, length_m=11.5)},
