@@ -10,7 +10,15 @@ import numpy as np
 from ..core.errors import LayoutError
 from ..core.geometry.vectors import dot, length
 from .layout import Layout
-from .memory import gather_doubles, gather_integers, gather_pointers, read, read_pointer, read_value
+from .memory import (
+    gather_doubles,
+    gather_integers,
+    gather_pointers,
+    read,
+    read_pointer,
+    read_value,
+    write_integers,
+)
 
 _MOST_POINTS = 4
 """Of two bodies: Bullet keeps no more (MANIFOLD_CACHE_SIZE)."""
@@ -99,10 +107,7 @@ class ContactReader:
         LayoutError
             Memory is not as expected.
         """
-        manifolds = self._manifolds()
-        if len(manifolds) and not self._is_checked:
-            check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
-            self._is_checked = True
+        manifolds = self._checked_manifolds()
         layout = self._layout.manifold
         counts = gather_integers(manifolds + np.uint64(layout.count))
         if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
@@ -115,6 +120,29 @@ class ContactReader:
         loaded = values[:, 6:9].any(axis=1)
         _check_directions(values[loaded])
         return self._contacts(manifolds[rows[loaded]], values[loaded])
+
+    def forget(self, rows: np.ndarray) -> None:
+        """Drop all contact points of bodies (k,) that were put elsewhere; Bullet finds those of their new places.
+
+        It would take the way that they were moved for how deep they are in others, and push them apart by a part of it.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected.
+        """
+        manifolds, layout = self._checked_manifolds(), self._layout.manifold
+        pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
+        moved = np.isin(pairs, rows).any(axis=0)
+        write_integers(manifolds[moved] + np.uint64(layout.count), 0)
+
+    def _checked_manifolds(self) -> np.ndarray:
+        """Addresses of all manifolds, checked when the first are there."""
+        manifolds = self._manifolds()
+        if len(manifolds) and not self._is_checked:
+            check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
+            self._is_checked = True
+        return manifolds
 
     def _manifolds(self) -> np.ndarray:
         """Addresses of all manifolds, from Bullet's pool and from beyond it."""

@@ -283,6 +283,7 @@ class BulletWorld:
         """
         addresses, body = self._bound.bodies[rows], self._layout.body
         origins = addresses + np.uint64(body.transform + 96)
+        self._bound.contacts.forget(rows)
         write_vectors(origins, gather_doubles(origins, 3) - (0.0, 0.0, OUT_OF_REACH_M))
         for field in (body.linear_velocity, body.angular_velocity):
             write_vectors(addresses + np.uint64(field), np.zeros((len(rows), 3)))
