@@ -10,6 +10,7 @@ from shard_scenes import DENSITY_KG_M3, ShardScene
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.core.results.removed_shards import OUT_OF_REACH_M
 from bridge_demolition_addon.core.scenario import Removal, SawCut, Weakening
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.bodies import mark_member
@@ -94,6 +95,8 @@ def test_tower_comes_down_by_what_is_taken_from_under_it(blender, tmp_path, asle
     assert not results.frames.loads.body_peak_sums_n[-1, 1]
     assert results.frames.loads.body_forces_n[-1, 0, 2] == pytest.approx(-3 * WEIGHT_N, rel=0.01)
     assert recording.applied_events[0]["shards"] == [lowest.name]
+    # It stays where it was put: Bullet does not take its way down for how deep it is in the ground.
+    assert height[-1, 1] == pytest.approx(0.5 - OUT_OF_REACH_M, abs=0.01)
 
 
 def test_blocks_removed_together_bear_on_each_other_no_more(blender, tmp_path):
