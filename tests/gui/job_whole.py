@@ -463,7 +463,7 @@ def save_what_was_changed(person: Person, panels: Panels) -> Steps:
         "everything else is saved as it was loaded", replace(found, charges=()), as_typed(scenario_in(PRESET))
     )
     for saved, placed in zip(found.charges, charges(person.scene), strict=True):
-        person.expect(f"{placed.name} is saved", replace(saved, delay_s=placed.delay_s), placed)
+        person.expect(f"{placed.name} is saved", replace(saved, delay_ms=placed.delay_ms), placed)
         person.expect("with its delay", math.isclose(saved.delay_s, placed.delay_s, abs_tol=1e-9))
     yield from person.click("bda.load_scenario")
     yield 0.5

@@ -99,8 +99,11 @@ class Results:
 
     def save(self, path: Path) -> None:
         """Write all arrays into one file that `numpy.load` and `load_results` read."""
-        with whole_file(path) as part:
-            np.savez(part, **self.arrays())
+        # As numpy.savez does, which in some versions leaves it to Python to close an archive on a full disk.
+        with whole_file(path) as part, zipfile.ZipFile(part, "w") as archive:
+            for name, values in self.arrays().items():
+                with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                    np.lib.format.write_array(file, np.asanyarray(values), allow_pickle=False)
 
 
 def load_results(path: Path) -> Results:

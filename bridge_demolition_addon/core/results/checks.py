@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import OutputError
+from ..geometry.vectors import product
 from ..schema import LARGEST_NUMBER, shown
 
 _FARTHEST_M = 1e7
@@ -165,7 +166,7 @@ def _check_order(arrays: Mapping[str, np.ndarray]) -> None:
         _expect(name, arrays[name] >= 0.0, "no negative numbers")
     for name in ("frames", "times_s", "ball_times_s"):
         _expect(name, np.diff(arrays[name]) >= 0, "numbers that do not fall")
-    turned = np.einsum("knij,knlj->knil", arrays["rotations"], arrays["rotations"])
+    turned = product(arrays["rotations"], np.swapaxes(arrays["rotations"], -1, -2))
     _expect("rotations", np.abs(turned - np.eye(3)) < _ROTATION_SLACK, "rotation matrices")
     _expect("frames", np.abs(arrays["frames"]) < 2**31, "frames of Blender")
 
