@@ -12,8 +12,8 @@ from manifold3d import CrossSection
 
 from ..core.debris.footprint import footprint
 from ..core.errors import OutputError
+from ..core.folder_lock import FolderLock
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
-from ..core.results.folder_lock import FolderLock
 from ..core.scenario.file import scenario_text
 from .comparison import comparison
 from .document.blocks import DataTable, Document, Picture, write_tables

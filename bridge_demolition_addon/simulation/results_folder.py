@@ -9,6 +9,7 @@ from typing import Any
 
 from ..core.disk import part_of, write_whole_text
 from ..core.errors import OutputError, writing
+from ..core.folder_lock import FolderLock, check_unlocked
 from ..core.results.arrays import Results
 from ..core.results.files import (
     FORCE_CHART,
@@ -19,7 +20,6 @@ from ..core.results.files import (
     SUMMARY_FILE,
     TABLE_FOLDER,
 )
-from ..core.results.folder_lock import FolderLock, check_unlocked
 from ..core.results.summary import first_hit_s
 
 _BLENDERS_LONGEST_PATH = 1023

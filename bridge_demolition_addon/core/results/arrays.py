@@ -1,4 +1,4 @@
-"""Everything a run recorded, and the file that keeps it."""
+"""Everything a run recorded, and the files that keep it."""
 
 from __future__ import annotations
 
@@ -11,24 +11,29 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..disk import whole_file
+from ..array_files.archive import read_archive, write_archive
+from ..array_files.table import stored_rows
 from ..errors import OutputError, UnreadableError
 from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.work import FrameWork
 from ..reading import check_file
 from .checks import check_arrays
-from .frames import BallHistory, FrameSeries
+from .files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
+from .frames import BallHistory, Frame, FrameSeries
 from .inventory import Inventory
 
 _Part = TypeVar("_Part")
 
+_OF_FRAMES = {
+    "number": "frames",
+    "time_s": "times_s",
+    "positions_m": "places_m",
+    "angular_velocities_rad_s": "spins_rad_s",
+}
+
 _STORED_NAMES = {
-    FrameSeries: {
-        "number": "frames",
-        "time_s": "times_s",
-        "positions_m": "places_m",
-        "angular_velocities_rad_s": "spins_rad_s",
-    },
+    Frame: _OF_FRAMES,
+    FrameSeries: _OF_FRAMES,
     FrameWork: {
         "gravity_j": "work_of_gravity_j",
         "loads_j": "work_of_loads_j",
@@ -44,13 +49,12 @@ _STORED_NAMES = {
         "velocities_m_s": "ball_velocities_m_s",
     },
 }
-"""What arrays are called in the file, where not as here. Files of earlier versions have these names."""
-
+"""What arrays are called in the files, where not as here. Files of earlier versions have these names."""
 
 _UNREADABLE = (
     OutputError,
     UnreadableError,
-    AttributeError,  # a single array instead of an archive of them
+    AttributeError,
     EOFError,
     KeyError,
     MemoryError,
@@ -90,48 +94,86 @@ class Results:
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Results:
         """Results from what `arrays` gives."""
-        frames = _part(FrameSeries, arrays, loads=_part(FrameLoads, arrays), work=_work(arrays))
-        return cls(str(arrays["reading"]), _part(Inventory, arrays), frames, _part(BallHistory, arrays))
+        return cls(str(arrays["reading"]), _part(Inventory, arrays), frames_of(arrays), balls_of(arrays))
 
     def arrays(self) -> dict[str, np.ndarray]:
         """All arrays by their names in the file."""
-        return dict(_named_arrays(self))
+        return dict(named_arrays(self))
 
     def save(self, path: Path) -> None:
         """Write all arrays into one file that `numpy.load` and `load_results` read."""
-        # As numpy.savez does, which in some versions leaves it to Python to close an archive on a full disk.
-        with whole_file(path) as part, zipfile.ZipFile(part, "w") as archive:
-            for name, values in self.arrays().items():
-                with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
-                    np.lib.format.write_array(file, np.asanyarray(values), allow_pickle=False)
+        arrays = self.arrays()
+        known = dict(named_arrays(self.inventory))
+        # What has one bit in a byte, and what everybody needs as a whole. A frame is read from all else without it.
+        packed = {name for name, values in arrays.items() if name in known or np.asarray(values).dtype.kind == "b"}
+        write_archive(path, arrays, packed)
 
 
 def load_results(path: Path) -> Results:
-    """Read what `Results.save` wrote.
+    """Read what `Results.save` wrote, or the frames that a run left which ended before its end.
+
+    Large arrays are mapped: only what is looked at is read.
+
+    Parameters
+    ----------
+    path : Path
+        File of the results, or of the frames; or the folder of the run.
 
     Raises
     ------
     OutputError
         The file is missing or was not written by a run.
     """
+    path = results_in(path) if path.is_dir() else path
     try:
         check_file(path)
-        with np.load(path, allow_pickle=False) as stored:
-            arrays = dict(stored)
+        arrays = _left_arrays(path) if path.name == FRAMES_FILE else read_archive(path)
         check_arrays(arrays)
         return Results.of_arrays(arrays)
     except _UNREADABLE as error:
         raise OutputError(f"{path}: expected the results of a run ({error})") from error
 
 
-def _named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """Arrays of a dataclass and of those in it, by their names in the file."""
+def results_in(folder: Path) -> Path:
+    """Return the file in the folder of a run that its results are read from: that of a whole run, if it is there."""
+    left = folder / FRAMES_FILE
+    return left if left.is_file() and not (folder / RESULTS_FILE).exists() else folder / RESULTS_FILE
+
+
+def named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """Give the arrays of a dataclass and of those in it, by their names in the files."""
     for each in fields(part):
         value = getattr(part, each.name)
         if is_dataclass(value):
-            yield from _named_arrays(value)
+            yield from named_arrays(value)
         else:
             yield _stored_name(type(part), each.name), value
+
+
+def frames_of(arrays: Mapping[str, np.ndarray]) -> FrameSeries:
+    """Return the frames in arrays by their names in the files."""
+    return _part(FrameSeries, arrays, loads=_part(FrameLoads, arrays), work=_work(arrays))
+
+
+def balls_of(arrays: Mapping[str, np.ndarray]) -> BallHistory:
+    """Return the history of the balls in arrays by their names in the files."""
+    return _part(BallHistory, arrays)
+
+
+def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the arrays (k, …) of rows (k,) by their names."""
+    return {name: rows[name] for name in rows.dtype.names}
+
+
+def _left_arrays(path: Path) -> dict[str, np.ndarray]:
+    """Return the arrays that a run has left on its way; of the sub-steps, those of whole frames."""
+    frames = stored_rows(path)
+    arrays = read_archive(path.with_name(INVENTORY_FILE)) | columns(frames)
+    if not path.with_name(BALLS_FILE).is_file():
+        return arrays | dict(named_arrays(BallHistory.unknown()))
+    substeps = stored_rows(path.with_name(BALLS_FILE))
+    end_s = frames["times_s"][-1] if len(frames) else 0.0
+    return arrays | columns(substeps[: np.searchsorted(substeps["ball_times_s"], end_s, side="right")])
 
 
 def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> _Part:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..array_files.blocks import blocks_of
 from ..errors import OutputError
 from ..geometry.vectors import product
 from ..schema import LARGEST_NUMBER, shown
@@ -111,7 +112,8 @@ def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
     _check_order(arrays)
     bodies = len(arrays["body_names"])
     for name, least, most in (("pairs", -1, bodies), ("balls", 0, bodies), ("vertex_counts", 0, 2**31)):
-        _expect(name, (arrays[name] >= least) & (arrays[name] < most), f"whole numbers from {least} to {most - 1}")
+        wanted = f"whole numbers from {least} to {most - 1}"
+        _expect(name, arrays[name], lambda each, low=least, high=most: (each >= low) & (each < high), wanted)
     total = int(arrays["vertex_counts"].sum())
     if total != len(arrays["vertices_m"]):
         raise OutputError(f"vertex_counts: add up to {total}, expected {len(arrays['vertices_m'])}, as in vertices_m")
@@ -154,25 +156,30 @@ def _check_shape(name: str, array: np.ndarray, shape: str, lengths: dict[str, tu
 def _check_sizes(name: str, array: np.ndarray) -> None:
     if name in _KNOWN:
         most = _FARTHEST_M if name.endswith("_m") else LARGEST_NUMBER
-        _expect(name, np.abs(array) <= most, f"numbers of at most {most:.3g}")
+        _expect(name, array, lambda each: np.abs(each) <= most, f"numbers of at most {most:.3g}")
     else:
-        _expect(name, ~(np.abs(array) > LARGEST_NUMBER), f"numbers of at most {LARGEST_NUMBER:.3g}")
+        wanted = f"numbers of at most {LARGEST_NUMBER:.3g}"
+        _expect(name, array, lambda each: ~(np.abs(each) > LARGEST_NUMBER), wanted)
 
 
 def _check_order(arrays: Mapping[str, np.ndarray]) -> None:
     if not len(arrays["frames"]):
         raise OutputError("frames: expected at least one")
     for name in ("masses_kg", "volumes_m3", "areas_m2", "substep_s"):
-        _expect(name, arrays[name] >= 0.0, "no negative numbers")
+        _expect(name, arrays[name], lambda each: each >= 0.0, "no negative numbers")
     for name in ("frames", "times_s", "ball_times_s"):
-        _expect(name, np.diff(arrays[name]) >= 0, "numbers that do not fall")
-    turned = product(arrays["rotations"], np.swapaxes(arrays["rotations"], -1, -2))
-    _expect("rotations", np.abs(turned - np.eye(3)) < _ROTATION_SLACK, "rotation matrices")
-    _expect("frames", np.abs(arrays["frames"]) < 2**31, "frames of Blender")
+        _expect(name, np.diff(arrays[name]), lambda each: each >= 0, "numbers that do not fall")
+    _expect("rotations", arrays["rotations"], _are_rotations, "rotation matrices")
+    _expect("frames", arrays["frames"], lambda each: np.abs(each) < 2**31, "frames of Blender")
 
 
-def _expect(name: str, right: np.ndarray, wanted: str) -> None:
-    if not right.all():
+def _are_rotations(matrices: np.ndarray) -> np.ndarray:
+    turned = product(matrices, np.swapaxes(matrices, -1, -2))
+    return np.abs(turned - np.eye(3)) < _ROTATION_SLACK
+
+
+def _expect(name: str, array: np.ndarray, holds: Callable[[np.ndarray], np.ndarray], wanted: str) -> None:
+    if not all(holds(block).all() for block in blocks_of(array)):
         raise OutputError(f"{name}: expected {wanted}")
 
 

@@ -2,6 +2,9 @@
 
 SUMMARY_FILE = "summary.json"
 RESULTS_FILE = "results.npz"
+FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.npy", "results_inventory.npz"
+"""What grows while a run goes on; taken away once the results are whole, and left by a run that is killed."""
+
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
 BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
 FORCE_CHART = "force_over_time.png"
@@ -13,9 +16,6 @@ SCENARIO_FILE = "scenario_as_run.toml"
 PICTURE_FOLDER = "frames"
 PICTURES = ("before", "impact", "after")
 """Pictures in that folder, PNG."""
-
-LOCK_FILE = "run.lock"
-"""Keeps other runs and reports out of the folder while one writes to it; gone, or of no effect, afterwards."""
 
 FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 
@@ -33,6 +33,9 @@ RESULT_FILES = (
     BREAKING_LOG,
     EXPLOSION_LOG,
     RESULTS_FILE,
+    FRAMES_FILE,
+    BALLS_FILE,
+    INVENTORY_FILE,
     FORCE_CHART,
     BLEND_FILE,
     *(f"{PICTURE_FOLDER}/{name}.png" for name in PICTURES),

@@ -13,11 +13,15 @@ from typing import Any
 
 import numpy as np
 
+from ..array_files.blocks import blocks_of
 from .arrays import Results
 from .inventory import Inventory
 
 SHORT = 8
 """Digits of a digest that are enough to tell runs apart by eye."""
+
+_KEPT_AS = {"i": np.dtype("<i8"), "u": np.dtype("<i8"), "f": np.dtype("<f8")}
+"""One width on every system, by the kind of number: numpy's default integers had 32 bits on Windows before numpy 2."""
 
 
 def digest(parts: Mapping[str, Any]) -> str:
@@ -26,11 +30,15 @@ def digest(parts: Mapping[str, Any]) -> str:
     for name in sorted(parts):
         values = np.asarray(parts[name])
         if values.dtype.kind == "U":
-            content = "\0".join(values.ravel().tolist()).encode()
+            contents = ["\0".join(values.ravel().tolist()).encode()]
+            size = len(contents[0])
         else:
-            content = np.ascontiguousarray(_little_endian(values)).tobytes()
-        found.update(f"{name}:{values.shape}:{len(content)}:".encode())
-        found.update(content)
+            kept = _KEPT_AS.get(values.dtype.kind, np.dtype("u1"))
+            contents = (block.astype(kept).tobytes() for block in blocks_of(values))
+            size = values.size * kept.itemsize
+        found.update(f"{name}:{values.shape}:{size}:".encode())
+        for content in contents:
+            found.update(content)
     return found.hexdigest()
 
 
@@ -42,12 +50,3 @@ def built_digest(inventory: Inventory, **more: Any) -> str:
 def result_digest(results: Results) -> str:
     """Return the digest of everything that was recorded."""
     return digest(results.arrays())
-
-
-def _little_endian(values: np.ndarray) -> np.ndarray:
-    """Values of one width on every system: numpy's default integers had 32 bits on Windows before numpy 2."""
-    if values.dtype.kind in "iu":
-        return values.astype("<i8")
-    if values.dtype.kind == "f":
-        return values.astype("<f8")
-    return values.astype(np.uint8)

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...core.disk import write_whole_text
 from ...core.errors import DemolitionError, OutputError, ScenarioError, SimulationError
+from ...core.folder_lock import FolderLock
 from ...core.results.files import SCENARIO_FILE
-from ...core.results.folder_lock import FolderLock
 from ...core.scenario import RecordingSettings, Scenario
 from ...core.scenario.file import scenario_from_text, scenario_text
 from ...core.sequence.rest import Rest

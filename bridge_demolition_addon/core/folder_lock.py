@@ -11,9 +11,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from ..disk import is_in_place
-from ..errors import OutputError, writing
-from .files import LOCK_FILE
+from .disk import is_in_place
+from .errors import OutputError, writing
+
+LOCK_FILE = "run.lock"
+"""Keeps others out of the folder while one writes to it; gone, or of no effect, afterwards."""
 
 if sys.platform == "win32":
     import msvcrt

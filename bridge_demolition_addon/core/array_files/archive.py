@@ -1,0 +1,90 @@
+"""Archives of arrays as numpy's ``.npz``, written and read in little memory: large arrays are mapped, not read."""
+
+from __future__ import annotations
+
+import struct
+import zipfile
+from collections.abc import Container, Mapping
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from ..disk import whole_file
+
+_ENDING = ".npy"
+
+_MAPPED_FROM = 1 << 16
+"""Bytes from which on an array is mapped; a smaller one is read, which takes less."""
+
+_BLOCK = 1 << 20
+
+_ALIGNMENT = 64
+"""Bytes; numpy works fastest on arrays that begin at multiples of them."""
+
+_LOCAL_HEADER, _SIZES, _PADDING = 30, 20, 4
+"""Bytes before an array in the archive: a header, its 64-bit sizes, and the mark and length of a padding."""
+
+_PADDING_MARK = 0xD935
+"""Of fields that hold nothing, as other programs that align archives use it."""
+
+_HEADER_READERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+
+
+def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Container[str] = ()) -> None:
+    """Write arrays by their names, whole or not at all; the same arrays give the same file.
+
+    Parameters
+    ----------
+    path : Path
+        File to write.
+    arrays : mapping of arrays
+        Arrays of any size, also mapped ones.
+    packed : container of str
+        Names of those to pack. A packed array has to be read as a whole.
+    """
+    with whole_file(path) as part, zipfile.ZipFile(part, "w") as archive:
+        for name, values in arrays.items():
+            values = np.asanyarray(values)
+            member = zipfile.ZipInfo(f"{name}{_ENDING}")
+            member.compress_type = zipfile.ZIP_DEFLATED if name in packed else zipfile.ZIP_STORED
+            before = archive.fp.tell() + _LOCAL_HEADER + len(member.filename.encode()) + _SIZES + _PADDING
+            padding = -before % _ALIGNMENT
+            member.extra = struct.pack("<HH", _PADDING_MARK, padding) + bytes(padding)
+            with archive.open(member, "w", force_zip64=True) as file:
+                np.lib.format.write_array(file, values, allow_pickle=False)
+
+
+def read_archive(path: Path) -> dict[str, np.ndarray]:
+    """Read all arrays of an archive by their names, and check that they are as they were written.
+
+    Raises
+    ------
+    OSError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error
+        It is none, is damaged, or holds something else than plain arrays.
+    """
+    with path.open("rb") as file, zipfile.ZipFile(file) as archive:
+        members = [each for each in archive.infolist() if each.filename.endswith(_ENDING)]
+        return {each.filename.removesuffix(_ENDING): _array(file, archive, each) for each in members}
+
+
+def _array(file: BinaryIO, archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
+    with archive.open(member) as content:
+        if member.compress_type != zipfile.ZIP_STORED or member.file_size < _MAPPED_FROM:
+            return np.lib.format.read_array(content, allow_pickle=False)
+        read_header = _HEADER_READERS[np.lib.format.read_magic(content)]
+        shape, is_fortran, dtype = read_header(content)
+        if dtype.hasobject:
+            raise ValueError(f"{member.filename}: holds objects")
+        begin = content.tell()
+        while content.read(_BLOCK):  # which compares the checksum at the end
+            pass
+    order = "F" if is_fortran else "C"
+    return np.asarray(np.memmap(file, dtype, "r", _content_start(file, member) + begin, shape, order))
+
+
+def _content_start(file: BinaryIO, member: zipfile.ZipInfo) -> int:
+    """Return where in the file the content of a member begins."""
+    file.seek(member.header_offset)
+    name_length, extra_length = struct.unpack("<HH", file.read(_LOCAL_HEADER)[26:30])
+    return member.header_offset + _LOCAL_HEADER + name_length + extra_length

@@ -1,0 +1,109 @@
+"""Frames of a recording, on the disk as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..array_files.archive import write_archive
+from ..array_files.table import GrowingTable
+from ..errors import writing
+from .arrays import Results, balls_of, columns, frames_of, named_arrays
+from .files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
+from .frames import BallHistory, Frame
+from .inventory import Inventory
+
+_FRACTIONS = np.float32
+"""Of arrays in a frame: seven digits, in half the space. Single numbers, such as works, keep all of theirs."""
+
+
+class FrameStream(Sequence[Frame]):
+    """The frames of a recording, each of which is on the disk as soon as it is added, and none in memory.
+
+    Parameters
+    ----------
+    folder : Path
+        Existing folder. What another stream has left in it is replaced.
+    reading : str
+        As that of `Results`.
+    inventory : Inventory
+        Bodies and connections.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written to.
+    """
+
+    def __init__(self, folder: Path, reading: str, inventory: Inventory):
+        self._folder, self._reading, self._inventory = folder, reading, inventory
+        self._balls = np.flatnonzero(inventory.body_kinds == "ball")
+        self._frames: GrowingTable | None = None
+        self._substeps: GrowingTable | None = None
+        known = dict(named_arrays(inventory)) | {"reading": np.array(reading), "balls": self._balls}
+        with writing(folder):
+            for name in (FRAMES_FILE, BALLS_FILE):
+                (folder / name).unlink(missing_ok=True)
+            write_archive(folder / INVENTORY_FILE, known)
+
+    def __len__(self) -> int:
+        return len(self._frames) if self._frames else 0
+
+    def __getitem__(self, row: int) -> Frame:
+        """Return a frame as it is kept."""
+        return frames_of(columns(self._frames.row(range(len(self))[row])))[0]
+
+    def append(self, frame: Frame, balls: BallHistory) -> None:
+        """Add a frame, and what hit the balls in its sub-steps.
+
+        Raises
+        ------
+        OutputError
+            They cannot be written. Those before them stay.
+        """
+        if len(balls.times_s):  # first, so that no whole frame is without them
+            arrays = {name: values for name, values in named_arrays(balls) if name != "balls"}
+            if self._substeps is None:
+                self._substeps = GrowingTable(self._folder / BALLS_FILE, _row_type(arrays, np.float64))
+            self._substeps.append(_rows(arrays, self._substeps.row_type))
+        arrays = {name: np.asarray(values)[None] for name, values in named_arrays(frame)}
+        if self._frames is None:
+            self._frames = GrowingTable(self._folder / FRAMES_FILE, _row_type(arrays, _FRACTIONS))
+        self._frames.append(_rows(arrays, self._frames.row_type))
+
+    def results(self) -> Results:
+        """Return everything so far, mapped: only what is looked at is read. There has to be a frame."""
+        balls = BallHistory.unknown()
+        if self._substeps:
+            balls = balls_of(columns(self._substeps.rows()) | {"balls": self._balls})
+        return Results(self._reading, self._inventory, frames_of(columns(self._frames.rows())), balls)
+
+    def remove(self) -> None:
+        """Take the files away; what is in them can be read as long as the stream is there."""
+        for table in (self._frames, self._substeps):
+            if table:
+                table.remove()
+        (self._folder / INVENTORY_FILE).unlink(missing_ok=True)
+
+
+def _row_type(arrays: Mapping[str, np.ndarray], fractions: type[np.floating]) -> np.dtype:
+    """Return the type of rows of arrays (k, …), in which arrays of fractions have that precision."""
+    found = [(name, _column_type(values, fractions), values.shape[1:]) for name, values in arrays.items()]
+    found.sort(key=lambda column: -np.dtype(column[1]).itemsize)  # so that all are aligned without gaps
+    return np.dtype(found, align=True)
+
+
+def _column_type(values: np.ndarray, fractions: type[np.floating]) -> type[np.generic]:
+    if values.dtype.kind == "f":
+        return fractions if values.ndim > 1 else np.float64
+    return np.bool_ if values.dtype.kind == "b" else np.int64
+
+
+def _rows(arrays: Mapping[str, np.ndarray], row_type: np.dtype) -> np.ndarray:
+    rows = np.zeros(len(next(iter(arrays.values()))), row_type)
+    with np.errstate(over="ignore"):  # what is too large for single precision is infinite in it
+        for name, values in arrays.items():
+            rows[name] = values
+    return rows
