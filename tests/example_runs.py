@@ -80,10 +80,17 @@ class ExampleRun:
         return self.shards[np.linalg.norm(places - np.array(charge.place_m), axis=1) < distance_m]
 
 
+FALL_S = 0.7
+"""How long what a jackhammer has loosened has to fall, where an example is cut short."""
+
+
 def example(name, duration_s=None):
     """The scenario of an example, cut short where a duration is given."""
     scenario = read_scenario(EXAMPLES / f"{name}.toml")
-    return replace(scenario, time=replace(scenario.time, duration_s=duration_s)) if duration_s else scenario
+    if not duration_s:
+        return scenario
+    hammers = [replace(each, end_time_s=min(each.end_time_s, duration_s - FALL_S)) for each in scenario.jackhammers]
+    return replace(scenario, jackhammers=hammers, time=replace(scenario.time, duration_s=duration_s))
 
 
 def run_example(scenario, folder):

@@ -24,7 +24,7 @@ def loud(request, tmp_path_factory):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_bridge_stands_without_its_explosion(blender, tmp_path, name):
-    run = run_example(quiet(example(name, 1.5)), tmp_path)
+    run = run_example(quiet(example(name, 1.0)), tmp_path)
     connections = run.summary["connections"]
     assert connections["broken"] <= 0.03 * connections["count"]  # slivers between members
     assert run.fallen_m(run.shards).max() < SAG_M[name]

@@ -164,7 +164,7 @@ def test_tie_that_is_strong_enough_holds_on(blender, tmp_path):
     connection["bda_area_m2"], connection["bda_normal"] = area, (0.0, 0.0, -1.0)
     tension = 4.0 * mass * GRAVITY / area
     keep_breaking(blocks.scene, Breaking(Strength(1e12, tension, 1e12, 1e12, 1.0), 0.0, Ductility(1.0, 0.5)))
-    results = blocks.play(tmp_path, 24 * 20)
+    results = blocks.play(tmp_path, 24 * 12)
     assert not results.frames.intact[-1][0]
     assert results.frames.positions_m[-1, 1, 2] > 8.5
     # Over whole seconds of swinging the mean force on the block is its weight.

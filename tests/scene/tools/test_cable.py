@@ -36,7 +36,7 @@ def play_swing(cable, folder, seconds):
 @pytest.mark.parametrize("angle_degrees", (5.0, 40.0, 75.0))
 def test_swing_has_the_period_of_a_pendulum(blender, tmp_path, angle_degrees):
     cable = replace(CABLE, angle_degrees=angle_degrees)
-    results = play_swing(cable, tmp_path, 18.0)
+    results = play_swing(cable, tmp_path, 9.5)
     (ball,) = results.inventory.of_kind("ball")
     aside = results.frames.positions_m[:, ball, 1] - 2.0
     assert np.abs(results.frames.positions_m[:, ball, 0] - 1.0).max() < 1e-3
@@ -51,7 +51,7 @@ def test_swing_has_the_period_of_a_pendulum(blender, tmp_path, angle_degrees):
         for n in range(1, 8)
     )
     period = 2.0 * np.pi * np.sqrt(8.0 / STANDARD_GRAVITY_M_S2) * (1.0 + series)
-    assert len(crossings) >= 5
+    assert len(crossings) >= 3
     np.testing.assert_allclose(2.0 * np.diff(crossings), period, rtol=0.01)
     # The solid ball turns with the cable, which is 0.14 % of its moment of inertia.
     assert cable.period_s(1.34) == pytest.approx(period, rel=0.0015)

@@ -37,18 +37,21 @@ def from_path(points_m):
     return np.linalg.norm(points_m[:, :2] - first - share[:, None] * way, axis=1)
 
 
-@pytest.fixture
-def slab(blender, tmp_path):
+@pytest.fixture(scope="module")
+def slab(tmp_path_factory):
     """A slab that is held along its two ends, under a jackhammer: what was recorded."""
+    import bpy
+
     from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
 
+    bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = ShardScene(
         SLAB_M, (0.0, 0.0, TOP_M - SLAB_M[2] / 2.0), 200, {"solver_iterations": 100}, breaking_force_newton=60e3
     )
     scene.hold(abs(scene.fracture.centres[:, 0]) > 3.6)
     world = scene.scene.rigidbody_world
     create_jackhammer(world, HAMMER, TOP_M, scene.scene.frame_start + 1, Timeline.of(1.0 / 24.0, 8.0))
-    recording = Recording(scene.scene, tmp_path)
+    recording = Recording(scene.scene, tmp_path_factory.mktemp("slab"))
     start_recording(recording)
     for frame in range(1, 150):
         scene.scene.frame_set(frame)
