@@ -24,9 +24,10 @@ def blender() -> Iterator[ModuleType]:
     """The bpy module, with an empty factory scene; what the test left behind is gone afterwards."""
     import bpy
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Without the preferences, which would switch all of Blender's own add-ons off and on: five times as fast.
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     yield bpy
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
 
 
 @pytest.fixture
