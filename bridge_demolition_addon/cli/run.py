@@ -15,7 +15,7 @@ from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
-from ..core.signals import Interrupted, signals_noted
+from ..core.signals import interrupted_afterwards
 from ..core.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
 from .arguments import naming
@@ -129,7 +129,7 @@ def _run_scenario(
     path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> Mapping[str, Any]:
     try:
-        with _interrupted_afterwards():
+        with interrupted_afterwards():
             from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
     except ModuleNotFoundError as error:
         if error.name != "bpy":
@@ -145,15 +145,6 @@ def _run_scenario(
             film=arguments.film,
             progress=progress,
         )
-
-
-@contextmanager
-def _interrupted_afterwards() -> Iterator[None]:
-    """Let Ctrl-C and SIGTERM wait: Blender prints them as errors of its own scripts, and goes on."""
-    with signals_noted() as signals:
-        yield
-    if signals:
-        raise Interrupted(signals[0])
 
 
 @contextmanager

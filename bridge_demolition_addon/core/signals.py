@@ -30,6 +30,15 @@ def interrupt(signal_number: int, _frame: FrameType | None) -> NoReturn:
 
 
 @contextmanager
+def interrupted_afterwards() -> Iterator[None]:
+    """Let such signals wait until the end of the block: Blender's own scripts would print them as errors and go on."""
+    with signals_noted() as signals:
+        yield
+    if signals:
+        raise Interrupted(signals[0])
+
+
+@contextmanager
 def signals_noted() -> Iterator[Sequence[int]]:
     """Give a list that grows by every such signal; none of them cuts what is done in the block, or a file, in two."""
     numbers: list[int] = []

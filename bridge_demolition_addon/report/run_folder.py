@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import os
+import struct
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,8 +14,9 @@ from typing import Any
 import numpy as np
 from matplotlib.image import imread
 
+from ..core.debris.footprint import check_covers_ground
 from ..core.errors import OutputError, ScenarioError, UnreadableError
-from ..core.reading import MEGABYTE, file_text
+from ..core.reading import MEGABYTE, check_file, file_text
 from ..core.results.arrays import Results, load_results
 from ..core.results.checks import checked_summary
 from ..core.results.files import (
@@ -31,6 +35,12 @@ from ..core.scenario.file import read_scenario
 
 MOST_SUMMARY_BYTES = 100 * MEGABYTE
 """Size up to which a summary is read, which lists every frame."""
+
+
+MOST_PICTURE_BYTES = 100 * MEGABYTE
+
+_NO_PICTURE = (OSError, SyntaxError, ValueError, MemoryError, struct.error, zlib.error)
+"""What the reader of pictures raises for a file that is none, is damaged, or says that it is larger than there is."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -81,8 +91,8 @@ class Run:
 
     @property
     def name(self) -> str:
-        """Name of the run beside others."""
-        return self.folder.resolve().name
+        """Name of the run beside others; bytes of it that are no letters in UTF-8 are shown as numbers."""
+        return os.fsencode(self.folder.resolve().name).decode("utf-8", "backslashreplace")
 
     @property
     def title(self) -> str:
@@ -113,7 +123,7 @@ def read_run(folder: Path) -> Run:
     """
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
-    if not any((folder / name).is_file() for name in (RESULTS_FILE, FORCE_LOG)):
+    if not any((folder / name).exists() for name in (RESULTS_FILE, FORCE_LOG)):
         raise OutputError(f"{folder}: holds no run: expected {RESULTS_FILE} or {FORCE_LOG} in it")
     shortcomings: list[str] = []
     results = _results(folder, shortcomings)
@@ -135,7 +145,7 @@ def read_run(folder: Path) -> Run:
 
 def _results(folder: Path, shortcomings: list[str]) -> Results | None:
     path = folder / RESULTS_FILE
-    if not path.is_file():
+    if not path.exists():
         shortcomings.append(
             f"The run was killed before it could write {RESULTS_FILE}: only its logs are here, and all that needs more "
             "than them is left out: debris, zones, exclusion zone, spans, energy, stresses."
@@ -143,6 +153,7 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
         return None
     try:
         results, removed = without_removed(load_results(path))
+        check_covers_ground(results)
     except OutputError as error:
         shortcomings.append(
             f"{RESULTS_FILE} cannot be read, and all that needs it is left out: {_reason(error, path)}."
@@ -200,8 +211,9 @@ def _pictures(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
         if not path.exists():
             continue
         try:
+            check_file(path, MOST_PICTURE_BYTES)
             imread(path)
-        except (OSError, SyntaxError, ValueError):  # the reader's own ways to say that it is no picture
+        except (UnreadableError, *_NO_PICTURE):
             shortcomings.append(f"frames/{path.name} is no whole picture, and is left out.")
         else:
             found[name] = path
@@ -212,8 +224,12 @@ def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None
     """Return the largest forces of every frame that the log holds whole."""
     largest: dict[float, tuple[float, float]] = {}
     bodies_of_frame: dict[float, int] = {}
+    path = folder / FORCE_LOG
+    if not path.exists():
+        return None
     try:
-        with (folder / FORCE_LOG).open(encoding="utf-8", newline="") as file:
+        check_file(path)
+        with path.open(encoding="utf-8", newline="") as file:
             for row in csv.DictReader(file):
                 if None in row.values():  # a line that was cut in two
                     break
@@ -225,10 +241,8 @@ def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None
                     largest[time_s] = tuple(np.fmax(before, found))
                 else:
                     largest.setdefault(time_s, before)
-    except FileNotFoundError:
-        return None
-    except (OSError, ValueError, KeyError, csv.Error) as error:
-        shortcomings.append(f"{FORCE_LOG} cannot be read: {error}")
+    except (UnreadableError, OSError, TypeError, ValueError, KeyError, csv.Error) as error:
+        shortcomings.append(f"{FORCE_LOG} cannot be read, and is left out: {error}.")
         return None
     whole = [time_s for time_s, count in bodies_of_frame.items() if count == max(bodies_of_frame.values())]
     if not whole:
@@ -242,10 +256,12 @@ def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None
 
 def _logged_breaks(folder: Path, shortcomings: list[str]) -> int | None:
     path = folder / BREAKING_LOG
-    if not path.is_file():
+    if not path.exists():
         return None
     try:
-        return max(0, path.read_text(encoding="utf-8", errors="replace").count("\n") - 1)
-    except OSError as error:
-        shortcomings.append(f"{BREAKING_LOG} cannot be read, and what broke is left out: {error.strerror}.")
+        check_file(path)
+        with path.open("rb") as file:
+            return max(0, sum(line.endswith(b"\n") for line in file) - 1)
+    except (UnreadableError, OSError) as error:
+        shortcomings.append(f"{BREAKING_LOG} cannot be read, and what broke is left out: {error}.")
         return None

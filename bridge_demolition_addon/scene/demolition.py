@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
 import bpy
 
 from ..core.blast.settings import Apply
@@ -17,11 +20,11 @@ from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
 from .connections.joints import set_joints
 from .structural_changes import keep_changes
-from .time_scale import animate_time_scale
+from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball, create_hits
 from .tools.cable import create_cable
 from .tools.jackhammer import create_jackhammer
-from .world import START_FRAME, create_world, off_scene
+from .world import START_FRAME, create_world, off_scene, remove_world
 
 FIRST_STEP_FRAME = START_FRAME + 2
 """First frame that time leads to: in the frame before, Blender makes the world and no time passes."""
@@ -34,10 +37,21 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     ------
     GeometryError
         Nothing lies under the ball or under the beginning of a jackhammer's path; nothing was made.
+    SimulationError
+        Blender is not in object mode, which fields need; nothing is left of what was made.
     """
     settings = scenario.ball
     surfaces = [surface_height(scenario, model.members, drop.target_m) for drop in settings.drops] if settings else []
     hammered = [surface_height(scenario, model.members, hammer.path_m[0]) for hammer in scenario.jackhammers]
+    with _all_or_nothing(scene):
+        _build(scene, scenario, model, surfaces, hammered)
+
+
+def _build(
+    scene: bpy.types.Scene, scenario: Scenario, model: Model, surfaces: Sequence[float], hammered: Sequence[float]
+) -> None:
+    """Build on surfaces at these heights, m, under the targets of the ball and where jackhammers begin."""
+    settings = scenario.ball
     world = create_world(scene, scenario.time, last_frame(scenario))
     clear_m = settings.largest_height_m(0.0) if settings else 0.0
     ground = create_ground(world, ground_half_size(model.members, clear_m), scenario.ground)
@@ -64,6 +78,25 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
+
+
+@contextmanager
+def _all_or_nothing(scene: bpy.types.Scene) -> Iterator[None]:
+    """Remove the world and all data that were made in the block where it fails: there is no undo of half a button."""
+    before = set(_all_data())
+    try:
+        yield
+    except BaseException:
+        stop_animation(scene)
+        remove_world(scene)
+        bpy.data.batch_remove([each for each in _all_data() if each not in before])
+        raise
+
+
+def _all_data() -> Iterator[bpy.types.ID]:
+    """Give everything of the kinds that a demolition is made of."""
+    for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions):
+        yield from kind
 
 
 def _breaking(settings: ConnectionSettings) -> Breaking:

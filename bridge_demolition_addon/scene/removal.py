@@ -10,7 +10,7 @@ from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import ends_of, loose_connections
 from .structural_changes import keep_changes
 from .time_scale import stop_animation
-from .world import START_FRAME
+from .world import START_FRAME, remove_world
 
 
 def remove_demolition(scene: bpy.types.Scene) -> int:
@@ -37,7 +37,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     if fields and not fields.all_objects:
         bpy.data.collections.remove(fields)
     if not scene.rigidbody_world.collection.all_objects:
-        _remove_world(scene)
+        remove_world(scene)
     return len(bodies)
 
 
@@ -66,14 +66,6 @@ def _remove_in_turn(scene: bpy.types.Scene, *groups: list[bpy.types.Object]) -> 
         bpy.data.batch_remove(group)
         _restart(scene)
         bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
-
-
-def _remove_world(scene: bpy.types.Scene) -> None:
-    world = scene.rigidbody_world
-    empty = [each for each in (world.collection, world.constraints) if each and not each.all_objects]
-    with bpy.context.temp_override(scene=scene):
-        bpy.ops.rigidbody.world_remove()
-    bpy.data.batch_remove(empty)
 
 
 def _restart(scene: bpy.types.Scene) -> None:

@@ -39,6 +39,17 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
     return world
 
 
+def remove_world(scene: bpy.types.Scene) -> None:
+    """Remove the scene's rigid-body world, if it has one, with those of its collections that are empty."""
+    world = scene.rigidbody_world
+    if world is None:
+        return
+    empty = [each for each in (world.collection, world.constraints) if each and not each.all_objects]
+    with bpy.context.temp_override(scene=scene):
+        bpy.ops.rigidbody.world_remove()
+    bpy.data.batch_remove(empty)
+
+
 def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
     """Return the length of frames and sub-steps that the scene has now."""
     world = scene.rigidbody_world

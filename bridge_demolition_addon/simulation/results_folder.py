@@ -127,6 +127,8 @@ def checked_log(path: Path, *, overwrite: bool) -> Path:
     """
     if path.is_dir():
         raise OutputError(f"{path}: expected a file for the log, found a folder")
+    if path.exists() and not path.is_file():
+        raise OutputError(f"{path}: expected a file for the log, found a pipe or a device")
     if path.exists() and not overwrite:
         raise OutputError(f"{path}: exists already; choose another file or allow overwriting")
     with writing(path):

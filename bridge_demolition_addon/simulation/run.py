@@ -19,7 +19,7 @@ from ..core.results.files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
 from ..core.sequence.checked_model import checked_model
-from ..core.signals import Interrupted, signals_noted
+from ..core.signals import Interrupted, interrupted_afterwards, signals_noted
 from ..core.structure.model import Model
 from ..scene.blast.charges import charge_objects, show_until
 from ..scene.demolition import build_demolition, first_frame_after
@@ -179,7 +179,8 @@ def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> No
 
 
 def _empty_scene(title: str) -> bpy.types.Scene:
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with interrupted_afterwards():
+        bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.name = title[:60]
     return scene

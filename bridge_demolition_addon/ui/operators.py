@@ -11,7 +11,18 @@ from .sidebar import path_property
 
 
 class Refusing:
-    """Base of buttons that are greyed, with a reason in their tooltip, as long as they cannot work."""
+    """Base of buttons that are greyed, with a reason in their tooltip, as long as they cannot work.
+
+    Attributes
+    ----------
+    changes_scene : bool
+        Whether the button changes the scene, which it then cannot do to one that is linked from another file.
+    changes_objects : bool
+        Whether it makes or removes objects, for which Blender has to be in object mode.
+    """
+
+    changes_scene = True
+    changes_objects = False
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -20,7 +31,12 @@ class Refusing:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if reason := cls.why_not(context):
+        reason = (
+            (cls.changes_scene and _linked(context))
+            or (cls.changes_objects and _other_mode(context))
+            or cls.why_not(context)
+        )
+        if reason:
             cls.poll_message_set(reason)
         return not reason
 
@@ -66,6 +82,17 @@ def no_world(context: bpy.types.Context) -> str | None:
 def recording_runs(_context: bpy.types.Context) -> str | None:
     """Return a sentence where a recording runs, else None."""
     return "A recording runs: unregister its handler first" if running_recording() else None
+
+
+def _linked(context: bpy.types.Context) -> str | None:
+    library = context.scene.library
+    if library is None:
+        return None
+    return f"This scene is linked from {Path(library.filepath).name}: open that file to change it"
+
+
+def _other_mode(context: bpy.types.Context) -> str | None:
+    return None if context.mode == "OBJECT" else "Go to object mode first"
 
 
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:

@@ -4,15 +4,19 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 from places import I235_FILE, ROOT
-from processes import TIMEOUT_S, outcome, start_bda
-from scenarios import I235
+from processes import TIMEOUT_S, outcome, run_program, start_bda
+from scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.core.scenario.file import scenario_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="shells of Windows close no streams")
+
+
+BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.1))
 
 
 def in_shell(arguments, redirections):
@@ -63,6 +67,13 @@ def test_ctrl_c_while_something_is_loaded_ends_it_in_one_line(module, tmp_path):
     assert (process.wait(TIMEOUT_S), said) == (130, ["bda: interrupted"])
 
 
+def test_ctrl_c_while_blender_starts_again_ends_it_in_one_line(tmp_path):
+    run = ("run", I235_FILE, "--output", tmp_path / "out", "--no-pictures", "--quiet")
+    done = run_program("bda_interrupted_by_blender", *run)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "bda: interrupted\n")
+    assert not (tmp_path / "out" / "summary.json").exists()
+
+
 def test_files_that_are_none_are_neither_waited_for_nor_read_without_end(tmp_path):
     pipe = tmp_path / "pipe.toml"
     os.mkfifo(pipe)
@@ -72,7 +83,19 @@ def test_files_that_are_none_are_neither_waited_for_nor_read_without_end(tmp_pat
         assert complained == (f"bda: error: {path}: is a pipe or a device, not a file: expected a scenario in TOML\n")
 
 
-def test_a_folder_whose_name_is_not_utf_8(tmp_path):
+def test_a_run_and_its_report_in_a_folder_whose_name_is_not_utf_8(tmp_path):
+    scenario = tmp_path / "bridge.toml"
+    scenario.write_text(scenario_text(BRIEF), encoding="utf-8")
+    output = os.fsdecode(os.fsencode(tmp_path) + b"/br\xfccke")
+    run = ("run", scenario, "--output", output, "--no-pictures", "--report", "--quiet")
+    assert outcome(start_bda(*run)) == (0, "", "")
+    for name in ("scene.blend", "report.pdf"):
+        assert os.path.getsize(os.path.join(output, name)) > 0
+    with open(os.path.join(output, "report.html"), encoding="utf-8") as page:
+        assert "br\\xfccke" in page.read()
+
+
+def test_a_scenario_in_a_folder_whose_name_is_not_utf_8(tmp_path):
     folder = os.fsencode(tmp_path) + b"/br\xfccke"
     os.mkdir(folder)
     path = folder + b"/bridge.toml"

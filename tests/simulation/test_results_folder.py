@@ -1,6 +1,9 @@
 """The folder of a run: what is made, what is cleared away and what is left alone."""
 
 import json
+import os
+import sys
+from pathlib import Path
 
 import pytest
 from matplotlib.image import imread
@@ -10,7 +13,7 @@ from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.results.files import RESULT_FILES
 from bridge_demolition_addon.core.results.summary import summarise
-from bridge_demolition_addon.simulation.results_folder import keep_results, prepare_folder, withdraw_folder
+from bridge_demolition_addon.simulation.results_folder import checked_log, keep_results, prepare_folder, withdraw_folder
 
 
 def files_in(folder):
@@ -88,3 +91,12 @@ def test_results_are_kept(tmp_path, drop):
     )
     assert imread(tmp_path / "force_over_time.png").std() > 0.0
     assert set(files_in(tmp_path)) <= set(RESULT_FILES)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such files")
+def test_a_log_is_not_written_to_a_pipe_or_a_device(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (pipe, Path("/dev/zero")):
+        with pytest.raises(OutputError, match="found a pipe or a device"):
+            checked_log(path, overwrite=True)

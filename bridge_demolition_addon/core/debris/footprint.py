@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 from manifold3d import CrossSection
 
+from ..errors import OutputError
 from ..geometry.plan_areas import united
 from ..geometry.vectors import transformed
 from ..results.arrays import Results
@@ -21,6 +22,19 @@ def corners_at(results: Results, step: int, body: int) -> np.ndarray:
 def footprint(results: Results, bodies: Iterable[int], step: int) -> CrossSection:
     """What the convex hulls of bodies cover in plan at a recorded step; where they overlap it counts once."""
     return united(CrossSection.hull_points(corners_at(results, step, body)[:, :2]) for body in bodies)
+
+
+def check_covers_ground(results: Results) -> None:
+    """Make sure that a bridge covers an area in plan at first, which distances are measured from.
+
+    Raises
+    ------
+    OutputError
+        All its shards are flat or points in plan.
+    """
+    shards = results.inventory.of_kind("shard")
+    if len(shards) and footprint(results, shards, 0).is_empty():
+        raise OutputError("vertices_m: expected shards that cover an area in plan, found lines and points")
 
 
 def swept_footprint(results: Results, bodies: Iterable[int]) -> CrossSection:

@@ -140,6 +140,8 @@ def _check_kind(name: str, array: np.ndarray, kind: str) -> None:
     words, kinds = _KINDS[kind]
     if array.dtype.kind not in kinds:
         raise OutputError(f"{name}: expected {words}, found {array.dtype}")
+    if kind == "U" and not _can_be_written(array):
+        raise OutputError(f"{name}: expected {words} in Unicode, found others")
 
 
 def _check_shape(name: str, array: np.ndarray, shape: str, lengths: dict[str, tuple[int, str]]) -> None:
@@ -202,7 +204,13 @@ def _is_number(value: Any) -> bool:
 
 
 def _is_text(value: Any) -> bool:
-    return isinstance(value, str)
+    return isinstance(value, str) and _can_be_written(np.array(value))
+
+
+def _can_be_written(texts: np.ndarray) -> bool:
+    """Return whether texts hold letters of Unicode alone, and no halves of them (surrogates)."""
+    letters = np.frombuffer(np.ascontiguousarray(texts, texts.dtype.newbyteorder("=")).tobytes(), np.uint32)
+    return not ((letters > 0x10FFFF) | ((letters >= 0xD800) & (letters < 0xE000))).any()
 
 
 def _is_list(value: Any) -> bool:

@@ -61,6 +61,8 @@ class Inventory:
         return np.flatnonzero(self.body_kinds == kind)
 
     def vertices_of(self, body: int) -> np.ndarray:
-        """Vertices (v, 3) of a body in its own axes, m."""
+        """Vertices (v, 3) of a body in its own axes, m; its origin where it has none."""
+        if not self.vertex_counts[body]:
+            return np.zeros((1, 3))
         first = int(self.vertex_counts[:body].sum())
         return self.vertices_m[first : first + self.vertex_counts[body]]

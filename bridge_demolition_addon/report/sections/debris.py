@@ -109,15 +109,16 @@ def corner_table(zone: ExclusionZone) -> DataTable:
 def _debris_blocks(
     results: Results, debris: Debris, heights: HeightMap, zones: Sequence[Zone], trajectories: bool
 ) -> list[Block]:
-    low, high = np.array(debris.area.bounds()).reshape(2, 2)
+    covered = debris.outline if debris.area.is_empty() else debris.area
+    low, high = np.array(covered.bounds()).reshape(2, 2)
+    extent = f", from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to {high[1]:.2f} m"
     mass = debris.masses_kg.sum()
     middle = debris.masses_kg @ results.frames.positions_m[-1, debris.bodies] / mass
     solid = float(results.inventory.volumes_m3[debris.bodies].sum())
     shards = len(results.inventory.of_kind("shard"))
-    extent = f"from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to {high[1]:.2f} m"
     rows = [
         ("Debris", f"{len(debris.bodies)} of {shards} shards, {mass / 1e3:.2f} t"),
-        ("Footprint", f"{debris.area.area():.1f} m², {extent}"),
+        ("Footprint", f"{debris.area.area():.1f} m²{extent if covered is debris.area else ''}"),
         ("Bridge before", f"{debris.outline.area():.1f} m² in plan"),
         ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {middle[2]:.2f} m above the ground"),
         ("Highest point of the pile", f"{debris.highest_m:.2f} m above the ground"),

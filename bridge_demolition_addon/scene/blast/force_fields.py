@@ -39,7 +39,7 @@ def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Objec
     Raises
     ------
     SimulationError
-        There is no body that could be pushed.
+        There is no body that could be pushed, or Blender is not in object mode.
     """
     pushed = [body for body in bodies if body.rigid_body.type == "ACTIVE"]
     if not pushed:
@@ -188,6 +188,8 @@ def _make(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
 
 def _template(scene: bpy.types.Scene) -> bpy.types.Object:
     """Empty whose field pushes along its own z, within a cylinder, and does not push yet."""
+    if not bpy.ops.object.effector_add.poll():
+        raise SimulationError("Blender makes no fields now: go to object mode first, or apply the blast directly")
     selected, active = list(bpy.context.selected_objects), bpy.context.view_layer.objects.active
     with bpy.context.temp_override(scene=scene):
         bpy.ops.object.effector_add(type="FORCE")  # the only way to an object with a field

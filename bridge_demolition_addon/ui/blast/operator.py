@@ -40,6 +40,7 @@ class BDA_OT_add_source_point(Action, bpy.types.Operator):
     bl_idname = "bda.add_source_point"
     bl_label = "Add Source Point"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     def act(self, context: bpy.types.Context) -> None:
         scene = context.scene
@@ -57,6 +58,7 @@ class BDA_OT_delete_source_point(Action, bpy.types.Operator):
     bl_idname = "bda.delete_source_point"
     bl_label = "Delete"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -74,6 +76,7 @@ class BDA_OT_build_force_objects(Action, bpy.types.Operator):
     bl_idname = "bda.build_force_objects"
     bl_label = "Build Force Objects"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     why_not = staticmethod(no_world)
 

@@ -69,6 +69,7 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.unregister_handler"
     bl_label = "Unregister Handler"
+    changes_scene = False
 
     @classmethod
     def why_not(cls, _context: bpy.types.Context) -> str | None:

@@ -27,13 +27,15 @@ class BDA_OT_go_to_body(Action, bpy.types.Operator):
     bl_idname = "bda.go_to_body"
     bl_label = "Go to Body and Frame"
     bl_options = {"REGISTER", "UNDO"}
+    changes_scene = False
+    changes_objects = True
 
     body: StringProperty(name="Body", description="Name of the body")
     frame: IntProperty(name="Frame", description="Frame to go to", min=0)
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        return recording_runs(context) or (None if context.mode == "OBJECT" else "Go to object mode first")
+        return recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> str | None:
         body = context.view_layer.objects.get(self.body)
@@ -47,6 +49,8 @@ class BDA_OT_go_to_body(Action, bpy.types.Operator):
 
 class _OfLastRecording(Action):
     """Base of the buttons that work on the last recording."""
+
+    changes_scene = False
 
     @classmethod
     def why_not(cls, _context: bpy.types.Context) -> str | None:
@@ -93,6 +97,7 @@ class BDA_OT_make_report(Action, bpy.types.Operator):
 
     bl_idname = "bda.make_report"
     bl_label = "Make Report"
+    changes_scene = False
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:

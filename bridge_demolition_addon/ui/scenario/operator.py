@@ -24,6 +24,7 @@ class BDA_OT_load_scenario(Action, bpy.types.Operator):
     bl_idname = "bda.load_scenario"
     bl_label = "Load Scenario"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -65,6 +66,7 @@ class BDA_OT_new_scenario(Action, bpy.types.Operator):
     bl_idname = "bda.new_scenario"
     bl_label = "New Scenario"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     def act(self, context: bpy.types.Context) -> str | None:
         _show(context.scene.bda, default_scenario())
@@ -76,6 +78,7 @@ class BDA_OT_load_preset(Action, bpy.types.Operator):
     bl_idname = "bda.load_preset"
     bl_label = "Load Preset"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     preset: StringProperty(name="Preset", description="Name of the preset")
 
@@ -89,6 +92,7 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
     bl_idname = "bda.build_scenario"
     bl_label = "Build Scenario"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -99,7 +103,7 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Build it, and let the view show the bridge: its ground is too large for Blender's View All."""
         done = self.execute(context)
-        if "FINISHED" in done and context.mode == "OBJECT":
+        if "FINISHED" in done:
             selected = list(context.selected_objects)
             select_only(context, [body for body in bodies_of(context.scene) if kind_of(body) == Kind.SHARD])
             look_at_selected(context)
@@ -124,6 +128,7 @@ class _Removal(Action):
     """Base of the operators that remove something."""
 
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:

@@ -28,6 +28,7 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
     bl_idname = "bda.add_selected_members"
     bl_label = "Add Selected Meshes"
     bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
 
     directory: path_property("Folder", "Folder that the meshes are written to", "DIR_PATH")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
@@ -37,8 +38,6 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if context.mode != "OBJECT":
-            return "Leave the edit or paint mode first"
         if not any(each.type == "MESH" for each in context.selected_objects):
             return "Select the meshes that are to be members first"
         return None

@@ -1,0 +1,85 @@
+"""Buttons that cannot work are greyed with the reason: outside object mode, and in a scene of another file."""
+
+from dataclasses import replace
+
+import pytest
+from places import EXAMPLES
+
+from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.sequence.checked_model import checked_model
+
+EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
+MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT")
+
+IN_A_LINKED_SCENE = {
+    "draw_charts": "Nothing was recorded yet",
+    "go_to_body": "is not in this scene",
+    "make_report": "Choose the folder",
+    "open_results": "Nothing was recorded yet",
+    "unregister_handler": "No handler is registered",
+}
+"""What buttons say that only look at a scene; all others change it."""
+
+
+@pytest.fixture
+def busy(extension, request):
+    """Blender in another mode than object mode."""
+    extension.ops.mesh.primitive_cube_add()
+    extension.ops.object.mode_set(mode=request.param)
+    yield extension
+    extension.ops.object.mode_set(mode="OBJECT")
+
+
+def everything(bpy):
+    kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions)
+    return {each for kind in kinds for each in kind}
+
+
+@pytest.mark.parametrize("busy", MODES, indirect=True)
+def test_buttons_that_make_or_remove_objects_need_object_mode(busy):
+    busy.context.scene.bda.scenario_path = str(EXPLOSIVES)
+    before = everything(busy)
+    buttons = ("build_scenario", "load_scenario", "new_scenario", "add_source_point", "remove_demolition")
+    for button in buttons:
+        with pytest.raises(RuntimeError, match="Go to object mode first"):
+            getattr(busy.ops.bda, button)()
+    assert everything(busy) == before
+
+
+@pytest.mark.parametrize("busy", MODES, indirect=True)
+def test_a_script_that_builds_in_another_mode_leaves_nothing(busy):
+    from bridge_demolition_addon.scene.demolition import build_demolition
+
+    scenario, scene, before = read_scenario(EXPLOSIVES), busy.context.scene, everything(busy)
+    scenario = replace(
+        scenario, fracture=replace(scenario.fracture, shards=20), blast=replace(scenario.blast, apply="fields")
+    )
+    with pytest.raises(SimulationError, match="go to object mode first, or apply the blast directly"):
+        build_demolition(scene, scenario, checked_model(scenario))
+    assert everything(busy) == before
+    assert scene.rigidbody_world is None
+    busy.ops.object.mode_set(mode="OBJECT")
+    build_demolition(scene, scenario, checked_model(scenario))
+    assert scene.rigidbody_world
+
+
+def test_a_scene_of_another_file_is_not_changed(extension, settings, tmp_path):
+    settings.scenario_path = str(EXPLOSIVES)
+    extension.ops.bda.load_scenario()
+    settings.scenario.fracture.shards = 20
+    extension.ops.bda.build_scenario()
+    path = str(tmp_path / "bridge.blend")
+    extension.ops.wm.save_as_mainfile(filepath=path)
+    extension.ops.wm.read_factory_settings(use_empty=True)
+    with extension.data.libraries.load(path, link=True) as (stored, linked):
+        linked.scenes = stored.scenes
+    extension.context.window.scene = linked.scenes[0]
+    before = everything(extension)
+    for button in dir(extension.ops.bda):
+        said = IN_A_LINKED_SCENE.get(button, r"linked from bridge\.blend: open that file to change it")
+        with pytest.raises(RuntimeError, match=said):
+            getattr(extension.ops.bda, button)()
+    assert everything(extension) == before
+    for frame in range(1, 4):
+        linked.scenes[0].frame_set(frame)
