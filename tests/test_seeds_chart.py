@@ -52,11 +52,12 @@ def test_the_readme_gives_the_ranges_that_were_measured(runs):
 @pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
 def test_the_example_gives_the_ranges_that_were_measured(path):
     runs, text = seeds_chart.read_throws(path), words(EXAMPLES / f"{path.stem}.toml")
-    broken = runs["broken_connections"]
+    broken, made = runs["broken_connections"], 100.0 * runs["made_share"]
     claims = (
         f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}",
         f"the largest throw is {spread(runs['largest_throw_m'])}",
         f"{broken.min():.0f} to {broken.max():.0f} connections break.",
+        f"Bullet's solver made {made.min():.0f} to {made.max():.0f} % of the dissipated energy in these runs",
     )
     assert [claim for claim in claims if claim not in text] == []
 

@@ -36,18 +36,9 @@ def test_bridge_stands_until_its_charges_go_off(loud):
     assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.03 * loud.summary["connections"]["count"]
 
 
-@pytest.mark.parametrize("loud", ["two_spans_20m_delays"], indirect=True)
-def test_charges_of_a_ton_break_some_of_the_bridge_in_every_draw(loud):
-    assert_claims("two_spans_20m_delays", loud)
-
-
-@pytest.mark.parametrize("loud", ["single_span_explosives"], indirect=True)
-def test_bridge_comes_down_with_its_charges(loud):
-    assert loud.summary["connections"]["broken"] > 0.1 * loud.summary["connections"]["count"]
-    deck, spans_m = loud.of_members("deck"), loud.scenario.bridge.spans_m
-    inner = deck[abs(loud.results.frames.positions_m[0, deck, 0] - spans_m / 2.0) < 0.4 * spans_m]
-    fallen = loud.fallen_m(inner) / loud.results.frames.positions_m[0, inner, 2]
-    assert np.median(fallen) > 0.25
+@pytest.mark.parametrize("loud", NAMES, indirect=True)
+def test_charges_break_the_bridge(request, loud):
+    assert_claims(request.node.callspec.params["loud"], loud)
 
 
 def test_blast_pushes_away_from_the_charges(loud):
@@ -56,17 +47,6 @@ def test_blast_pushes_away_from_the_charges(loud):
     assert (impulses[:, 2] > 0.0).all()
     charges = loud.scenario.charges
     assert loud.summary["charges"]["mass_kg"] == sum(charge.mass_kg for charge in charges)
-
-
-@pytest.mark.parametrize("loud", ["single_span_explosives"], indirect=True)
-def test_shards_near_a_charge_fly_away_from_it(loud):
-    # In the other example a field spreads each load over a frame of 42 ms, and most columns hold.
-    for charge in loud.scenario.charges:
-        nearest = loud.near(charge, 3.5)
-        loaded = loud.at(loud.scenario.blast.start_s + charge.delay_s) + 1  # the wave is past them within 10 ms
-        assert len(nearest) >= 8
-        # Shards are still connected with those around them, which turns them, but hardly any flies towards its charge.
-        assert (loud.outwards(charge, nearest, loaded) > 0.0).mean() >= 0.9, charge.name
 
 
 def test_fields_and_direct_loads_agree_where_nothing_breaks(blender, tmp_path):

@@ -100,7 +100,7 @@ def test_nothing_moves_and_nothing_breaks_before_the_ball_arrives(demolition):
     assert 0.0 <= fallen - free <= demolition.scenario.time.step.frame_s
 
 
-def test_the_ball_takes_down_what_it_hits(demolition):
+def test_the_ball_goes_through_the_deck_that_it_hits(demolition):
     assert demolition.hit_deck == demolition.case.hit
     assert_claims(demolition.name, demolition)
 
