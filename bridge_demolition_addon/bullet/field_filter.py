@@ -5,7 +5,7 @@ a frame takes three times as long. It asks for the fields of the collection that
 where it is limited to one, and knows of none in the scene's own root collection, which can be chosen for no such limit.
 
 So a pointer to that collection is written, into the evaluated copy of the scene only: set through Python, the limit
-would belong to the user's scene, and would have all of Blender's relations built anew.
+would belong to the user's scene, and would have all of Blender's relations built again.
 """
 
 from __future__ import annotations

@@ -103,7 +103,7 @@ class Playing:
 
 
 def start_over(scene: bpy.types.Scene) -> None:
-    """Go to the start frame, and have frames that were played before simulated anew instead of played back."""
+    """Go to the start frame, and have frames that were played before simulated again instead of played back."""
     world = scene.rigidbody_world
     world.substeps_per_frame = world.substeps_per_frame  # Blender takes any setting for a change
     scene.frame_set(world.point_cache.frame_start)

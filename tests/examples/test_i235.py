@@ -95,7 +95,7 @@ def test_nothing_moves_and_nothing_breaks_before_the_ball_arrives(demolition):
     assert results.frames.intact[:hit].all()
     assert not results.frames.intact[hit].all()
     fallen = results.frames.time_s[hit] - demolition.scenario.ball.release_time_s
-    # Free fall takes sqrt(2 h / g); the impact is told of with the end of the frame that it happens in.
+    # Free fall takes sqrt(2 h / g); the impact is noted at the end of the frame that it happens in.
     free = math.sqrt(2.0 * demolition.scenario.ball.drop_height_m / STANDARD_GRAVITY_M_S2)
     assert 0.0 <= fallen - free <= demolition.scenario.time.step.frame_s
 

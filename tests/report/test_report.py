@@ -75,7 +75,7 @@ def made(folder, *more, **options):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    """A run with everything there is to tell of, and its report."""
+    """A run with everything that a report can show, and its report."""
     folder = keep_run(tmp_path_factory.mktemp("runs") / "whole", flying_shards())
     return folder, *made(folder, trajectories=True)
 

@@ -163,7 +163,7 @@ def _frames_of_films(series: ContourSeries, settings: FilmSettings) -> dict[str,
 def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
     """Have the bodies placed as they were recorded where the played frames are forgotten.
 
-    A render would simulate them anew, beside the simulation of the 3D view in one and the same world, and crash.
+    A render would simulate them again, beside the simulation of the 3D view in one and the same world, and crash.
     """
     world = scene.rigidbody_world
     if not contours_of(scene).is_placed or not world.enabled:

@@ -362,7 +362,7 @@ def test_changing_a_force_object_while_it_pushes_ends_the_recording_and_says_so(
     (field,) = force_objects(blocks.scene).values()
     start_recording(recording := Recording(blocks.scene, tmp_path))
     for frame in range(1, 20):
-        field.location.x += 0.1  # Blender makes its evaluated copy anew, without our load
+        field.location.x += 0.1  # Blender makes a new evaluated copy, without our load
         blocks.scene.frame_set(frame)
     stop_recording()
     assert "force object was changed" in str(recording.error)

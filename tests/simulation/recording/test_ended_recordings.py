@@ -109,7 +109,7 @@ def test_other_scene_plays_untouched(blender, pair, tmp_path):
     alone = falling_heights(blender, other, body, FRAMES)
     assert alone[-1] < alone[0]
     recording = pair.record(tmp_path)
-    other.gravity = other.gravity  # marks its cache as outdated: it is simulated anew
+    other.gravity = other.gravity  # marks its cache as outdated: it is simulated again
     assert falling_heights(blender, other, body, FRAMES) == alone
     play(pair.scene, FRAMES + 2, FRAMES + 10)
     assert recording.error is None

@@ -179,7 +179,7 @@ def test_changes_start_anew_with_the_simulation(blender, tmp_path):
     recording = Recording(bar.scene, tmp_path)
     start_recording(recording)
     for _ in range(2):
-        bar.scene.rigidbody_world.substeps_per_frame = 10  # has Blender simulate anew
+        bar.scene.rigidbody_world.substeps_per_frame = 10  # has Blender simulate again
         for frame in range(1, 16):
             bar.scene.frame_set(frame)
     stop_recording()
