@@ -53,9 +53,7 @@ def test_the_scene_itself_stays_as_it_is(pushed):
     ignore_fields(scene)
     assert scene.rigidbody_world.effector_weights.collection is None
     assert not scene.rigidbody_world.point_cache.is_outdated
-    scene.rigidbody_world.effector_weights.all = (
-        1.0  # Blender makes a new evaluated copy, and takes account of fields again
-    )
+    scene.rigidbody_world.effector_weights.all = 1.0  # has Blender make a new copy, which fields act on
     scene.view_layers[0].update()
     assert scene.view_layers[0].depsgraph.scene_eval.rigidbody_world.effector_weights.collection is None
 
