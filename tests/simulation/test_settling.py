@@ -23,7 +23,8 @@ def beam(folder, damping):
     breaking = Breaking(warm_up_s=WARM_UP_S, warm_up_damping=damping)
     scene = ShardScene((12.0, 1.0, 0.4), (0.0, 0.0, 5.0), 60, {"solver_iterations": 20}, breaking=breaking)
     assert breaking_of(scene.scene) == breaking
-    scene.hold(abs(scene.fracture.centres[:, 0]) > 5.7)
+    ends = np.array([abs(shard.vertices[:, 0]).max() for shard in scene.fracture.shards])
+    scene.hold(ends > 6.0 - 1e-6)
     recording = Recording(scene.scene, folder)
     start_recording(recording)
     for frame in range(1, 51):
@@ -35,15 +36,14 @@ def beam(folder, damping):
 
 def test_beam_is_at_rest_after_a_damped_warm_up(blender, tmp_path):
     damped = beam(tmp_path, 0.9999)
-    blender.ops.wm.read_factory_settings(use_empty=True)
-    free = beam(tmp_path, 0.0)
-    settled, swaying = settling(damped, WARM_UP_S), settling(free, WARM_UP_S)
+    settled = settling(damped, WARM_UP_S)
     assert settled["time_s"] == pytest.approx(WARM_UP_S, abs=1 / 24)
-    assert settled["largest_speed_m_s"] < 0.2 * swaying["largest_speed_m_s"]
-    # It has settled where it stays: what follows without damping moves it no further than the trembling of the solver.
+    # Over 20 draws 0.00 to 0.07 m/s: single shards tremble, as the solver does not find its end.
+    assert settled["largest_speed_m_s"] < 0.15
+    # It has settled where it stays: without damping it sags no further, by 0.2 % over 20 draws.
     end = np.flatnonzero(damped.frames.time_s >= settled["time_s"])[0]
     sag = (damped.frames.positions_m[0] - damped.frames.positions_m)[:, :, 2].max(axis=1)
-    assert sag[end] == pytest.approx(sag[-1], rel=0.05)
+    assert sag[end] == pytest.approx(sag[-1], rel=0.01)
 
 
 def test_damping_is_a_share_of_the_velocity_in_a_second(blender, tmp_path):
