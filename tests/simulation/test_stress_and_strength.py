@@ -18,11 +18,11 @@ GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 
 def test_column_carries_all_that_is_above(blender, tmp_path):
     height = 6.0
-    column = ShardScene((1, 1, height), (0, 0, height / 2), 150, {"substeps_per_frame": 20, "solver_iterations": 50})
+    column = ShardScene((1, 1, height), (0, 0, height / 2), 80, {"substeps_per_frame": 20, "solver_iterations": 50})
     low = np.array([shard.vertices[:, 2].min() for shard in column.fracture.shards])
     column.hold(low < 1e-6)
     start_recording(recording := Recording(column.scene, tmp_path))
-    for frame in range(1, 75):
+    for frame in range(1, 60):
         column.scene.frame_set(frame)
     stop_recording()
     results = recording.results()
@@ -32,10 +32,10 @@ def test_column_carries_all_that_is_above(blender, tmp_path):
         weights = column.fracture.volumes[inside]
         mean, mean_height = (np.average(each[inside], weights=weights) for each in (vertical, heights))
         expected = -DENSITY_KG_M3 * GRAVITY * (height - mean_height)
-        # Of the weight of the whole column: levels are cut roughly by the shards, and the top has hardly any stress.
-        assert mean == pytest.approx(expected, abs=0.05 * DENSITY_KG_M3 * GRAVITY * height)
-        if level < height - 1.0:
-            assert mean == pytest.approx(expected, rel=0.05)
+        # Levels are cut roughly by the shards: over 20 draws they differ by 10 % or less, and the top one, which has
+        # hardly any stress, by 1.2 % of that at the foot.
+        of_foot = DENSITY_KG_M3 * GRAVITY * height
+        assert mean == pytest.approx(expected, abs=0.13 * abs(expected) if level < height - 1.0 else 0.03 * of_foot)
 
 
 def test_pulled_bar_has_force_by_area(blender, tmp_path):
