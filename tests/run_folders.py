@@ -93,3 +93,15 @@ def keep_run(folder, results, scenario=TOLD, *, completed=True):
     if scenario:
         (folder / "scenario_as_run.toml").write_text(scenario_text(scenario), encoding="utf-8")
     return folder
+
+
+def killed_run(folder, last_lines=()):
+    """The folder of a run that was killed: its logs, with more lines at the end of the force log."""
+    folder.mkdir()
+    header = "frame,time_s,body,force_x_N,peak_force_N,peak_force_sum_N"
+    lines = [
+        f"{2 + k},{0.5 * k},{body},1,{10 * k},{30 * k}" for k in range(3) for body in ("Ground", "Shard 0", "Shard 1")
+    ]
+    (folder / "force_log.csv").write_text("\n".join([header, *lines, *last_lines]), encoding="utf-8")
+    (folder / "breaking_log.csv").write_text("frame,time_s,connection\n3,0.5,A\n3,0.5,B\n", encoding="utf-8")
+    return folder

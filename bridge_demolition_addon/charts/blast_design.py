@@ -22,7 +22,7 @@ from ..core.blast.pulses import Pulses, blast_pulses, pressure_at
 from ..core.blast.wave import AMBIENT_PRESSURE_PA, Burst
 from ..core.disk import whole_file
 from ..core.errors import OutputError
-from .style import blank_figure
+from .style import blank_figure, lay_out
 
 SPAN_M = 20.0
 PIERS = (("left end", -SPAN_M), ("mid pier", 0.0), ("right end", SPAN_M))
@@ -297,6 +297,7 @@ def write_charts(folder: Path, settings: ChartSettings) -> list[Path]:
         for name, draw in CHARTS.items():
             paths.append(folder / f"{name}.png")
             figure = draw(settings)
+            lay_out(figure)
             with whole_file(paths[-1]) as part:
                 figure.savefig(part)
     except OSError as error:

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..core.disk import whole_file
 from ..core.results.arrays import Results
 from ..core.results.force_history import largest_on_a_shard
-from .style import blank_figure, plain
+from .style import blank_figure, lay_out, plain
 
 
 def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
@@ -33,5 +33,6 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
     if impact_s is not None:
         lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
     figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
+    lay_out(figure)
     with whole_file(path) as part:
         figure.savefig(part)

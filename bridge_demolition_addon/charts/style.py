@@ -36,6 +36,15 @@ def blank_figure(
     return figure
 
 
+def lay_out(figure: Figure) -> None:
+    """Lay a figure out for good.
+
+    Left to matplotlib, every saving lays it out again and draws it twice.
+    """
+    figure.get_layout_engine().execute(figure)
+    figure.set_layout_engine(None)
+
+
 def plain(text: object) -> str:
     r"""Return a text that matplotlib writes as it is: no formula, and in a legend even where it begins with ``_``.
 

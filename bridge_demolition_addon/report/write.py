@@ -10,13 +10,15 @@ from typing import Protocol
 
 from manifold3d import CrossSection
 
+from ..core.debris.exclusion import ExclusionZone
 from ..core.debris.footprint import footprint
 from ..core.errors import OutputError
 from ..core.folder_lock import FolderLock
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..core.scenario.file import scenario_text
 from .comparison import comparison
-from .document.blocks import DataTable, Document, Picture, write_tables
+from .document.blocks import DataTable, Document, write_tables
+from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
 from .run_folder import Run, read_run
@@ -92,28 +94,28 @@ def add_on_version() -> str:
         return str(tomllib.loads(found[0].read_text(encoding="utf-8"))["version"]) if found else "unknown"
 
 
-def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -> list[Path]:
-    progress.stage("evaluating debris, zones, forces and energy")
-    zone = zone_of(run)
-    plans: list[Path] = []
-    only_as_file: list[DataTable] = []
-    if zone is not None:
-        layers = {
-            "exclusion zone": zone.whole,
-            "predicted debris": zone.debris,
-            "designed drop": zone.drop,
-            "bridge": zone.plan,
-        }
-        plans.append(target / DXF_FILE)
-        write_dxf(plans[0], layers)
-        if run.scenario.site:
-            plans.append(target / GEOJSON_FILE)
-            write_geojson(plans[1], layers, run.scenario.site)
-        only_as_file.append(corner_table(zone))
-    sections = [cover_section(run, add_on_version()), trust_section(run)]
+def document_of(
+    run: Run, version: str, zone: ExclusionZone | None, plans: Sequence[str] = (), *, trajectories: bool = False
+) -> Document:
+    """Return the report of a run.
+
+    Parameters
+    ----------
+    run
+        The run.
+    version
+        That of this program.
+    zone
+        Its exclusion zone.
+    plans
+        Names of the files that have the zone for the site plan.
+    trajectories
+        Whether the map of the debris shows the paths of the shards.
+    """
+    sections = [cover_section(run, version), trust_section(run)]
     if run.results is not None and len(run.results.inventory.of_kind("shard")):
         sections.append(debris_section(run, trajectories=trajectories))
-        sections.append(exclusion_section(zone, run, [path.name for path in plans]))
+        sections.append(exclusion_section(zone, run, plans))
         sections.append(force_section(run))
         sections.append(collapse_section(run))
         if run.scenario and (blast := blast_section(run.scenario, _outline(run))):
@@ -122,9 +124,32 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
         sections.append(logged_section(run))
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
-    subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
-    document = Document(run.title, subtitle, tuple(sections))
+    subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
+    return Document(run.title, subtitle, tuple(sections))
+
+
+def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -> list[Path]:
+    progress.stage("evaluating debris, zones, forces and energy")
+    zone = zone_of(run)
+    plans = [] if zone is None else _write_plans(zone, run, target)
+    document = document_of(run, add_on_version(), zone, [path.name for path in plans], trajectories=trajectories)
+    only_as_file = [] if zone is None else [corner_table(zone)]
     return [*_written(document, target, progress, *only_as_file), *plans]
+
+
+def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
+    layers = {
+        "exclusion zone": zone.whole,
+        "predicted debris": zone.debris,
+        "designed drop": zone.drop,
+        "bridge": zone.plan,
+    }
+    plans = [target / DXF_FILE]
+    write_dxf(plans[0], layers)
+    if run.scenario.site:
+        plans.append(target / GEOJSON_FILE)
+        write_geojson(plans[1], layers, run.scenario.site)
+    return plans
 
 
 def _outline(run: Run) -> CrossSection:
@@ -132,18 +157,12 @@ def _outline(run: Run) -> CrossSection:
 
 
 def _written(document: Document, target: Path, progress: Progress, *only_as_file: DataTable) -> list[Path]:
-    pictures = sum(isinstance(block, Picture) for block in document.blocks())
-    drawn = 0
-
-    def count(_: Picture) -> None:
-        nonlocal drawn
-        drawn += 1
-        progress.part(drawn, pictures, "pictures drawn")
-
+    progress.stage("drawing the pictures")
+    drawn = drawings(document, lambda done, total: progress.part(done, total, "pictures drawn"))
     progress.stage(f"writing {REPORT_PAGE}")
-    write_html(document, target / REPORT_PAGE, count)
+    write_html(document, drawn, target / REPORT_PAGE)
     progress.stage(f"writing {REPORT_PDF}")
-    write_pdf(document, target / REPORT_PDF, lambda done, total: progress.part(done, total, "pages written"))
+    write_pdf(document, drawn, target / REPORT_PDF, lambda done, total: progress.part(done, total, "pages written"))
     tables = target / TABLE_FOLDER
     tables.mkdir(exist_ok=True)
     written = write_tables([*document.named_tables(), *only_as_file], tables)

@@ -21,6 +21,7 @@ from bridge_demolition_addon.charts.blast_design import (
     two_span_total,
     write_charts,
 )
+from bridge_demolition_addon.charts.style import lay_out
 from bridge_demolition_addon.core.blast.models import BlastModel, blast_wave
 from bridge_demolition_addon.core.blast.wave import Burst
 from bridge_demolition_addon.core.errors import OutputError
@@ -47,6 +48,7 @@ def drawn(name, settings):
     with warnings.catch_warnings(), BytesIO() as file:
         warnings.simplefilter("error")
         figure = CHARTS[name](settings)
+        lay_out(figure)
         figure.savefig(file)
         file.seek(0)
         return figure, imread(file)

@@ -1,5 +1,7 @@
 """``bda charts``: pictures in the folder asked for, and wrong input refused in one line."""
 
+from contextlib import chdir, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -10,34 +12,26 @@ from bridge_demolition_addon.cli.main import main
 
 @pytest.fixture(scope="module")
 def usual(tmp_path_factory):
-    """The folder of all charts as they are without options."""
-    folder = tmp_path_factory.mktemp("usual")
-    assert main(["charts", "--quiet", "--output", str(folder)]) == 0
-    return folder
+    """The folder of all charts as they are without options, and what was printed."""
+    with chdir(tmp_path_factory.mktemp("usual")), redirect_stdout(StringIO()) as printed:
+        assert main(["charts"]) == 0
+        return Path("charts").resolve(), printed.getvalue()
 
 
-def test_charts_are_drawn_and_named(tmp_path, capsys):
-    output = tmp_path / "pictures"
-    assert main(["charts", "--output", str(output)]) == 0
-    printed = capsys.readouterr()
-    assert printed.err == ""
-    assert printed.out.splitlines() == [str(output / f"{name}.png") for name in CHARTS]
-    assert sorted(path.stem for path in output.iterdir()) == sorted(CHARTS)
+def test_charts_are_drawn_and_named(usual):
+    """Into the folder `charts`, where no other is asked for."""
+    folder, printed = usual
+    assert printed.splitlines() == [str(Path("charts") / f"{name}.png") for name in CHARTS]
+    assert sorted(path.stem for path in folder.iterdir()) == sorted(CHARTS)
 
 
-def test_without_a_folder_they_go_to_charts(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main(["charts", "--quiet"]) == 0
-    assert capsys.readouterr().out == ""
-    assert len(list(Path("charts").iterdir())) == len(CHARTS)
-
-
-def test_options_change_the_pictures(usual, tmp_path):
+def test_options_change_the_pictures(usual, tmp_path, capsys):
     report = ["--model", "kinney-graham", "--burst", "surface", "--scaled"]
     for folder, options in {"ratio": ["--unit", "ratio"], "report": report}.items():
         assert main(["charts", "--quiet", "--output", str(tmp_path / folder), *options]) == 0
+    assert capsys.readouterr() == ("", "")
     for name in CHARTS:
-        assert len({(folder / f"{name}.png").read_bytes() for folder in (usual, *tmp_path.iterdir())}) == 3
+        assert len({(folder / f"{name}.png").read_bytes() for folder in (usual[0], *tmp_path.iterdir())}) == 3
 
 
 @pytest.mark.parametrize(
@@ -46,7 +40,7 @@ def test_options_change_the_pictures(usual, tmp_path):
 )
 def test_a_charge_of_ones_own_changes_its_pictures_alone(usual, option, changed, tmp_path):
     assert main(["charts", "--quiet", "--output", str(tmp_path), option, "500"]) == 0
-    differing = {path.stem for path in tmp_path.iterdir() if path.read_bytes() != (usual / path.name).read_bytes()}
+    differing = {path.stem for path in tmp_path.iterdir() if path.read_bytes() != (usual[0] / path.name).read_bytes()}
     assert differing == changed
 
 

@@ -48,7 +48,7 @@ def test_no_pictures_are_rendered_when_none_are_wanted(finished):
 
 def test_a_film_is_made_when_it_is_wanted(tmp_path):
     path, output = tmp_path / "brief.toml", tmp_path / "results"
-    brief = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.2))  # each picture takes a second
+    brief = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.1))  # each picture takes a second
     path.write_text(scenario_text(brief), encoding="utf-8")
     status, printed, _ = run_bda("run", path, "--output", output, "--no-pictures", "--film")
     assert status == 0

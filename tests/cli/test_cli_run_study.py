@@ -46,7 +46,7 @@ def test_each_run_has_its_folder_and_a_report_compares_them(files, tmp_path, cap
     header = (output / "report" / "tables" / "comparison.csv").read_text(encoding="utf-8").splitlines()[0]
     assert "middle" in header and "side" in header
 
-    # Again without a report: the old one would be that of other runs.
+    # Again without a report: the old ones would be those of other runs.
     again = (*files, "--output", output, "--no-pictures", "--quiet")
     assert f"{output / 'middle'}: exists already" in refused(capsys, *again)
     assert (output / "report" / "report.html").is_file()

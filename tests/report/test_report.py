@@ -15,7 +15,7 @@ from manifold3d import CrossSection
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from moving_boxes import moving_boxes
-from run_folders import TOLD, flying_shards, keep_run
+from run_folders import TOLD, flying_shards, keep_run, killed_run
 from sample_results import changed
 from scenarios import I235
 
@@ -25,11 +25,13 @@ from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.scenario import BallCable, BallHit
-from bridge_demolition_addon.report.document.blocks import Paragraph
+from bridge_demolition_addon.report.comparison import comparison
+from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph, Picture
 from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.cover import cover_section
-from bridge_demolition_addon.report.write import write_report
+from bridge_demolition_addon.report.sections.debris import zone_of
+from bridge_demolition_addon.report.write import document_of, write_report
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -71,6 +73,36 @@ def made(folder, *more, **options):
     """The page of a report, and all files written."""
     written = write_report([folder, *more], options.pop("output", None), progress=Silence(), **options)
     return Page(written[0].read_text(encoding="utf-8")), written
+
+
+class Told:
+    """What a document says, with all its pictures drawn, though laid out and written nowhere."""
+
+    def __init__(self, document):
+        self.titles = [section.title for section in document.sections]
+        paragraphs = [block for block in document.blocks() if isinstance(block, Paragraph)]
+        self.paragraphs = [block.text for block in paragraphs]
+        self.notices = [block.text for block in paragraphs if block.is_notice]
+        self.tables = {block.name: block for block in document.blocks() if isinstance(block, DataTable)}
+        self.pictures = [block for block in document.blocks() if isinstance(block, Picture)]
+        for picture in self.pictures:
+            picture.draw(Figure(layout="constrained"))
+
+    def column(self, table, key):
+        """The cells of a column of a table, as they stand in its file."""
+        keys = [column.key for column in self.tables[table].columns]
+        return [row[keys.index(key)] for row in self.tables[table].rows]
+
+
+def told(folder):
+    """What the report of a run says."""
+    run = read_run(folder)
+    return Told(document_of(run, "0", zone_of(run)))
+
+
+def compared(*folders):
+    """What the report of several runs says."""
+    return Told(comparison([read_run(folder) for folder in folders], "0"))
 
 
 @pytest.fixture(scope="module")
@@ -164,10 +196,10 @@ def test_site_plans_lie_beside_it(whole):
 
 def test_without_charges_and_ball_there_is_no_word_of_them(tmp_path):
     results = moving_boxes([0, 1], [(1, 1, 1)] * 2, [[(0, 0, 5), (3, 0, 5)], [(1, 1, 0.5), (3, 2, 0.5)]])
-    page, written = made(keep_run(tmp_path / "run", results, replace(I235, ball=None, exclusion=None)))
-    assert "Blast" not in page.texts and "There is no ball in this run." in page.texts
-    assert not any(path.name == "charges.csv" for path in written)
-    assert any("gives no exclusion zone. Add the table [exclusion]" in text for text in page.notices)
+    report = told(keep_run(tmp_path / "run", results, replace(I235, ball=None, exclusion=None)))
+    assert "Blast" not in report.titles and "There is no ball in this run." in report.paragraphs
+    assert "charges" not in report.tables
+    assert any("gives no exclusion zone. Add the table [exclusion]" in text for text in report.notices)
 
 
 @pytest.mark.parametrize("place", [(4.0, 2.0, 30.0), (900.0, 0.0, 30.0)])
@@ -183,7 +215,7 @@ def test_the_map_of_a_charge_whose_rings_do_not_reach_the_ground_shows_the_bridg
 
 
 def test_a_run_of_one_frame_says_so(tmp_path):
-    results = flying_shards()
+    results = flying_shards(6)
     series = {name: array[:1] for name, array in results.arrays().items() if np.shape(array)[:1] == (25,)}
     no_ball = {name: results.arrays()[name][:0] for name in ("ball_times_s", "ball_impulses_ns", "ball_velocities_m_s")}
     page, written = made(keep_run(tmp_path / "run", changed(results, **series | no_ball)))
@@ -198,17 +230,6 @@ def test_a_run_that_was_stopped_says_so(tmp_path):
     assert notices_on_the_cover(run) >= set(run.shortcomings)
 
 
-def killed_run(folder, last_lines):
-    folder.mkdir()
-    header = "frame,time_s,body,force_x_N,peak_force_N,peak_force_sum_N"
-    lines = [
-        f"{2 + k},{0.5 * k},{body},1,{10 * k},{30 * k}" for k in range(3) for body in ("Ground", "Shard 0", "Shard 1")
-    ]
-    (folder / "force_log.csv").write_text("\n".join([header, *lines, *last_lines]), encoding="utf-8")
-    (folder / "breaking_log.csv").write_text("frame,time_s,connection\n3,0.5,A\n3,0.5,B\n", encoding="utf-8")
-    return folder
-
-
 @pytest.mark.parametrize("last_lines", [[], ["5,1.5,Ground,1,2,3", "5,1.5,Sh"]], ids=["whole", "in mid-line"])
 def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
     page, _ = made(killed_run(tmp_path / "run", last_lines))
@@ -220,9 +241,9 @@ def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
 
 
 def test_a_scene_that_was_built_by_hand_has_no_scenario(tmp_path):
-    page, _ = made(keep_run(tmp_path / "run", flying_shards(), None))
-    assert any("There is no scenario_as_run.toml" in text for text in page.notices)
-    assert "By hand" in page.texts
+    folder = keep_run(tmp_path / "run", flying_shards(6, 13), None)
+    assert any("There is no scenario_as_run.toml" in text for text in told(folder).notices)
+    assert read_run(folder).title == "By hand"
 
 
 @pytest.mark.parametrize(
@@ -279,21 +300,21 @@ def test_a_report_is_written_without_a_damaged_picture(tmp_path):
 
 
 def test_damaged_results_are_said_and_left_out(tmp_path):
-    folder = killed_run(tmp_path / "run", [])
+    folder = killed_run(tmp_path / "run")
     (folder / "results.npz").write_bytes(b"PK")
     page, _ = made(folder)
     assert any("results.npz cannot be read" in text for text in page.notices)
 
 
 def test_a_recording_without_forces_is_reported_without_them(tmp_path):
-    results = flying_shards()
+    results = flying_shards(6, 13)
     unknown = {
         name: np.full_like(results.arrays()[name], np.nan)
         for name in ("body_sums_n", "body_peak_sums_n", "body_contact_impulses_ns", "von_mises_pa", "stresses_pa")
     }
-    page, _ = made(keep_run(tmp_path / "run", changed(results, **unknown), I235))
-    assert any("Forces were not recorded" in text for text in page.notices)
-    assert "6 Collapse" in page.texts
+    report = told(keep_run(tmp_path / "run", changed(results, **unknown), I235))
+    assert any("Forces were not recorded" in text for text in report.notices)
+    assert report.titles[5] == "Collapse"
 
 
 @pytest.mark.parametrize("what", ["nothing", "a file", "an empty folder", "another folder"])
@@ -350,9 +371,9 @@ def test_runs_are_set_side_by_side(tmp_path):
 )
 def test_words_that_all_names_begin_with_are_left_out(tmp_path, names, shown):
     folders = [keep_run(tmp_path / name, flying_shards(6, 13)) for name in names]
-    page, _ = made(*folders, output=tmp_path / "both")
-    assert [row["run"] for row in table(tmp_path / "both", "runs")] == list(shown)
-    assert ("begin with bridge_, which is left out here" in page.text) == (names != shown)
+    report = compared(*folders)
+    assert report.column("runs", "run") == list(shown)
+    assert any("begin with bridge_, which is left out here" in text for text in report.paragraphs) == (names != shown)
 
 
 def test_what_sets_runs_apart_is_told_of_each(tmp_path):
@@ -366,8 +387,7 @@ def test_what_sets_runs_apart_is_told_of_each(tmp_path):
     folders = [
         keep_run(tmp_path / name, flying_shards(6, 13), replace(I235, ball=ball)) for name, ball in balls.items()
     ]
-    made(*folders, output=tmp_path / "all")
-    assert [row["means"] for row in table(tmp_path / "all", "runs")] == [
+    assert compared(*folders).column("runs", "means") == [
         "ball of 10 t from 5 m on (6.5, 0) m",
         "ball of 10 t from 5 m on (6.5, 0) m, then from 6 m on (3, 1.5) m",
         "ball of 10 t on a cable of 12 m, drawn aside by 30°",
@@ -375,14 +395,13 @@ def test_what_sets_runs_apart_is_told_of_each(tmp_path):
 
 
 def test_a_killed_run_beside_a_whole_one_is_named(tmp_path):
-    folders = [keep_run(tmp_path / "whole", flying_shards()), killed_run(tmp_path / "killed", [])]
-    page, _ = made(*folders, output=tmp_path / "both")
-    assert any(text.startswith("killed: The run was killed") for text in page.notices)
-    assert list(table(tmp_path / "both", "comparison")[0]) == ["finding", "unit", "whole"]
+    report = compared(keep_run(tmp_path / "whole", flying_shards(6, 13)), killed_run(tmp_path / "killed"))
+    assert any(text.startswith("killed: The run was killed") for text in report.notices)
+    assert [column.key for column in report.tables["comparison"].columns] == ["finding", "unit", "whole"]
 
 
 def test_several_runs_need_a_folder_of_their_own(tmp_path):
-    folder = keep_run(tmp_path / "run", flying_shards())
+    folder = killed_run(tmp_path / "run")
     with pytest.raises(OutputError, match="give one with --output"):
         made(folder, folder)
 

@@ -2,6 +2,7 @@
 
 import itertools
 import re
+import zlib
 
 import numpy as np
 import pytest
@@ -23,7 +24,10 @@ from bridge_demolition_addon.report.document.blocks import (
     facts,
     write_tables,
 )
+from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.document.html import write_html
+from bridge_demolition_addon.report.document.page import PAGE_MM, Font, width_mm
+from bridge_demolition_addon.report.document.pdf import write_pdf
 
 # Letters may be a little wider than their advance.
 SLACK_MM = 0.6
@@ -33,15 +37,15 @@ ENDS = ("near_end", "neighbouring_deck", "between_decks", "mid_span", "without_b
 
 
 @pytest.fixture(scope="module", params=["one run", "five runs"])
-def document(request, tmp_path_factory):
-    """The document of a run with everything in it, or of runs side by side in folders with long names."""
+def report(request, tmp_path_factory):
+    """The document of a run with everything in it, or of runs in folders with long names, and its drawings."""
     folders = [tmp_path_factory.mktemp("runs") / f"{BEGINNING}{end}" for end in ENDS]
     folders = folders[:1] if request.param == "one run" else folders
     for folder in folders:
         keep_run(folder, flying_shards())
     kept = []
     patch = pytest.MonkeyPatch()
-    patch.setattr(writing, "write_html", lambda document, *_: kept.append(document))
+    patch.setattr(writing, "write_html", lambda document, drawn, _: kept.append((document, drawn)))
     patch.setattr(writing, "write_pdf", lambda *_: None)
     output = None if len(folders) == 1 else tmp_path_factory.mktemp("side by side")
     writing.write_report(folders, output, trajectories=True, progress=Silence())
@@ -49,28 +53,28 @@ def document(request, tmp_path_factory):
     return kept[0]
 
 
-def pages_of(document):
-    """All pages, as drawn."""
-    pages = pdf.laid_out(document)
-    for page in pages:
-        FigureCanvasAgg(page)
-        page.set_dpi(288)  # letters are as wide as in the PDF, and not rounded to pixels
-        page.draw_without_rendering()
-    return pages
+def measured_mm(lines):
+    """Left, top, right and bottom of lines of text, as matplotlib measures them when it draws them."""
+    figure = Figure(figsize=[side / 25.4 for side in PAGE_MM], dpi=288)  # fine enough not to round to pixels
+    FigureCanvasAgg(figure)
+    mm = 25.4 / figure.dpi
+    for line in lines:
+        place = line.left_mm / PAGE_MM[0], 1.0 - line.base_mm / PAGE_MM[1]
+        font = {"size": line.font.size_pt, "weight": line.font.weight, "family": line.font.family}
+        box = figure.text(*place, line.text, va="baseline", parse_math=False, **font).get_window_extent()
+        yield box.x0 * mm, PAGE_MM[1] - box.y1 * mm, box.x1 * mm, PAGE_MM[1] - box.y0 * mm
 
 
 def boxes_mm(page):
-    """Left, top, right and bottom of every text and picture on a page."""
-    height = page.bbox.height
-    mm = 25.4 / page.dpi
-    for artist in [*page.texts, *page.subfigs]:
-        box = artist.get_window_extent() if artist in page.texts else artist.bbox
-        yield artist, (box.x0 * mm, (height - box.y1) * mm, box.x1 * mm, (height - box.y0) * mm)
+    """Left, top, right and bottom of every line and drawing on a page."""
+    yield from measured_mm(page.lines)
+    for drawn, left, top in page.drawings:
+        yield (left, top, *(np.array([left, top]) + 25.4 * drawn.get_size_inches()))
 
 
-def test_nothing_is_beside_the_page_or_over_anything_else(document):
-    for number, page in enumerate(pages_of(document), start=1):
-        boxes = [box for _, box in boxes_mm(page)]
+def test_nothing_is_beside_the_page_or_over_anything_else(report):
+    for number, page in enumerate(pdf.laid_out(*report), start=1):
+        boxes = list(boxes_mm(page))
         assert boxes
         for left, top, right, bottom in boxes:
             assert left >= pdf.LEFT_MM - SLACK_MM and right <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM, number
@@ -83,16 +87,13 @@ def test_nothing_is_beside_the_page_or_over_anything_else(document):
             assert min(over) < SLACK_MM, (number, first, second)
 
 
-def test_no_picture_is_cut_off_and_every_axis_says_what_it_shows(document):
-    pictures = [block for block in document.blocks() if isinstance(block, Picture)]
-    assert len(pictures) >= 4
-    for picture in pictures:
-        figure = Figure(figsize=(PAGE_WIDTH_MM / 25.4, picture.height_mm / 25.4), layout="constrained")
-        FigureCanvasAgg(figure)
-        picture.draw(figure)
-        figure.draw_without_rendering()
+def test_no_picture_is_cut_off_and_every_axis_says_what_it_shows(report):
+    _, drawn = report
+    assert len(drawn) >= 4
+    for picture, figure in drawn.items():
         box = figure.get_tightbbox()
         size = figure.get_size_inches()
+        assert size * 25.4 == pytest.approx([PAGE_WIDTH_MM, picture.height_mm])
         slack = SLACK_MM / 25.4
         assert box.x0 >= -slack and box.y0 >= -slack, picture.title
         assert box.x1 <= size[0] + slack and box.y1 <= size[1] + slack, picture.title
@@ -103,15 +104,53 @@ def test_no_picture_is_cut_off_and_every_axis_says_what_it_shows(document):
             assert sum(bool(unit.search(label)) for label in labels) == (1 if is_bar else 2), (picture.title, labels)
 
 
-def test_lines_that_differ_differ_without_colour(document):
-    for picture in (block for block in document.blocks() if isinstance(block, Picture)):
-        figure = Figure(figsize=(6, 4), layout="constrained")
-        FigureCanvasAgg(figure)
-        picture.draw(figure)
+def test_lines_that_differ_differ_without_colour(report):
+    _, drawn = report
+    for picture, figure in drawn.items():
         for axes in figure.axes:
             lines = [line for line in axes.lines if not line.get_label().startswith("_")]
             looks = [(str(line._unscaled_dash_pattern), line.get_linewidth(), line.get_marker()) for line in lines]
             assert len(set(looks)) == len(looks), picture.title
+
+
+def test_a_drawing_is_on_its_page_and_nowhere_else(tmp_path):
+    """Also what is drawn as dots: a map of heights, and its colour bar."""
+
+    def draw(figure):
+        axes = figure.add_subplot()
+        figure.colorbar(axes.imshow(np.eye(4)), ax=axes)
+
+    picture = Picture(draw, "Dots", 60.0)
+    document = Document("", "", (Section("One", (Paragraph("word " * 150), picture)),))
+    drawn = drawings(document)
+    write_pdf(document, drawn, tmp_path / "page.pdf")
+    ((_, left_mm, top_mm),) = pdf.laid_out(document, drawn)[0].drawings
+    frame = [left_mm, PAGE_MM[1] - top_mm - 60.0, left_mm + PAGE_WIDTH_MM, PAGE_MM[1] - top_mm]
+    images = list(image_boxes_mm((tmp_path / "page.pdf").read_bytes()))
+    assert len(images) == 2
+    for box in images:
+        assert (np.array(box[:2]) >= frame[:2]).all() and (np.array(box[2:]) <= frame[2:]).all()
+
+
+def image_boxes_mm(content):
+    """Left, bottom, right and top of every image on the pages of a PDF, by the matrices that lead to it."""
+    for stream in re.findall(rb"stream\r?\n(.*?)\r?\nendstream", content, re.DOTALL):
+        try:
+            words = zlib.decompress(stream).decode("latin-1").split()
+        except zlib.error:
+            continue
+        matrix, outer = np.eye(3), []
+        for number, word in enumerate(words):
+            if word == "q":
+                outer.append(matrix)
+            elif word == "Q":
+                matrix = outer.pop()
+            elif word == "cm":
+                a, b, c, d, e, f = map(float, words[number - 6 : number])
+                matrix = np.array([[a, b, 0.0], [c, d, 0.0], [e, f, 1.0]]) @ matrix
+            elif word == "Do" and words[number - 1].startswith("/I"):
+                corners = np.array([[0.0, 0.0, 1.0], [1.0, 1.0, 1.0]]) @ matrix
+                yield (*corners[0, :2] * 25.4 / 72.0, *corners[1, :2] * 25.4 / 72.0)
 
 
 def test_long_texts_and_tables_go_on_over_lines_and_pages():
@@ -119,16 +158,16 @@ def test_long_texts_and_tables_go_on_over_lines_and_pages():
     rows = [(f"row {row} " + "x" * (row % 150), float(row)) for row in range(200)]
     table = DataTable("long", "A long table", (Column("text", "text"), Column("number", "number", ".1f")), rows)
     document = Document("T" * 300, "", (Section("One", (Paragraph(words), Paragraph(words[:200], True), table)),))
-    pages = pages_of(document)
+    pages = pdf.laid_out(document, {})
     assert len(pages) > 5
-    texts = [text.get_text() for page in pages for text in page.texts]
+    texts = [line.text for page in pages for line in page.lines]
     assert sum(text.count("concrete") for text in texts) == 700 + len(re.findall("concrete", words[:200]))
     assert sum(text == "number" for text in texts) == sum(
-        "row " in " ".join(t.get_text() for t in page.texts) for page in pages
+        "row " in " ".join(line.text for line in page.lines) for page in pages
     )
     assert {f"{row:.1f}" for row in range(200)} <= set(texts)
     for page in pages:
-        assert all(box[2] <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM for _, box in boxes_mm(page))
+        assert all(box[2] <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM for box in measured_mm(page.lines))
 
 
 def test_a_table_is_read_and_is_a_file(tmp_path):
@@ -142,13 +181,16 @@ def test_a_table_is_read_and_is_a_file(tmp_path):
 
 def test_markup_in_texts_stays_text(tmp_path):
     document = Document("a < b & c", "", (Section("<i>", (Paragraph("<script>x</script>"),)),))
-    write_html(document, tmp_path / "page.html")
+    write_html(document, {}, tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "<script>" not in page and "<i>" not in page
     assert "&lt;script&gt;x&lt;/script&gt;" in page and "a &lt; b &amp; c" in page
 
 
 def test_widths_are_those_of_the_letters():
-    # DejaVu Sans: a digit is 1303 of 2048 units wide.
-    assert pdf._width_mm("0" * 10, 10.0) == pytest.approx(10 * 1303 / 2048 * 10 * 25.4 / 72, rel=0.01)
-    assert np.isclose(pdf._width_mm("", 10.0), 0.0)
+    # DejaVu Sans: a digit is 1303 of 2048 units wide, a space 651.
+    font = Font(10.0)
+    point_mm = 25.4 / 72
+    assert width_mm("0" * 10, font) == pytest.approx(10 * 1303 / 2048 * 10 * point_mm, rel=0.01)
+    assert width_mm("0 0", font) == pytest.approx((2 * 1303 + 651) / 2048 * 10 * point_mm, rel=0.01)
+    assert width_mm("", font) == 0.0

@@ -6,7 +6,7 @@ Z = 0.8 m/kg^(1/3), and pieces of a table meet in small steps.
 """
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -99,6 +99,7 @@ def _charge_at(stand_off_m: float, scaled_distance: float) -> float:
     return size * size * size
 
 
+@lru_cache(maxsize=1000)
 def _distance_of_overpressure(overpressure_pa: float, burst: Burst, model: BlastModel) -> float:
     """Return the farthest scaled distance at which the peak overpressure is reached, m/kg^(1/3)."""
     z = _farthest(overpressure_pa, _peak_overpressure, burst, model)

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from base64 import b64encode
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
-import matplotlib
-from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, blank_figure
 from ...core.disk import write_whole_text
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
+from .drawings import Drawings, svg
 
 _SHORT_TABLE_ROWS = 16
 """Tables of no more rows are not broken over pages."""
@@ -44,12 +40,12 @@ ol.contents a { color: inherit; }
 """
 
 
-def write_html(document: Document, path: Path, drawn: Callable[[Picture], None] = lambda _: None) -> None:
-    """Write a report as a page; `drawn` is called with every picture that is drawn."""
-    write_whole_text(path, "\n".join(_lines(document, drawn)) + "\n")
+def write_html(document: Document, drawings: Drawings, path: Path) -> None:
+    """Write a report as a page."""
+    write_whole_text(path, "\n".join(_lines(document, drawings)) + "\n")
 
 
-def _lines(document: Document, drawn: Callable[[Picture], None]) -> Iterator[str]:
+def _lines(document: Document, drawings: Drawings) -> Iterator[str]:
     title = escape(document.title)
     yield f'<!doctype html>\n<html lang="en-GB">\n<head>\n<meta charset="utf-8">\n<title>{title}</title>'
     yield '<link rel="icon" href="data:,">'  # or a browser asks for one
@@ -61,20 +57,18 @@ def _lines(document: Document, drawn: Callable[[Picture], None]) -> Iterator[str
         yield f'<li><a href="#section-{number}">{escape(section.title)}</a></li>'
     yield "</ol>"
     for number, section in enumerate(document.sections, start=1):
-        yield from _section(number, section, drawn)
+        yield from _section(number, section, drawings)
     yield "</body>\n</html>"
 
 
-def _section(number: int, section: Section, drawn: Callable[[Picture], None]) -> Iterator[str]:
+def _section(number: int, section: Section, drawings: Drawings) -> Iterator[str]:
     yield f'<section>\n<h2 id="section-{number}">{number} {escape(section.title)}</h2>'
     for block in section.blocks:
-        yield _block(block)
-        if isinstance(block, Picture):
-            drawn(block)
+        yield _block(block, drawings)
     yield "</section>"
 
 
-def _block(block: Block) -> str:
+def _block(block: Block, drawings: Drawings) -> str:
     match block:
         case Paragraph():
             kind = ' class="notice"' if block.is_notice else ""
@@ -84,7 +78,7 @@ def _block(block: Block) -> str:
         case DataTable():
             return _table(block)
         case Picture():
-            return _figure("image/svg+xml", _svg(block), block.title)
+            return _figure("image/svg+xml", svg(drawings[block]), block.title)
         case Photo():
             return _figure("image/png", block.path.read_bytes(), block.title)
 
@@ -109,14 +103,3 @@ def _table(table: DataTable) -> str:
         cells = [f"<td{kind}>{escape(text)}</td>" for kind, text in zip(classes, row, strict=True)]
         lines.append(f"<tr>{''.join(cells)}</tr>")
     return "\n".join([*lines, "</tbody>", "</table>"])
-
-
-def _svg(picture: Picture) -> bytes:
-    # A fixed salt, so that the same run gives the same file.
-    with matplotlib.rc_context({"svg.hashsalt": "report", "svg.fonttype": "path"}):
-        size = PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH
-        figure = blank_figure(*size, FigureCanvasSVG, layout="constrained")
-        picture.draw(figure)
-        file = io.BytesIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-    return file.getvalue()

@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from contextlib import closing
 from pathlib import Path
 
 import matplotlib
-from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfPages
-from matplotlib.figure import Figure, FigureBase
-from matplotlib.font_manager import FontProperties
+import numpy as np
+from matplotlib.backends.backend_pdf import PdfFile
+from matplotlib.figure import Figure
 from matplotlib.image import imread
-from matplotlib.textpath import TextToPath
 
-from ...charts.style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure
+from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure
 from ...core.disk import whole_file
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture
+from .drawings import Drawings
+from .page import PAGE_MM, Font, Line, Page, width_mm
 
-PAGE_MM = (210.0, 297.0)
 LEFT_MM = (PAGE_MM[0] - PAGE_WIDTH_MM) / 2.0
 TOP_MM, BOTTOM_MM = 20.0, 277.0
 FOOT_MM = 285.0
 LINE = 1.4
 """Height of a line by the size of its letters."""
 
-TITLE_PT, HEADING_PT, TEXT_PT, SMALL_PT, LISTING_PT = 18.0, 13.0, 9.5, 8.0, 7.0
+TITLE, HEADING = Font(18.0, "bold"), Font(13.0, "bold")
+TEXT, STRONG = Font(9.5), Font(9.5, "bold")
+SMALL, SMALL_STRONG = Font(8.0), Font(8.0, "bold")
+LISTING = Font(7.0, family="monospace")
 SMALLEST_COLUMN_MM = 14.0
 _KEPT_TOGETHER_MM = 120.0
 """A table that is not higher stays on one page."""
@@ -34,41 +38,49 @@ GAP_MM = 3.0
 
 PHOTO_DOTS_PER_INCH = 150.0
 
+_Cells = Sequence[Sequence[str]]
+"""The lines of each cell of a row."""
 
-def write_pdf(document: Document, path: Path, finished: Callable[[int, int], None] = lambda *_: None) -> None:
+
+def write_pdf(
+    document: Document, drawings: Drawings, path: Path, finished: Callable[[int, int], None] = lambda *_: None
+) -> None:
     """Write a report as pages; `finished` is called with how many are written, and how many there are."""
     # Letters that stay letters: text can be searched and copied.
     with matplotlib.rc_context({"pdf.fonttype": 42}):
-        pages = laid_out(document)
+        pages = laid_out(document, drawings)
         # Without a date the same run gives the same file.
         metadata = {"Title": document.title, "CreationDate": None}
-        with whole_file(path) as part, PdfPages(part, metadata=metadata) as file:
+        with whole_file(path) as part, closing(PdfFile(part, metadata=metadata)) as file:
             for number, page in enumerate(pages, start=1):
-                file.savefig(page)
+                page.write(file)
                 finished(number, len(pages))
+            file.finalize()
 
 
-def laid_out(document: Document) -> list[Figure]:
+def laid_out(document: Document, drawings: Drawings) -> list[Page]:
     """Return the pages of a report."""
-    pages = _Pages()
-    pages.text(document.title, TITLE_PT, weight="bold")
-    pages.text(document.subtitle, TEXT_PT)
+    pages = _Pages(drawings)
+    pages.text(document.title, TITLE)
+    pages.text(document.subtitle, TEXT)
     for number, section in enumerate(document.sections, start=1):
         pages.heading(f"{number} {section.title}", section.blocks[0] if section.blocks else None)
         for block in section.blocks:
             pages.add(block)
-    for number, page in enumerate(pages.figures, start=1):
-        foot = f"page {number} of {len(pages.figures)}"
-        _put(page, LEFT_MM, FOOT_MM, _shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL_PT), SMALL_PT)
-        _put(page, LEFT_MM + PAGE_WIDTH_MM, FOOT_MM, foot, SMALL_PT, align="right")
-    return pages.figures
+    title = _shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL)
+    for number, page in enumerate(pages.pages, start=1):
+        foot = f"page {number} of {len(pages.pages)}"
+        _put(page, title, SMALL, LEFT_MM, FOOT_MM)
+        _put(page, foot, SMALL, LEFT_MM + PAGE_WIDTH_MM - width_mm(foot, SMALL), FOOT_MM)
+    return pages.pages
 
 
 class _Pages:
     """Pages that are filled from the top."""
 
-    def __init__(self) -> None:
-        self.figures: list[Figure] = []
+    def __init__(self, drawings: Drawings) -> None:
+        self.pages: list[Page] = []
+        self._drawings = drawings
         self._turn()
 
     def add(self, block: Block) -> None:
@@ -77,13 +89,13 @@ class _Pages:
             case Paragraph() if block.is_notice:
                 self._notice(block.text)
             case Paragraph():
-                self.text(block.text, TEXT_PT)
+                self.text(block.text, TEXT)
             case Listing():
                 self._listing(block.text)
             case DataTable():
                 self._table(block)
             case Picture():
-                self._picture(block.draw, block.height_mm, block.title)
+                self._picture(self._drawings[block], block.height_mm, block.title)
             case Photo():
                 self._photo(block)
 
@@ -91,98 +103,95 @@ class _Pages:
         """Write a section's heading, never at the foot of a page alone."""
         self._need(22.0 + min(_height_mm(first), 160.0))
         self._y += 6.0
-        self.text(text, HEADING_PT, weight="bold", after_mm=0.5)
+        self.text(text, HEADING, after_mm=0.5)
         self._rule(0.8)
         self._y += 3.0
 
-    def text(self, text: str, size_pt: float, *, weight: str = "normal", after_mm: float = 2.5) -> None:
+    def text(self, text: str, font: Font, *, after_mm: float = 2.5) -> None:
         """Write a paragraph."""
-        for line in _wrapped(text, PAGE_WIDTH_MM, size_pt, weight):
-            self._line(line, size_pt, weight=weight)
+        for line in _wrapped(text, PAGE_WIDTH_MM, font):
+            self._line(line, font)
         self._y += after_mm
 
     def _notice(self, text: str) -> None:
-        lines = list(_wrapped(text, PAGE_WIDTH_MM - 8.0, TEXT_PT, "bold"))
-        height = len(lines) * TEXT_PT * LINE * MM_PER_POINT + 4.0
+        lines = list(_wrapped(text, PAGE_WIDTH_MM - 8.0, STRONG))
+        height = len(lines) * LINE * STRONG.height_mm + 4.0
         self._need(height)
-        page, top = self.figures[-1], self._y
-        corners = (LEFT_MM / PAGE_MM[0], 1.0 - (top + height) / PAGE_MM[1])
-        size = (PAGE_WIDTH_MM / PAGE_MM[0], height / PAGE_MM[1])
-        box = matplotlib.patches.Rectangle(corners, *size, fill=False, linewidth=1.5, transform=page.transFigure)
-        page.add_artist(box)
+        page, top = self.pages[-1], self._y
+        left, right, bottom = LEFT_MM, LEFT_MM + PAGE_WIDTH_MM, top + height
+        box = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top), (right, top)])
+        page.strokes.append((box, 1.5))
         self._y += 2.0
         for line in lines:
-            self._line(line, TEXT_PT, weight="bold", indent_mm=4.0)
-        self._y = top + height + 3.0
+            self._line(line, STRONG, indent_mm=4.0)
+        self._y = bottom + 3.0
 
     def _listing(self, text: str) -> None:
         for line in text.splitlines():
-            for part in _wrapped(line, PAGE_WIDTH_MM, LISTING_PT, family="monospace") if line.strip() else [""]:
-                self._line(part, LISTING_PT, family="monospace")
+            for part in _wrapped(line, PAGE_WIDTH_MM, LISTING) if line.strip() else [""]:
+                self._line(part, LISTING)
         self._y += 2.5
 
     def _table(self, table: DataTable) -> None:
         rows, headings = table.shown_rows(), [column.heading for column in table.columns]
         widths = _column_widths([headings, *rows])
-        height = 8.0 + sum(_row_height(row, widths) for row in [headings, *rows])
+        cells = [_wrapped_cells(row, widths, SMALL) for row in rows]
+        heading_cells = _wrapped_cells(headings, widths, SMALL_STRONG) if any(headings) else []
+        height = 8.0 + sum(_row_height(row) for row in [heading_cells, *cells])
         self._need(height if height < _KEPT_TOGETHER_MM else 20.0)
-        self.text(table.title, TEXT_PT, weight="bold", after_mm=1.0)
-        self._headings(headings, widths, table)
-        for row in rows:
-            if self._needs(_row_height(row, widths)):
+        self.text(table.title, STRONG, after_mm=1.0)
+        self._headings(heading_cells, widths, table)
+        for row in cells:
+            if self._needs(_row_height(row)):
                 self._turn()
-                self._headings(headings, widths, table)
-            self._row(row, widths, table)
+                self._headings(heading_cells, widths, table)
+            self._row(row, widths, table, SMALL)
             self._rule(0.25)
         self._y += 4.0
 
-    def _headings(self, texts: Sequence[str], widths: Sequence[float], table: DataTable) -> None:
-        if any(texts):
-            self._row(texts, widths, table, weight="bold")
+    def _headings(self, cells: _Cells, widths: Sequence[float], table: DataTable) -> None:
+        if cells:
+            self._row(cells, widths, table, SMALL_STRONG)
             self._rule(0.8)
 
-    def _row(self, texts: Sequence[str], widths: Sequence[float], table: DataTable, weight: str = "normal") -> None:
-        top, left = self._y, LEFT_MM
-        for text, width, column in zip(texts, widths, table.columns, strict=True):
-            for number, line in enumerate(_wrapped(text, width, SMALL_PT, weight)):
-                y = top + 0.8 + number * SMALL_PT * LINE * MM_PER_POINT
-                x, align = (left + width, "right") if column.form else (left, "left")
-                _put(self.figures[-1], x, y, line, SMALL_PT, weight=weight, align=align)
+    def _row(self, cells: _Cells, widths: Sequence[float], table: DataTable, font: Font) -> None:
+        left = LEFT_MM
+        for lines, width, column in zip(cells, widths, table.columns, strict=True):
+            for number, line in enumerate(lines):
+                indent = width - width_mm(line, font) if column.form else 0.0
+                top = self._y + 0.8 + number * LINE * font.height_mm
+                _put(self.pages[-1], line, font, left + indent, top)
             left += width + GAP_MM
-        self._y = top + _row_height(texts, widths, weight)
+        self._y += _row_height(cells)
 
-    def _picture(self, draw: Callable[[FigureBase], None], height_mm: float, title: str) -> None:
-        caption = list(_wrapped(title, PAGE_WIDTH_MM, SMALL_PT))
+    def _picture(self, drawn: Figure, height_mm: float, title: str) -> None:
+        caption = list(_wrapped(title, PAGE_WIDTH_MM, SMALL))
         self._need(height_mm + 8.0 + 5.0 * len(caption))
-        draw(_part(self.figures[-1], self._y, height_mm))
+        self.pages[-1].drawings.append((drawn, LEFT_MM, self._y))
         self._y += height_mm + 1.0
         for line in caption:
-            self._line(line, SMALL_PT)
+            self._line(line, SMALL)
         self._y += 4.0
 
     def _photo(self, photo: Photo) -> None:
         pixels = imread(photo.path)
         height_mm = min(PAGE_WIDTH_MM * pixels.shape[0] / pixels.shape[1], BOTTOM_MM - TOP_MM - 20.0)
+        drawn = blank_figure(PAGE_WIDTH_MM / MM_PER_INCH, height_mm / MM_PER_INCH, dpi=POINTS_PER_INCH)
+        axes = drawn.add_axes((0.0, 0.0, 1.0, 1.0))
+        step = max(1, int(pixels.shape[1] / (PAGE_WIDTH_MM / MM_PER_INCH * PHOTO_DOTS_PER_INCH)))
+        axes.imshow(pixels[::step, ::step])
+        axes.set_axis_off()
+        self._picture(drawn, height_mm, photo.title)
 
-        def draw(figure: FigureBase) -> None:
-            axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-            step = max(1, int(pixels.shape[1] / (PAGE_WIDTH_MM / MM_PER_INCH * PHOTO_DOTS_PER_INCH)))
-            axes.imshow(pixels[::step, ::step])
-            axes.set_axis_off()
-
-        self._picture(draw, height_mm, photo.title)
-
-    def _line(self, text: str, size_pt: float, *, indent_mm: float = 0.0, **font: str) -> None:
-        height = size_pt * LINE * MM_PER_POINT
+    def _line(self, text: str, font: Font, *, indent_mm: float = 0.0) -> None:
+        height = LINE * font.height_mm
         self._need(height)
-        _put(self.figures[-1], LEFT_MM + indent_mm, self._y, text, size_pt, **font)
+        _put(self.pages[-1], text, font, LEFT_MM + indent_mm, self._y)
         self._y += height
 
     def _rule(self, width_pt: float) -> None:
-        page, y = self.figures[-1], 1.0 - self._y / PAGE_MM[1]
-        ends = (LEFT_MM / PAGE_MM[0], (LEFT_MM + PAGE_WIDTH_MM) / PAGE_MM[0])
-        rule = matplotlib.lines.Line2D(ends, (y, y), color="black", linewidth=width_pt, transform=page.transFigure)
-        page.add_artist(rule)
+        ends = np.array([(LEFT_MM, self._y), (LEFT_MM + PAGE_WIDTH_MM, self._y)])
+        self.pages[-1].strokes.append((ends, width_pt))
 
     def _needs(self, height_mm: float) -> bool:
         """Return whether so much does not fit on the page any more; on an empty page everything has to."""
@@ -193,34 +202,13 @@ class _Pages:
             self._turn()
 
     def _turn(self) -> None:
-        size = (side / MM_PER_INCH for side in PAGE_MM)
-        self.figures.append(blank_figure(*size, FigureCanvasPdf, layout="constrained"))
+        self.pages.append(Page())
         self._y = TOP_MM
 
 
-def _part(page: Figure, top_mm: float, height_mm: float) -> FigureBase:
-    """Return a part of a page between its margins, for a picture."""
-    widths = [LEFT_MM, PAGE_WIDTH_MM, PAGE_MM[0] - LEFT_MM - PAGE_WIDTH_MM]
-    heights = [top_mm, height_mm, PAGE_MM[1] - top_mm - height_mm]
-    edges = {"left": 0.0, "right": 1.0, "top": 1.0, "bottom": 0.0, "wspace": 0.0, "hspace": 0.0}
-    return page.add_subfigure(page.add_gridspec(3, 3, width_ratios=widths, height_ratios=heights, **edges)[1, 1])
-
-
-def _put(
-    page: Figure,
-    left_mm: float,
-    top_mm: float,
-    text: str,
-    size_pt: float,
-    *,
-    weight: str = "normal",
-    family: str = "sans-serif",
-    align: str = "left",
-) -> None:
+def _put(page: Page, text: str, font: Font, left_mm: float, top_mm: float) -> None:
     # On its base line, as letters without descenders would stand too low by their top.
-    y = 1.0 - (top_mm + size_pt * MM_PER_POINT) / PAGE_MM[1]
-    font = {"fontsize": size_pt, "weight": weight, "family": family}
-    page.text(left_mm / PAGE_MM[0], y, text, ha=align, va="baseline", parse_math=False, **font)
+    page.lines.append(Line(text, font, left_mm, top_mm + font.height_mm))
 
 
 def _height_mm(block: Block | None) -> float:
@@ -236,7 +224,7 @@ def _height_mm(block: Block | None) -> float:
 
 def _column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
     """Return widths in mm: what the texts need where there is room, else less for the widest columns."""
-    widths = [max(_width_mm(text, SMALL_PT, "bold") for text in column) for column in zip(*rows, strict=True)]
+    widths = [max(width_mm(text, SMALL_STRONG) for text in column) for column in zip(*rows, strict=True)]
     room = PAGE_WIDTH_MM - GAP_MM * (len(widths) - 1)
     while sum(widths) > room and max(widths) > SMALLEST_COLUMN_MM:
         widest = widths.index(max(widths))
@@ -244,28 +232,27 @@ def _column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
     return widths
 
 
-def _row_height(texts: Sequence[str], widths: Sequence[float], weight: str = "normal") -> float:
-    lines = max(len(list(_wrapped(text, width, SMALL_PT, weight))) for text, width in zip(texts, widths, strict=True))
-    return max(lines, 1) * SMALL_PT * LINE * MM_PER_POINT + 1.2
+def _wrapped_cells(texts: Sequence[str], widths: Sequence[float], font: Font) -> _Cells:
+    return [list(_wrapped(text, width, font)) for text, width in zip(texts, widths, strict=True)]
 
 
-def _wrapped(
-    text: str, width_mm: float, size_pt: float, weight: str = "normal", family: str = "sans-serif"
-) -> Iterator[str]:
+def _row_height(cells: _Cells) -> float:
+    return max(1, *map(len, cells)) * LINE * SMALL.height_mm + 1.2 if cells else 0.0
+
+
+def _wrapped(text: str, room_mm: float, font: Font) -> Iterator[str]:
     """Yield lines that fit; a word that is longer than a line is cut."""
     line = text[: len(text) - len(text.lstrip())]
-    slack = 1e-6
+    room_mm += 1e-6
     for word in text.split():
         longer = f"{line} {word}" if line.strip() else line + word
-        if _width_mm(longer, size_pt, weight, family) <= width_mm + slack:
+        if width_mm(longer, font) <= room_mm:
             line = longer
             continue
         if line.strip():
             yield line
-        while _width_mm(word, size_pt, weight, family) > width_mm + slack and len(word) > 1:
-            cut = max(
-                (n for n in range(1, len(word)) if _width_mm(word[:n], size_pt, weight, family) <= width_mm), default=1
-            )
+        while width_mm(word, font) > room_mm and len(word) > 1:
+            cut = max(1, _fitting(word, room_mm, font))
             yield word[:cut]
             word = word[cut:]
         line = word
@@ -273,16 +260,12 @@ def _wrapped(
         yield line
 
 
-def _shortened(text: str, width_mm: float, size_pt: float) -> str:
-    if _width_mm(text, size_pt) <= width_mm:
+def _shortened(text: str, room_mm: float, font: Font) -> str:
+    if width_mm(text, font) <= room_mm:
         return text
-    while text and _width_mm(text + "…", size_pt) > width_mm:
-        text = text[:-1]
-    return text + "…"
+    return text[: _fitting(text, room_mm - width_mm("…", font), font)] + "…"
 
 
-@lru_cache(maxsize=50_000)
-def _width_mm(text: str, size_pt: float, weight: str = "normal", family: str = "sans-serif") -> float:
-    font = FontProperties(family=family, weight=weight, size=size_pt)
-    width, _, _ = TextToPath().get_text_width_height_descent(text, font, ismath=False) if text else (0.0, 0.0, 0.0)
-    return width * MM_PER_POINT
+def _fitting(text: str, room_mm: float, font: Font) -> int:
+    """Return how many letters of a text fit."""
+    return bisect_right(range(1, len(text) + 1), room_mm, key=lambda count: width_mm(text[:count], font))

@@ -1,0 +1,48 @@
+"""Pictures of a report, each drawn and laid out once, then written as SVG and onto a page."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Mapping
+
+import matplotlib
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+
+from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure, lay_out
+from .blocks import Document, Picture
+
+Drawings = Mapping[Picture, Figure]
+"""The pictures of a document, drawn."""
+
+IMAGE_DOTS_PER_INCH = 100.0
+"""Of images within a drawing, such as a map of heights; all else is drawn as lines."""
+
+
+def drawings(document: Document, finished: Callable[[int, int], None] = lambda *_: None) -> Drawings:
+    """Draw all pictures of a document; `finished` is called with how many are drawn, and how many there are."""
+    pictures = [block for block in document.blocks() if isinstance(block, Picture)]
+    drawn = {}
+    for number, picture in enumerate(pictures, start=1):
+        drawn[picture] = drawing(picture)
+        finished(number, len(pictures))
+    return drawn
+
+
+def drawing(picture: Picture) -> Figure:
+    """Draw a picture as wide as a page, laid out for good: writing it does not lay it out again."""
+    size = PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH
+    # The dots of SVG and PDF are points.
+    figure = blank_figure(*size, FigureCanvasSVG, layout="constrained", dpi=POINTS_PER_INCH)
+    picture.draw(figure)
+    lay_out(figure)
+    return figure
+
+
+def svg(drawn: Figure) -> bytes:
+    """Return a drawing as SVG."""
+    file = io.BytesIO()
+    # A fixed salt, so that the same run gives the same file.
+    with matplotlib.rc_context({"svg.hashsalt": "report", "svg.fonttype": "path"}):
+        drawn.savefig(file, format="svg", dpi=IMAGE_DOTS_PER_INCH, metadata={"Date": None})
+    return file.getvalue()

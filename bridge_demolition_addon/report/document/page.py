@@ -1,0 +1,115 @@
+"""A page of a PDF: lines of text, rules, boxes and drawings, each at its place in mm from the upper left corner."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+from matplotlib.backends.backend_mixed import MixedModeRenderer
+from matplotlib.backends.backend_pdf import Op, PdfFile, RendererPdf
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.path import Path as Outline
+from matplotlib.textpath import TextToPath
+from matplotlib.transforms import IdentityTransform
+
+from ...charts.style import MM_PER_INCH, MM_PER_POINT
+from .drawings import IMAGE_DOTS_PER_INCH
+
+PAGE_MM = (210.0, 297.0)
+"""A4."""
+
+_WIDTH_IN, _HEIGHT_IN = (side / MM_PER_INCH for side in PAGE_MM)
+
+
+@dataclass(frozen=True, slots=True)
+class Font:
+    """Letters of a size."""
+
+    size_pt: float
+    weight: str = "normal"
+    family: str = "sans-serif"
+
+    @property
+    def height_mm(self) -> float:
+        """Height of its letters."""
+        return self.size_pt * MM_PER_POINT
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of text: where its base line begins."""
+
+    text: str
+    font: Font
+    left_mm: float
+    base_mm: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Page:
+    """A page.
+
+    Attributes
+    ----------
+    lines
+        Its text.
+    strokes
+        Rules and boxes: corners (k, 2) in mm, and the width of the pen in points.
+    drawings
+        Drawings, each with its left and upper edge in mm.
+    """
+
+    lines: list[Line] = field(default_factory=list)
+    strokes: list[tuple[np.ndarray, float]] = field(default_factory=list)
+    drawings: list[tuple[Figure, float, float]] = field(default_factory=list)
+
+    def write(self, file: PdfFile) -> None:
+        """Add the page to a PDF."""
+        file.newPage(_WIDTH_IN, _HEIGHT_IN)
+        renderer = RendererPdf(file, IMAGE_DOTS_PER_INCH, _HEIGHT_IN, _WIDTH_IN)
+        pen = renderer.new_gc()
+        for corners_mm, width_pt in self.strokes:
+            pen.set_linewidth(width_pt)
+            renderer.draw_path(pen, Outline(_points(corners_mm)), IdentityTransform())
+        for line in self.lines:
+            x, y = _points(np.array([line.left_mm, line.base_mm]))
+            renderer.draw_text(pen, x, y, line.text, _properties(line.font), 0.0)
+        renderer.finalize()
+        for drawn, left_mm, top_mm in self.drawings:
+            x, y = _points(np.array([left_mm, top_mm + drawn.get_size_inches()[1] * MM_PER_INCH]))
+            file.output(Op.gsave, 1, 0, 0, 1, x, y, Op.concat_matrix)
+            on_page = RendererPdf(file, IMAGE_DOTS_PER_INCH, *drawn.get_size_inches()[::-1])
+            # What is drawn as dots would leave a renderer of lines alone.
+            mixed = MixedModeRenderer(drawn, *drawn.get_size_inches(), IMAGE_DOTS_PER_INCH, on_page)
+            drawn.draw(mixed)
+            mixed.finalize()
+            file.output(Op.grestore)
+
+
+def _points(places_mm: np.ndarray) -> np.ndarray:
+    """Return places (..., 2) in the PDF's own units: points, from the lower left corner."""
+    return (np.array([0.0, PAGE_MM[1]]) + places_mm * (1.0, -1.0)) / MM_PER_POINT
+
+
+@lru_cache
+def _properties(font: Font) -> FontProperties:
+    return FontProperties(family=font.family, weight=font.weight, size=font.size_pt)
+
+
+def width_mm(text: str, font: Font) -> float:
+    """Return how wide a text is: its words and the spaces between them, as words are measured once each."""
+    return sum(_word_mm(word, font) for word in text.split(" ")) + text.count(" ") * _word_mm(" ", font)
+
+
+@lru_cache(maxsize=50_000)
+def _word_mm(word: str, font: Font) -> float:
+    # Between two bars, as what is measured is ink, without the room at its sides.
+    return _ink_mm(f"|{word}|", font) - _ink_mm("||", font) if word else 0.0
+
+
+@lru_cache(maxsize=50_000)
+def _ink_mm(text: str, font: Font) -> float:
+    width, _, _ = TextToPath().get_text_width_height_descent(text, _properties(font), ismath=False)
+    return width * MM_PER_POINT
