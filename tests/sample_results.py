@@ -134,16 +134,17 @@ def _loads(connections: int) -> list[FrameLoads]:
         for substep in range(SUBSTEPS if step else 0):
             forces = of_connections[substep, :connections]
             loads = SubstepLoads(
-                substep_s=SUBSTEP_S,
-                connection_forces_n=forces,
-                connection_moments_nm=np.zeros((connections, 3)),
-                connection_points_m=POINTS[:connections],
-                signed_2019_ns=SUBSTEP_S * np.linalg.norm(forces, axis=1),
+                substeps_s=np.array([SUBSTEP_S]),
+                connection_forces_n=forces[None],
+                connection_moments_nm=np.zeros((1, connections, 3)),
+                connection_points_m=POINTS[None, :connections],
+                signed_2019_ns=SUBSTEP_S * np.linalg.norm(forces[None], axis=-1),
+                contact_substeps=np.zeros(1, int),
                 contact_pairs=np.array([[3, 0]]),
                 contact_impulses_ns=SUBSTEP_S * of_contact[substep, None],
                 contact_points_m=BALL_POINT[None],
-                centres_m=CENTRES,
-                rotations=np.tile(np.eye(3), (4, 1, 1)),
+                centres_m=CENTRES[None],
+                rotations=np.tile(np.eye(3), (1, 4, 1, 1)),
             )
             gathered.add(loads)
         frames.append(gathered.finish())

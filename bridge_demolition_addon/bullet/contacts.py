@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -11,9 +11,11 @@ from ..core.errors import LayoutError
 from ..core.geometry.vectors import dot, length
 from .layout import Layout
 from .memory import (
-    gather_doubles,
+    copy_pointers,
+    gather_doubles_at,
     gather_integers,
     gather_pointers,
+    gather_words,
     read,
     read_pointer,
     read_value,
@@ -36,12 +38,35 @@ _UNIT = 1e-6
 """How far a unit vector's length, computed by Bullet in double precision, may be from 1."""
 
 
-@dataclass(frozen=True, slots=True)
-class Contacts:
-    """Contact points of one sub-step, structure of arrays.
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactCopies:
+    """Copies of k contact points as Bullet holds them after a sub-step.
 
     Attributes
     ----------
+    values
+        (15, k) place, normal, impulses along the normal and two lateral directions, and these directions.
+    bodies
+        (2, k) uint64 addresses of the two bodies.
+    """
+
+    values: np.ndarray
+    bodies: np.ndarray
+
+    @property
+    def size(self) -> int:
+        """What they take in memory, in bytes."""
+        return self.values.nbytes + self.bodies.nbytes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contacts:
+    """Contact points of s sub-steps, structure of arrays.
+
+    Attributes
+    ----------
+    substeps
+        (k,) in which sub-step each is, in ascending order.
     pairs
         (k, 2) indices of the two bodies.
     places_m
@@ -52,6 +77,7 @@ class Contacts:
         (k,) and (k, 3) impulse on the first body; the second gets the opposite.
     """
 
+    substeps: np.ndarray
     pairs: np.ndarray
     places_m: np.ndarray
     normals: np.ndarray
@@ -64,8 +90,8 @@ class Contacts:
         return self.normal_impulses_ns[:, None] * self.normals + self.tangential_impulses_ns
 
     def without(self, bodies: np.ndarray) -> Contacts:
-        """The contacts of none of the bodies that a mask (n,) marks."""
-        kept = ~bodies[self.pairs].any(axis=1)
+        """The contacts of none of the bodies that a mask (s, n) marks in their sub-step."""
+        kept = ~bodies[self.substeps[:, None], self.pairs].any(axis=1)
         return Contacts(*(getattr(self, item.name)[kept] for item in fields(self)))
 
     def __len__(self) -> int:
@@ -93,14 +119,12 @@ class ContactReader:
         point = layout.manifold.point
         impulses = (point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8)
         directions = (point.lateral_directions, point.lateral_directions + 32)
-        self._columns = np.concatenate(
-            [np.arange(3) + start // 8 for start in (point.place_on_b, point.normal)]
-            + [np.array(impulses) // 8]
-            + [np.arange(3) + start // 8 for start in directions]
-        )
+        starts = [place + 8 * np.arange(3) for place in (point.place_on_b, point.normal)]
+        ends = [place + 8 * np.arange(3) for place in directions]
+        self._offsets = np.concatenate([*starts, impulses, *ends]).astype(np.uint64)[:, None]
 
-    def read(self) -> Contacts:
-        """All contact points that carry a load, also those of sleeping bodies, which keep their last one.
+    def copy(self) -> ContactCopies:
+        """Copy all contact points as they are now.
 
         Raises
         ------
@@ -109,17 +133,42 @@ class ContactReader:
         """
         manifolds = self._checked_manifolds()
         layout = self._layout.manifold
-        counts = gather_integers(manifolds + np.uint64(layout.count))
+        *bodies, counts = gather_words(manifolds, layout.body_a, 3)
+        counts = counts.astype(np.uint32).astype(np.int32)
         if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
             raise LayoutError("a contact has more than four points")
-        rows = np.repeat(np.arange(len(manifolds)), counts)
+        used = np.flatnonzero(counts)
+        counts = counts[used]
+        rows = np.repeat(used, counts)
         number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
-        points = manifolds[rows] + np.uint64(layout.points) + (number * layout.point.size).astype(np.uint64)
-        values = gather_doubles(points, columns=self._columns)
+        points = manifolds[rows] + (layout.points + number * layout.point.size).astype(np.uint64)
+        values = gather_doubles_at(points + self._offsets)
+        return ContactCopies(values, np.stack([each[rows] for each in bodies]))
+
+    def contacts(self, copies: Sequence[ContactCopies]) -> Contacts:
+        """Contact points that carry a load, also those of sleeping bodies, which keep their last one.
+
+        Parameters
+        ----------
+        copies
+            Those of s sub-steps.
+
+        Raises
+        ------
+        LayoutError
+            They are not as expected.
+        """
+        values = np.concatenate([each.values for each in copies], axis=1)
+        bodies = np.concatenate([each.bodies for each in copies], axis=1)
         # Friction can be left where the push has gone to nothing within the iterations of the solver.
-        loaded = values[:, 6:9].any(axis=1)
-        _check_directions(values[loaded])
-        return self._contacts(manifolds[rows[loaded]], values[loaded])
+        loaded = np.flatnonzero(values[6:9].any(axis=0))
+        substeps = np.repeat(np.arange(len(copies)), [each.values.shape[1] for each in copies])[loaded]
+        values, bodies = values.take(loaded, axis=1), bodies.take(loaded, axis=1)
+        _check_directions(values)
+        first, second = values[7] * values[9:12], values[8] * values[12:15]
+        # Bullet leaves the second direction unset where it solved only one.
+        tangential = first + np.where(values[8] != 0.0, second, 0.0)
+        return Contacts(substeps, self._indices(bodies).T, values[0:3].T, values[3:6].T, values[6], tangential.T)
 
     def forget(self, rows: np.ndarray) -> None:
         """Drop all contact points of bodies (k,) that were put elsewhere; Bullet finds those of their new places.
@@ -150,21 +199,10 @@ class ContactReader:
         if not self._is_checked:
             return _doubtful_manifolds(self._layout, address)
         count = int(gather_integers(np.array([address + layout.manifold_count]))[0])
+        if not 0 <= count <= _MOST_MANIFOLDS:
+            raise LayoutError(f"{count} contacts")
         data = int(gather_pointers(np.array([address + layout.manifold_data]))[0])
-        return gather_pointers(data + 8 * np.arange(count, dtype=np.uint64))
-
-    def _contacts(self, manifolds: np.ndarray, values: np.ndarray) -> Contacts:
-        layout = self._layout.manifold
-        pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
-        first, second = values[:, 7:8] * values[:, 9:12], values[:, 8:9] * values[:, 12:15]
-        # Bullet leaves the second direction unset where it solved only one.
-        return Contacts(
-            pairs=np.column_stack(pairs),
-            places_m=values[:, 0:3],
-            normals=values[:, 3:6],
-            normal_impulses_ns=values[:, 6],
-            tangential_impulses_ns=first + np.where(values[:, 8:9] != 0.0, second, 0.0),
-        )
+        return copy_pointers(data, count) if count else np.zeros(0, np.uint64)
 
     def _indices(self, addresses: np.ndarray) -> np.ndarray:
         places = np.minimum(np.searchsorted(self._sorted, addresses), len(self._sorted) - 1)
@@ -232,9 +270,9 @@ def _check_point(layout: Layout, address: int, frictions: list[float]) -> None:
 
 
 def _check_directions(values: np.ndarray) -> None:
-    """The lateral directions that carry an impulse are unit vectors at right angles to the normal."""
+    """The lateral directions (3, k) that carry an impulse are unit vectors at right angles to the normal."""
     for impulse, start in ((7, 9), (8, 12)):
-        used = values[values[:, impulse] != 0.0]
+        used = values.compress(values[impulse] != 0.0, axis=1).T
         directions, normals = used[:, start : start + 3], used[:, 3:6]
         excess = abs(dot(directions, directions) - 1.0)
         slope = abs(dot(directions, normals))

@@ -62,6 +62,46 @@ def gather_doubles(addresses: np.ndarray, count: int = 1, columns: np.ndarray | 
     return _DOUBLES.take(_indices(addresses, 8)[:, None] + columns)
 
 
+class Places:
+    """The same c doubles at each of n checked addresses, to be copied again and again.
+
+    Parameters
+    ----------
+    addresses
+        (n,) where each structure begins.
+    offsets
+        (c,) of the doubles in it, in bytes.
+    """
+
+    def __init__(self, addresses: np.ndarray, offsets: np.ndarray):
+        self._indices = _indices(np.asarray(offsets, np.uint64)[:, None] + addresses, 8)
+
+    def copy(self) -> np.ndarray:
+        """Doubles (c, n) as they are now."""
+        return _DOUBLES.take(self._indices)
+
+
+def copy_pointers(address: int, count: int) -> np.ndarray:
+    """So many pointers (count,) uint64 in a row, at a checked address."""
+    first = (address - _LOWEST) // 8
+    return _POINTERS[first : first + count].copy()
+
+
+def gather_doubles_at(addresses: np.ndarray) -> np.ndarray:
+    """Doubles (...) at checked addresses (...)."""
+    return _DOUBLES.take(_indices(addresses, 8))
+
+
+def gather_words(addresses: np.ndarray, offset: int, count: int) -> np.ndarray:
+    """Words of 8 bytes (count, n) uint64, `count` in a row behind an offset in bytes from checked addresses (n,)."""
+    return _POINTERS.take(_indices(addresses + np.uint64(offset), 8) + np.arange(count)[:, None])
+
+
+def gather_bytes(addresses: np.ndarray) -> np.ndarray:
+    """Bytes (n,) at the checked addresses (n,)."""
+    return _BYTES.take(_indices(addresses, 1))
+
+
 def gather_pointers(addresses: np.ndarray) -> np.ndarray:
     """Pointers (n,) uint64 at the checked addresses (n,)."""
     return _POINTERS.take(_indices(addresses, 8))

@@ -21,7 +21,7 @@ from ..core.results.removed_shards import OUT_OF_REACH_M
 from ..scene.world import scene_time_step
 from . import checks
 from .collision_pairs import CollisionPairs
-from .contacts import ContactReader, Contacts
+from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout, platform_layout
 from .memory import (
     gather_doubles,
@@ -35,6 +35,7 @@ from .memory import (
     write_pointers,
     write_vectors,
 )
+from .snapshots import SnapshotTaker
 from .teardown import ConnectionSettings, Fingerprints, retire, take_out_constraints
 
 _FEEDBACK_DOUBLES = 16
@@ -244,24 +245,26 @@ class BulletWorld:
         states = gather_integers(self._body_fields(self._layout.body.activation))
         return np.isin(states, list(SLEEPING)) & self.can_move()
 
-    def contacts(self) -> Contacts:
-        """All contacts that carry a load; those between sleeping bodies keep the load they fell asleep with.
+    def snapshots(self, sides: np.ndarray) -> SnapshotTaker:
+        """What takes snapshots of this world, as long as it is bound.
 
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected.
+        Parameters
+        ----------
+        sides
+            (k,) which loads of connections are in them: 2 c for those of connection c on Bullet's body A, 2 c + 1 for
+            those on its body B.
         """
-        contacts = self._bound.contacts.read()
-        # Two bodies that rest on each other keep their last contact when both are removed.
-        return contacts.without(self._bound.removed) if self._bound.removed.any() else contacts
-
-    def applied_impulses(self) -> np.ndarray:
-        """The one number (m,) that Bullet keeps of each connection: the impulse of its last solver row, N·s."""
-        impulses = np.zeros(len(self.connections))
-        addresses = self._connection_fields(self._layout.constraint.applied_impulse)
-        impulses[self._bound.exists] = gather_doubles(addresses)[:, 0]
-        return impulses
+        bound = self._bound
+        return SnapshotTaker(
+            self._layout,
+            bound.bodies,
+            bound.connections,
+            bound.exists,
+            bound.removed,
+            bound.contacts,
+            self._feedback,
+            sides,
+        )
 
     def break_connections(self, rows: np.ndarray) -> None:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
@@ -323,28 +326,12 @@ class BulletWorld:
         intact[self._bound.exists] = (gather_integers(addresses) & 0xFF) != 0
         return intact
 
-    def let_broken_collide(self) -> None:
-        """Let the bodies of connections that broke since the last call collide again."""
-        broken = self._bound.forbids_collision & ~self.intact()
+    def let_broken_collide(self, intact: np.ndarray) -> None:
+        """Let the bodies of connections (m,) that broke since the last call, and are not intact now, collide again."""
+        broken = self._bound.forbids_collision & ~intact
         if broken.any():
             self._bound.collision_pairs.restore(self._bound.pair_rows[broken])
             self._bound.forbids_collision[broken] = False
-
-    def joint_feedback(self, sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Loads that connections put on their bodies in the last sub-step.
-
-        Parameters
-        ----------
-        sides
-            (k,) which loads: 2 c for those of connection c on Bullet's body A, 2 c + 1 for those on its body B.
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            (k, 3) force in N, and (k, 3) torque about the body's centre in N·m.
-        """
-        loads = self._feedback.reshape(-1, 8).take(sides, axis=0)
-        return loads[:, 0:3], loads[:, 4:7]
 
     def first_is_body_a(self) -> np.ndarray:
         """Whether `object1` of each connection (m,) is Bullet's body A; True where the connection does not exist."""

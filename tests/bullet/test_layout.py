@@ -67,7 +67,7 @@ def test_every_shifted_offset_is_refused(stepped, group, name, shift):
     for frame in range(3, 9):
         blocks.scene.frame_set(frame)
     assert world.bind(graph) is WorldState.KNOWN
-    assert world.joint_feedback(np.array([0]))[0][0, 2] == pytest.approx(-35.0 * 9.80665, rel=1e-3)
+    assert world.snapshots(np.array([0])).take().forces_n[0, 2] == pytest.approx(-35.0 * 9.80665, rel=1e-3)
     world.release()
 
 
@@ -96,7 +96,8 @@ def sliding(blender):
 def contacts_of(sliding, layout):
     world, _ = bound(sliding, layout)
     try:
-        return world.contacts()
+        taker = world.snapshots(np.zeros(0, int))
+        return taker.contacts([taker.take()])
     finally:
         world.release()
 

@@ -42,21 +42,17 @@ def rotated(rotations: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     return rotations + product(by_sine * cross + by_cosine * product(cross, cross), rotations)
 
 
-def carried_points(
-    local_points: np.ndarray, bodies: np.ndarray, centres: np.ndarray, rotations: np.ndarray
-) -> np.ndarray:
-    """Where points fixed to moving bodies are, (m, 3) in m.
+def carried_points(local_points: np.ndarray, centres: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Where points fixed to moving bodies are, (..., 3) in m.
 
     Parameters
     ----------
     local_points : (m, 3) float
         In the axes of their bodies, from the bodies' centres, m.
-    bodies : (m,) int
-        The body of each point.
-    centres, rotations : (n, 3), (n, 3, 3) float
-        Of all bodies.
+    centres, rotations : (..., m, 3), (..., m, 3, 3) float
+        Of the body of each point.
     """
-    return centres[bodies] + transformed(rotations.take(bodies, axis=0), local_points)
+    return centres + transformed(rotations, local_points)
 
 
 def axes_in_bodies(axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:

@@ -4,6 +4,9 @@ Sums run in a fixed order, component by component. Products by numpy's `@`, `dot
 libraries that choose another order by processor, and one bit is enough for another fracture and another collapse.
 
 Leading axes of all arguments are broadcast against each other.
+
+Arrays whose components lie together in memory, all x and then all y, are worked on in a third of the time. `dot`,
+`length` and `transformed` keep that order, `by_component`, `cross_by_component` and `taken` give it.
 """
 
 import numpy as np
@@ -48,6 +51,23 @@ def cross(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Cross products (k, 3) of vectors (k, 3), in a third of the time of `numpy.cross`."""
     (x, y, z), (a, b, c) = first.T, second.T
     return np.column_stack((y * c - z * b, z * a - x * c, x * b - y * a))
+
+
+def by_component(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Vectors (..., 3) with components (...), each of which lies together in memory."""
+    return np.moveaxis(np.stack((x, y, z)), 0, -1)
+
+
+def cross_by_component(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Cross products (..., 3) of vectors (..., 3), each component of which lies together in memory."""
+    x, y, z = (first[..., axis] for axis in range(3))
+    a, b, c = (second[..., axis] for axis in range(3))
+    return by_component(y * c - z * b, z * a - x * c, x * b - y * a)
+
+
+def taken(vectors: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Some vectors (s, k, c), each component of which lies together in memory, of vectors (s, n, c) in rows (k,)."""
+    return np.moveaxis(np.moveaxis(vectors, -1, 0).take(rows, axis=-1), 0, -1)
 
 
 def transformed(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:

@@ -4,41 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry.vectors import cross
-
-
-def resultants(pairs: np.ndarray, forces: np.ndarray, body_count: int) -> np.ndarray:
-    """Return the vector sum of the connection forces on every body.
-
-    Parameters
-    ----------
-    pairs : (m, 2) int
-        Indices of the connected bodies.
-    forces : (m, 3) float
-        Force on the first body of each pair, N; the second gets the opposite (Newton's third law).
-    body_count : int
-        Number of bodies n.
-
-    Returns
-    -------
-    (n, 3) float
-        In N.
-    """
-    first, second = pairs.T
-    components = [
-        np.bincount(first, forces[:, axis], body_count) - np.bincount(second, forces[:, axis], body_count)
-        for axis in range(3)
-    ]
-    return np.column_stack(components)
-
-
-def magnitude_sums(pairs: np.ndarray, magnitudes: np.ndarray, body_count: int) -> np.ndarray:
-    """Return the sum of the magnitudes (m,) of the forces between pairs of bodies, for every body (n,), in N.
-
-    The measure of how hard a body is held from all sides, where the resultant of a body at rest is only its weight.
-    """
-    first, second = pairs.T
-    return np.bincount(first, magnitudes, body_count) + np.bincount(second, magnitudes, body_count)
+from ..geometry.vectors import by_component, cross_by_component
 
 
 def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, centres: np.ndarray) -> np.ndarray:
@@ -46,16 +12,66 @@ def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, cent
 
     Parameters
     ----------
-    points : (m, 3) float
+    points : (..., 3) float
         Where the connections sit, m.
-    forces, torques : (m, 3) float
+    forces, torques : (..., 3) float
         Force on a body in N, and the torque of the whole load about that body's centre in N·m.
-    centres : (m, 3) float
+    centres : (..., 3) float
         That body's centre, m.
 
     Returns
     -------
-    (m, 3) float
+    (..., 3) float
         In N·m: the torque less what the force makes by its lever arm.
     """
-    return torques - cross(points - centres, forces)
+    return torques - cross_by_component(points - centres, forces)
+
+
+class PairSums:
+    """Sums over the pairs of n bodies in each of s sub-steps, all at once.
+
+    The sum of the magnitudes of all forces on a body measures how hard it is held from all sides, where the resultant
+    of a body at rest is only its weight.
+
+    Parameters
+    ----------
+    pairs : (k, 2) int
+        Bodies.
+    substeps : (k,) int or None
+        Sub-step of each pair; None where all pairs are in all sub-steps, and values are (s, k).
+    shape : tuple of int
+        Sub-steps s and bodies n.
+
+    Attributes
+    ----------
+    shape
+        As given.
+    first, second : (s k,) or (k,) int
+        Rows of the bodies of the pairs among those (s n,) of all sub-steps.
+    """
+
+    def __init__(self, pairs: np.ndarray, substeps: np.ndarray | None, shape: tuple[int, int]):
+        self.shape = shape
+        rows = np.arange(shape[0])[:, None] if substeps is None else substeps
+        self.first, self.second = ((shape[1] * rows + bodies).ravel() for bodies in pairs.T)
+
+    def sums(self, values: np.ndarray) -> np.ndarray:
+        """Sums (s, n) of values over the pairs of every body."""
+        return self._of(self.first, values) + self._of(self.second, values)
+
+    def differences(self, values: np.ndarray) -> np.ndarray:
+        """Sums (s, n) of values over pairs of which a body is the first, less those of which it is the second."""
+        return self._of(self.first, values) - self._of(self.second, values)
+
+    def resultants(self, forces: np.ndarray) -> np.ndarray:
+        """Vector sums (s, n, 3) of forces (..., 3) on the first body of each pair; the second gets the opposite.
+
+        That is Newton's third law.
+        """
+        return by_component(*(self.differences(forces[..., axis]) for axis in range(3)))
+
+    def _of(self, rows: np.ndarray, values: np.ndarray) -> np.ndarray:
+        if not len(rows):
+            return np.zeros(self.shape)
+        substeps, bodies = self.shape
+        return np.bincount(rows, values.ravel(), substeps * bodies).reshape(self.shape)

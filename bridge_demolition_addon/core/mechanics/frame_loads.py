@@ -8,40 +8,77 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..geometry.vectors import length
-from .forces import magnitude_sums, resultants
+from .forces import PairSums
 from .stress import average_stress, average_stress_of_moments, von_mises
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SubstepLoads:
-    """Loads of one sub-step on n bodies by m connections and k contact points.
+    """Loads of s sub-steps that follow each other, on n bodies by m connections and k contact points.
 
     Contacts come as impulses, as Bullet keeps them. Loads of connections are forces: Bullet has divided them by the
     sub-step already.
 
     Attributes
     ----------
-    substep_s : float
-        How long the sub-step was.
-    connection_forces_n, connection_moments_nm : (m, 3) float
+    substeps_s : (s,) float
+        How long each sub-step was.
+    connection_forces_n, connection_moments_nm : (s, m, 3) float
         Force on the first body of each connection, and moment about the connection's own point.
-    connection_points_m : (m, 3) float
+    connection_points_m : (s, m, 3) float
         Where the connections are.
-    signed_2019_ns : (m,) float
+    signed_2019_ns : (s, m) float
         The one number that Bullet keeps of a connection, an impulse.
+    contact_substeps : (k,) int
+        In which sub-step each contact is, in ascending order.
     contact_pairs : (k, 2) int
         Bodies in contact.
     contact_impulses_ns, contact_points_m : (k, 3) float
         Impulse on the first of them, and where it acts.
-    centres_m, rotations : (n, 3) float, (n, 3, 3) float
+    centres_m, rotations : (s, n, 3) float, (s, n, 3, 3) float
         Centres of mass and rotations of all bodies.
     """
+
+    substeps_s: np.ndarray
+    connection_forces_n: np.ndarray
+    connection_moments_nm: np.ndarray
+    connection_points_m: np.ndarray
+    signed_2019_ns: np.ndarray
+    contact_substeps: np.ndarray
+    contact_pairs: np.ndarray
+    contact_impulses_ns: np.ndarray
+    contact_points_m: np.ndarray
+    centres_m: np.ndarray
+    rotations: np.ndarray
+
+    def contacts_of(self, substep: int) -> slice:
+        """Return which contacts are in a sub-step."""
+        return slice(*np.searchsorted(self.contact_substeps, (substep, substep + 1)).tolist())
+
+    def moment(self, substep: int) -> Moment:
+        """Return the loads of one sub-step."""
+        contacts = self.contacts_of(substep)
+        return Moment(
+            float(self.substeps_s[substep]),
+            self.connection_forces_n[substep],
+            self.connection_moments_nm[substep],
+            self.connection_points_m[substep],
+            self.contact_pairs[contacts],
+            self.contact_impulses_ns[contacts],
+            self.contact_points_m[contacts],
+            self.centres_m[substep],
+            self.rotations[substep],
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moment:
+    """Loads of one of the sub-steps of `SubstepLoads`, without their axis of sub-steps."""
 
     substep_s: float
     connection_forces_n: np.ndarray
     connection_moments_nm: np.ndarray
     connection_points_m: np.ndarray
-    signed_2019_ns: np.ndarray
     contact_pairs: np.ndarray
     contact_impulses_ns: np.ndarray
     contact_points_m: np.ndarray
@@ -98,7 +135,7 @@ class FrameLoads:
 
 
 class LoadAccumulator:
-    """Adds up the loads of a frame, sub-step by sub-step.
+    """Adds up the loads of a frame, some sub-steps at a time; how many makes no difference, to the last bit.
 
     Stress is calculated twice a frame and not for every sub-step, which would cost more than all the rest: from the
     mean loads, and from those of the sub-step in which all loads together were largest.
@@ -115,42 +152,51 @@ class LoadAccumulator:
 
     def __init__(self, pairs: np.ndarray, volumes_m3: np.ndarray, normals_at: Callable[[np.ndarray], np.ndarray]):
         self._pairs, self._volumes, self._normals_at = pairs, volumes_m3, normals_at
+        self._of_connections = PairSums(pairs, None, (1, len(volumes_m3)))
         self.begin()
 
     def begin(self) -> None:
         """Begin a new frame."""
         connections, bodies = len(self._pairs), len(self._volumes)
         self._duration_s = 0.0
-        self._last: SubstepLoads | None = None
-        self._largest: SubstepLoads | None = None
+        self._last: Moment | None = None
+        self._largest: Moment | None = None
         self._largest_sum_n = -1.0
         # Time integrals: N·s, N·m·s and Pa·s.
-        self._connection_impulses, self._connection_angular_impulses = np.zeros((2, connections, 3))
+        self._connection_impulses, self._connection_angular_impulses = _vectors(2, connections)
         self._sum_impulses, self._signed_impulses = np.zeros((2, bodies))
-        self._contact_impulses = np.zeros((bodies, 3))
+        (self._contact_impulses,) = _vectors(1, bodies)
         self._contact_stress_impulses = np.zeros((bodies, 3, 3))
         self._connection_peaks = np.zeros(connections)
-        self._connection_peak_forces, self._connection_peak_moments = np.zeros((2, connections, 3))
+        self._connection_peak_forces, self._connection_peak_moments = _vectors(2, connections)
         self._body_peaks, self._body_peak_sums = np.zeros((2, bodies))
 
     def add(self, loads: SubstepLoads) -> np.ndarray:
-        """Add the loads of one sub-step. Return the resultant force (n, 3) on every body."""
-        count, substep_s = len(self._volumes), loads.substep_s
-        by_contacts = resultants(loads.contact_pairs, loads.contact_impulses_ns, count)
-        resultant = resultants(self._pairs, loads.connection_forces_n, count) + by_contacts / substep_s
+        """Add the loads of some sub-steps. Return the resultant force (s, n, 3) on every body in each."""
+        shape, substeps_s = (len(loads.substeps_s), len(self._volumes)), loads.substeps_s
+        of_connections = self._sums_of_connections(shape)
         magnitudes = length(loads.connection_forces_n)
-        of_contacts = magnitude_sums(loads.contact_pairs, length(loads.contact_impulses_ns), count) / substep_s
-        sums = magnitude_sums(self._pairs, magnitudes, count) + of_contacts
-        self._note_peaks(loads, magnitudes, resultant, sums)
-        self._connection_impulses += substep_s * loads.connection_forces_n
-        self._connection_angular_impulses += substep_s * loads.connection_moments_nm
-        self._sum_impulses += substep_s * sums
-        self._signed_impulses += self._signed(loads.signed_2019_ns)
-        self._contact_impulses += by_contacts
-        self._contact_stress_impulses += self._stress_impulses_of_contacts(loads)
-        self._duration_s += substep_s
-        self._last = loads
-        return resultant
+        resultants_n = of_connections.resultants(loads.connection_forces_n)
+        sums = of_connections.sums(magnitudes)
+        if len(loads.contact_substeps):
+            of_contacts = PairSums(loads.contact_pairs, loads.contact_substeps, shape)
+            by_contacts = of_contacts.resultants(loads.contact_impulses_ns)
+            resultants_n += by_contacts / substeps_s[:, None, None]
+            sums += of_contacts.sums(length(loads.contact_impulses_ns)) / substeps_s[:, None]
+            self._add_contacts(loads, by_contacts)
+        self._note_peaks(loads, magnitudes, length(resultants_n), sums)
+        signed = of_connections.differences(loads.signed_2019_ns)
+        impulses = substeps_s[:, None, None] * loads.connection_forces_n
+        angular_impulses = substeps_s[:, None, None] * loads.connection_moments_nm
+        sum_impulses = substeps_s[:, None] * sums
+        for substep, substep_s in enumerate(substeps_s.tolist()):
+            self._connection_impulses += impulses[substep]
+            self._connection_angular_impulses += angular_impulses[substep]
+            self._sum_impulses += sum_impulses[substep]
+            self._signed_impulses += signed[substep]
+            self._duration_s += substep_s
+        self._last = loads.moment(-1 % shape[0])
+        return resultants_n
 
     def finish(self) -> FrameLoads:
         """Return means and peaks of the frame so far, and the impulses of contacts; all 0 where no time passed."""
@@ -164,48 +210,56 @@ class LoadAccumulator:
             peak_stresses += self._stresses_of_connections(
                 largest, largest.connection_forces_n, largest.connection_moments_nm
             )
-        by_connections = resultants(self._pairs, forces, len(self._volumes))
+        by_connections = PairSums(self._pairs, None, (1, len(self._volumes))).resultants(forces[None])[0]
         return FrameLoads(
-            body_forces_n=by_connections + per_second * self._contact_impulses,
+            body_forces_n=np.ascontiguousarray(by_connections + per_second * self._contact_impulses),
             body_peaks_n=self._body_peaks,
             body_sums_n=per_second * self._sum_impulses,
             body_peak_sums_n=self._body_peak_sums,
-            body_contact_impulses_ns=self._contact_impulses,
+            body_contact_impulses_ns=np.ascontiguousarray(self._contact_impulses),
             body_signed_2019_n=per_second * self._signed_impulses,
             stresses_pa=stresses,
             von_mises_pa=von_mises(peak_stresses),
-            connection_forces_n=forces,
-            connection_moments_nm=moments,
+            connection_forces_n=np.ascontiguousarray(forces),
+            connection_moments_nm=np.ascontiguousarray(moments),
             connection_peaks_n=self._connection_peaks,
-            connection_peak_forces_n=self._connection_peak_forces,
-            connection_peak_moments_nm=self._connection_peak_moments,
+            connection_peak_forces_n=np.ascontiguousarray(self._connection_peak_forces),
+            connection_peak_moments_nm=np.ascontiguousarray(self._connection_peak_moments),
         )
 
-    def _note_peaks(self, loads: SubstepLoads, magnitudes: np.ndarray, resultant: np.ndarray, sums: np.ndarray) -> None:
-        higher = np.flatnonzero(magnitudes > self._connection_peaks)
-        self._connection_peak_forces[higher] = loads.connection_forces_n[higher]
-        self._connection_peak_moments[higher] = loads.connection_moments_nm[higher]
-        for peaks, values in (
-            (self._connection_peaks, magnitudes),
-            (self._body_peaks, length(resultant)),
-            (self._body_peak_sums, sums),
-        ):
-            np.maximum(peaks, values, out=peaks)
-        total = np.nan_to_num(sums.sum(), nan=np.inf)  # loads that are not known must not pass for small ones
-        if total > self._largest_sum_n:
-            self._largest, self._largest_sum_n = loads, total
+    def _sums_of_connections(self, shape: tuple[int, int]) -> PairSums:
+        if self._of_connections.shape != shape:
+            self._of_connections = PairSums(self._pairs, None, shape)
+        return self._of_connections
 
-    def _signed(self, values: np.ndarray) -> np.ndarray:
-        """Sum over the connections of every body, added for their first bodies and taken off for their second."""
-        first, second = self._pairs.T
-        count = len(self._volumes)
-        return np.bincount(first, values, count) - np.bincount(second, values, count)
+    def _add_contacts(self, loads: SubstepLoads, by_contacts: np.ndarray) -> None:
+        for substep, impulses in enumerate(by_contacts):
+            self._contact_impulses += impulses
+            self._contact_stress_impulses += self._stress_impulses_of_contacts(loads.moment(substep))
 
-    def _stress_impulses_of_contacts(self, loads: SubstepLoads) -> np.ndarray:
+    def _note_peaks(
+        self, loads: SubstepLoads, magnitudes: np.ndarray, body_magnitudes: np.ndarray, sums: np.ndarray
+    ) -> None:
+        for substep in range(len(magnitudes)):
+            higher = np.flatnonzero(magnitudes[substep] > self._connection_peaks)
+            self._connection_peak_forces[higher] = loads.connection_forces_n[substep][higher]
+            self._connection_peak_moments[higher] = loads.connection_moments_nm[substep][higher]
+            for peaks, values in (
+                (self._connection_peaks, magnitudes),
+                (self._body_peaks, body_magnitudes),
+                (self._body_peak_sums, sums),
+            ):
+                np.maximum(peaks, values[substep], out=peaks)
+            # Loads that are not known must not pass for small ones.
+            total = np.nan_to_num(sums[substep].sum(), nan=np.inf)
+            if total > self._largest_sum_n:
+                self._largest, self._largest_sum_n = loads.moment(substep), total
+
+    def _stress_impulses_of_contacts(self, loads: Moment) -> np.ndarray:
         """Stresses (n, 3, 3) under the contacts of a sub-step times its length, Pa·s."""
         return self._stresses(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m, loads.centres_m)
 
-    def _stresses_of_connections(self, loads: SubstepLoads, forces: np.ndarray, moments: np.ndarray) -> np.ndarray:
+    def _stresses_of_connections(self, loads: Moment, forces: np.ndarray, moments: np.ndarray) -> np.ndarray:
         """Stresses (n, 3, 3) under forces and moments (m, 3) of the connections, where they are in a sub-step."""
         normals = self._normals_at(loads.rotations)
         of_moments = average_stress_of_moments(
@@ -225,3 +279,8 @@ class LoadAccumulator:
     def _of_solids(self, stresses: np.ndarray) -> np.ndarray:
         """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
         return np.where(self._volumes[:, None, None] > 0.0, stresses, 0.0)
+
+
+def _vectors(*shape: int) -> np.ndarray:
+    """Vectors (k, n, 3) that are 0, whose components lie together in memory."""
+    return np.moveaxis(np.zeros((shape[0], 3, shape[1])), 1, -1)

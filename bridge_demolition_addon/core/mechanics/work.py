@@ -11,23 +11,25 @@ energy away, as impacts, friction and breaking do. One that speeds it up makes e
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ..arithmetic import power
-from ..geometry.vectors import cross, dot
+from ..geometry.vectors import cross_by_component, dot
+from .forces import PairSums
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motion:
-    """Motion of n bodies at one moment.
+    """Motion of n bodies at the ends of s sub-steps.
 
     Attributes
     ----------
-    centres_m : (n, 3) float
+    centres_m : (s, n, 3) float
         Centres of mass.
-    velocities_m_s, angular_velocities_rad_s : (n, 3) float
+    velocities_m_s, angular_velocities_rad_s : (s, n, 3) float
     """
 
     centres_m: np.ndarray
@@ -35,30 +37,46 @@ class Motion:
     angular_velocities_rad_s: np.ndarray
 
     def rests(self) -> bool:
-        """Return whether no body has a velocity."""
-        return not (self.velocities_m_s.any() or self.angular_velocities_rad_s.any())
+        """Return whether no body has a velocity at any of these times, and none is moved from one to the next."""
+        if self.velocities_m_s.any() or self.angular_velocities_rad_s.any():
+            return False
+        return bool((self.centres_m == self.centres_m[:1]).all())
+
+    def from_(self, before: Motion) -> Motion:
+        """Return the motion (s + 1, n, 3) that begins where another ends."""
+        pairs = ((getattr(each, item.name) for each in (before, self)) for item in fields(Motion))
+        return Motion(*(_joined(earlier[-1:], later) for earlier, later in pairs))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PairImpulses:
-    """Impulses between k pairs of bodies in one sub-step: of connections, or of contacts.
+    """Impulses between k pairs of bodies: of connections, in each of s sub-steps, or of contacts, each in one of them.
 
     Attributes
     ----------
     pairs : (k, 2) int
         Bodies.
-    impulses_ns : (k, 3) float
+    impulses_ns : (s, k, 3) or (k, 3) float
         Impulse on the first body of each pair; the second gets the opposite.
-    points_m : (k, 3) float
+    points_m : (s, k, 3) or (k, 3) float
         Where they act.
-    angular_impulses_nms : (k, 3) float or None
+    angular_impulses_nms : (s, k, 3) float or None
         Impulse of the moment about that point on the first body; None for contacts, which have none.
+    substeps : (k,) int or None
+        Sub-step of each contact, in ascending order; None for connections.
     """
 
     pairs: np.ndarray
     impulses_ns: np.ndarray
     points_m: np.ndarray
     angular_impulses_nms: np.ndarray | None = None
+    substeps: np.ndarray | None = None
+
+    def of_substeps(self, count: int) -> list[slice]:
+        """Return which impulses are in each of so many sub-steps, all of them in a row."""
+        steps = np.arange(count + 1)
+        ends = steps * len(self.pairs) if self.substeps is None else np.searchsorted(self.substeps, steps)
+        return [slice(start, end) for start, end in itertools.pairwise(ends.tolist())]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,7 +119,7 @@ class FrameWork:
 
 
 class WorkAccumulator:
-    """Adds up the work in a frame.
+    """Adds up the work in a frame, some sub-steps at a time; how many makes no difference, to the last bit.
 
     Parameters
     ----------
@@ -112,7 +130,7 @@ class WorkAccumulator:
     gravity_m_s2 : (3,) float
         Acceleration of gravity.
     start : Motion
-        Motion at the beginning.
+        Motion (1, n, 3) at the beginning.
     """
 
     def __init__(
@@ -125,8 +143,7 @@ class WorkAccumulator:
     ):
         self._masses, self._gravity = masses_kg, gravity_m_s2
         self._left_per_second = 1.0 - np.stack((linear_damping, angular_damping))
-        self._step_s = 0.0
-        self._linear_left = self._angular_left = np.ones((len(masses_kg), 1))
+        self._left: dict[float, np.ndarray] = {}
         self._before = start
         self._begin()
 
@@ -150,7 +167,7 @@ class WorkAccumulator:
         return work
 
     def pass_over(self, after: Motion) -> None:
-        """Leave out a sub-step that ends with a motion."""
+        """Leave out sub-steps at whose ends there is a motion."""
         self._before = after
 
     def add(
@@ -160,88 +177,155 @@ class WorkAccumulator:
         of_connections: PairImpulses,
         of_contacts: PairImpulses,
         resultants_ns: np.ndarray,
-        substep_s: float,
+        substeps_s: np.ndarray,
     ) -> None:
-        """Add a sub-step.
+        """Add some sub-steps.
 
         Parameters
         ----------
         after : Motion
-            Motion at its end.
-        free : (n,) bool
-            Bodies that move freely in it. The others rest, or move as animation says.
+            Motion at their ends.
+        free : (s, n) bool
+            Bodies that move freely in them. The others rest, or move as animation says.
         of_connections, of_contacts : PairImpulses
             All impulses between bodies.
-        resultants_ns : (n, 3) float
+        resultants_ns : (s, n, 3) float
             Their sum on every body.
-        substep_s : float
-            Its length.
+        substeps_s : (s,) float
+            How long each is.
         """
-        before, masses = self._before, np.where(free, self._masses, 0.0)
+        whole, masses = after.from_(self._before), np.where(free, self._masses, 0.0)
         self._before = after
-        if before.rests() and after.rests() and np.array_equal(before.centres_m, after.centres_m):
+        if whole.rests():
             return
-        self._set_step(substep_s)
+        before = whole.velocities_m_s[:-1]
         # Bullet damps velocities first, then adds gravity, loads and the solver's impulses.
-        damped = self._linear_left * before.velocities_m_s
-        turning = self._angular_left * before.angular_velocities_rad_s
+        linear_left, angular_left = self._damping_leaves(substeps_s)
+        damped = linear_left * before
+        turning = angular_left * whole.angular_velocities_rad_s[:-1]
         mean = Motion(
             after.centres_m,
             0.5 * (damped + after.velocities_m_s),
             0.5 * (turning + after.angular_velocities_rad_s),
         )
-        momenta = masses[:, None] * (after.velocities_m_s - damped - substep_s * self._gravity)
-        self._loads_j += float(dot(momenta - resultants_ns, mean.velocities_m_s)[free].sum())
-        self._gravity_j += substep_s * float((masses * dot(mean.velocities_m_s, self._gravity)).sum())
-        squares = dot(before.velocities_m_s, before.velocities_m_s) - dot(damped, damped)
-        self._damping_j += 0.5 * float((masses * squares).sum())
-        for cause, each in enumerate((of_connections, of_contacts)):
-            self._made_by[cause] += self._add_pairs(each, mean, free)
-        self._made_by[2] += self._add_lifting(before, after, masses, substep_s)
+        steps = substeps_s[:, None, None]
+        momenta = masses[..., None] * (after.velocities_m_s - damped - steps * self._gravity)
+        by_loads = dot(momenta - resultants_ns, mean.velocities_m_s)
+        by_gravity = masses * dot(mean.velocities_m_s, self._gravity)
+        by_damping = masses * (dot(before, before) - dot(damped, damped))
+        works = [self._of_pairs(each, mean, free) for each in (of_connections, of_contacts)]
+        lifting = self._of_lifting(whole, masses, steps)
+        for substep, substep_s in enumerate(substeps_s.tolist()):
+            self._loads_j += float(by_loads[substep][free[substep]].sum())
+            self._gravity_j += substep_s * float(by_gravity[substep].sum())
+            self._damping_j += 0.5 * float(by_damping[substep].sum())
+            for cause, work in enumerate(works):
+                self._dissipated_j -= work.taken_j[substep]
+                self._tools_j = self._tools_j + work.tools_j[0][substep] + work.tools_j[1][substep]
+                self._made_by[cause] += work.made_j[substep]
+                for made_j in work.made_by_body_j:
+                    self._made_j += made_j[substep]
+            self._made_by[2] += float(lifting[substep].sum())
+            self._made_j += lifting[substep]
 
-    def _set_step(self, substep_s: float) -> None:
-        """Have the shares of the velocities that Bullet's damping leaves in a sub-step; most have the same length."""
-        if substep_s != self._step_s:
-            self._step_s = substep_s
-            self._linear_left, self._angular_left = power(self._left_per_second, substep_s)[..., None]
+    def _damping_leaves(self, substeps_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the shares (s, n, 1) of velocities and of angular velocities that Bullet's damping leaves."""
+        for substep_s in set(substeps_s.tolist()) - self._left.keys():
+            self._left[substep_s] = power(self._left_per_second, substep_s)
+        linear, angular = np.stack([self._left[substep_s] for substep_s in substeps_s.tolist()], axis=1)
+        return linear[..., None], angular[..., None]
 
-    def _add_pairs(self, between: PairImpulses, mean: Motion, free: np.ndarray) -> float:
-        """Add work between bodies: what is taken away, what tools did, what each body got. Return what is made."""
+    def _of_pairs(self, between: PairImpulses, mean: Motion, free: np.ndarray) -> PairWork:
+        """Return what is taken away between bodies, what tools did, and what is made and by which body it is got."""
+        sums = PairSums(between.pairs, between.substeps, free.shape)
+        first, second = sums.first, sums.second
         # The velocity of a point p of a body is v + ω × (p - c): of what it has at the origin and of ω.
-        at_origin = mean.velocities_m_s - cross(mean.angular_velocities_rad_s, mean.centres_m)
-        motion = np.concatenate((at_origin, mean.angular_velocities_rad_s), axis=1)
-        about_origin = cross(between.points_m, between.impulses_ns)
+        at_origin = mean.velocities_m_s - cross_by_component(mean.angular_velocities_rad_s, mean.centres_m)
+        motion = _components(at_origin, mean.angular_velocities_rad_s)
+        about_origin = cross_by_component(between.points_m, between.impulses_ns)
         if between.angular_impulses_nms is not None:
-            about_origin = about_origin + between.angular_impulses_nms
-        loads = np.concatenate((between.impulses_ns, about_origin), axis=1)
-        first, second = between.pairs.T
-        total = dot(loads, motion.take(first, axis=0) - motion.take(second, axis=0))
-        total[~(free[first] | free[second])] = 0.0
-        self._dissipated_j -= float(np.minimum(total, 0.0).sum())
-        self._add_tools(between, loads, motion, free)
-        rows = np.flatnonzero(total > 0.0)
+            about_origin += between.angular_impulses_nms
+        loads = _components(between.impulses_ns, about_origin)
+        of_first, of_second = motion.take(first, axis=1), motion.take(second, axis=1)
+        total = _dot(loads, of_first - of_second)
+        is_free = free.ravel()
+        first_free, second_free = is_free[first], is_free[second]
+        total[~(first_free | second_free)] = 0.0
+        made = total > 0.0
         gains = [
-            np.maximum(sign * dot(loads[rows], motion[bodies[rows]]), 0.0) * free[bodies[rows]]
-            for sign, bodies in ((1.0, first), (-1.0, second))
+            np.maximum(sign * _dot(loads, moving), 0.0) * are_free
+            for sign, moving, are_free in ((1.0, of_first, first_free), (-1.0, of_second, second_free))
         ]
         both = gains[0] + gains[1]
-        share = np.divide(total[rows], both, out=np.zeros_like(both), where=both > 0.0)
-        for bodies, gain in zip((first, second), gains, strict=True):
-            self._made_j += np.bincount(bodies[rows], share * gain, len(free))
-        return float(total[rows].sum())
+        share = np.divide(total, both, out=np.zeros_like(both), where=made & (both > 0.0))
+        substeps = between.of_substeps(len(free))
+        taken = np.minimum(total, 0.0)
+        return PairWork(
+            taken_j=[float(taken[each].sum()) for each in substeps],
+            made_j=[float(total[each][made[each]].sum()) for each in substeps],
+            made_by_body_j=[
+                np.bincount(bodies, share * gain, free.size).reshape(free.shape)
+                for bodies, gain in zip((first, second), gains, strict=True)
+            ],
+            tools_j=_of_tools(sums, loads, motion, is_free, substeps),
+        )
 
-    def _add_tools(self, between: PairImpulses, loads: np.ndarray, motion: np.ndarray, free: np.ndarray) -> None:
-        """Add the work of bodies that move as animation says on those that move freely."""
-        led = ~free & motion.any(axis=1)
-        if not led.any():
-            return
-        for sign, bodies, others in ((-1.0, *between.pairs.T), (1.0, *between.pairs.T[::-1])):
-            rows = np.flatnonzero(led[bodies] & free[others])
-            self._tools_j += sign * float(dot(loads[rows], motion[bodies[rows]]).sum())
+    def _of_lifting(self, whole: Motion, masses: np.ndarray, steps: np.ndarray) -> np.ndarray:
+        """Return the energy (s, n) of bodies that Bullet moved up without a velocity: so it parts overlapping hulls."""
+        pushed = whole.centres_m[1:] - whole.centres_m[:-1] - steps * whole.velocities_m_s[1:]
+        return np.maximum(-masses * dot(pushed, self._gravity), 0.0)
 
-    def _add_lifting(self, before: Motion, after: Motion, masses: np.ndarray, substep_s: float) -> float:
-        """Return the energy of bodies that Bullet moved up without a velocity: so it parts hulls that overlap."""
-        pushed = after.centres_m - before.centres_m - substep_s * after.velocities_m_s
-        made = np.maximum(-masses * dot(pushed, self._gravity), 0.0)
-        self._made_j += made
-        return float(made.sum())
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PairWork:
+    """Work between bodies in each of s sub-steps, J.
+
+    Attributes
+    ----------
+    taken_j, made_j : list of float
+        Energy that is taken away, as a negative number, and energy that is made.
+    made_by_body_j : list of (s, n) float
+        The energy made by the body that got it: first and second bodies of the pairs.
+    tools_j : list of list of float
+        Work of bodies that are led, as first and as second bodies.
+    """
+
+    taken_j: list[float]
+    made_j: list[float]
+    made_by_body_j: list[np.ndarray]
+    tools_j: list[list[float]]
+
+
+def _of_tools(
+    sums: PairSums, loads: np.ndarray, motion: np.ndarray, free: np.ndarray, substeps: list[slice]
+) -> list[list[float]]:
+    """Return the work of bodies that move as animation says on those that move freely, from both sides."""
+    led = ~free & motion.any(axis=0)
+    if not led.any():
+        return [[0.0] * len(substeps)] * 2
+    works = []
+    for sign, bodies, others in ((-1.0, sums.first, sums.second), (1.0, sums.second, sums.first)):
+        acts = led[bodies] & free[others]
+        each_j = []
+        for substep in substeps:
+            rows = substep.start + np.flatnonzero(acts[substep])
+            work = _dot(loads.take(rows, axis=1), motion.take(bodies[rows], axis=1))
+            each_j.append(sign * float(work.sum()))
+        works.append(each_j)
+    return works
+
+
+def _components(*vectors: np.ndarray) -> np.ndarray:
+    """Components (c, k) of vectors (..., 3), one after the other."""
+    return np.concatenate([np.moveaxis(each, -1, 0).reshape(3, -1) for each in vectors])
+
+
+def _dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Products (k,) of vectors given by components (c, k)."""
+    return dot(first.T, second.T)
+
+
+def _joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Vectors (s, n, 3) of earlier and later sub-steps, each component of which lies together in memory."""
+    parts = [np.moveaxis(each, -1, 0) for each in (first, second)]
+    return np.moveaxis(np.concatenate(parts, axis=1), 0, -1)

@@ -59,7 +59,7 @@ class BulletReader:
             np.array([body.rigid_body.linear_damping for body in bodies]),
             np.array([body.rigid_body.angular_damping for body in bodies]),
             np.array(scene.gravity, float),
-            Motion(world.positions()[0], world.velocities(), world.angular_velocities()),
+            Motion(*(each[None] for each in (world.positions()[0], world.velocities(), world.angular_velocities()))),
         )
         self._substeps = SubstepRecorder(world, inventory, breaking, self._events, blast, normal_substep_s, work)
         after = self._substeps.after_substep if every_substep else None

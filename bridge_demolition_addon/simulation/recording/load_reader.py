@@ -1,12 +1,15 @@
-"""Loads of one sub-step, read from Bullet as it left them."""
+"""Loads of sub-steps, read from Bullet as it left them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
-from ...core.geometry.vectors import transformed, transformed_back
+from ...core.geometry.vectors import by_component, taken, transformed, transformed_back
 from ...core.mechanics import forces
 from ...core.mechanics.frame_loads import SubstepLoads
 from ...core.mechanics.section_forces import section_axes
@@ -29,16 +32,15 @@ class LoadReader:
     def __init__(
         self, world: BulletWorld, pairs: np.ndarray, can_move: np.ndarray, points_m: np.ndarray, normals: np.ndarray
     ):
-        self._world = world
         # Of a hinge on a fixed body, Bullet leaves out a part of the torque on that body: loads are read on the other.
         side = np.where(can_move[pairs[:, 0]], 0, 1)
         rows = np.arange(len(pairs))
-        self._feedback_rows = 2 * rows + np.where(world.first_is_body_a(), side, 1 - side)
+        self._snapshots = world.snapshots(2 * rows + np.where(world.first_is_body_a(), side, 1 - side))
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
         centres, rotations = world.positions()
         bodies = self._bodies
-        self._local_points = transformed_back(rotations[bodies], points_m - centres[bodies])
+        self._local_points = by_component(*transformed_back(rotations[bodies], points_m - centres[bodies]).T)
         self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
 
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -49,22 +51,44 @@ class LoadReader:
         """Return the unit normals (m, 3) of the connections, turned with their bodies."""
         return transformed(rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
 
-    def read(self, substep_s: float) -> SubstepLoads:
-        """Return the loads of the last sub-step, whose length is given in s."""
-        centres, rotations = self._world.positions()
-        force, torque = self._world.joint_feedback(self._feedback_rows)
-        points = carried_points(self._local_points, self._bodies, centres, rotations)
-        moment = forces.moments_at(points, force, torque, centres[self._bodies])
-        contacts = self._world.contacts()
+    def snapshot(self) -> Snapshot:
+        """Return what Bullet holds after the last sub-step."""
+        return self._snapshots.take()
+
+    def loads(self, snapshots: Sequence[Snapshot], bodies: BodyStates, substeps_s: np.ndarray) -> SubstepLoads:
+        """Return the loads of sub-steps.
+
+        Parameters
+        ----------
+        snapshots : (s,) Snapshot
+            Taken after each of them.
+        bodies : BodyStates
+            What is in these.
+        substeps_s : (s,) float
+            How long each was.
+
+        Raises
+        ------
+        LayoutError
+            Memory was not as expected.
+        """
+        loads = np.stack([each.loads for each in snapshots], axis=1)
+        force, torque = (np.moveaxis(each, 0, -1) for each in (loads[:3], loads[3:]))
+        centres = taken(bodies.positions, self._bodies)
+        rotations = taken(bodies.rotations.reshape(*bodies.positions.shape[:2], 9), self._bodies)
+        points = carried_points(self._local_points, centres, rotations.reshape(*centres.shape, 3))
+        moment = forces.moments_at(points, force, torque, centres)
+        contacts = self._snapshots.contacts(snapshots)
         return SubstepLoads(
-            substep_s=substep_s,
+            substeps_s=substeps_s,
             connection_forces_n=self._sign * force,
             connection_moments_nm=self._sign * moment,
             connection_points_m=points,
-            signed_2019_ns=self._world.applied_impulses(),
+            signed_2019_ns=np.stack([each.applied_impulses for each in snapshots]),
+            contact_substeps=contacts.substeps,
             contact_pairs=contacts.pairs,
             contact_impulses_ns=contacts.impulses_ns,
             contact_points_m=contacts.places_m,
-            centres_m=centres,
-            rotations=rotations,
+            centres_m=bodies.positions,
+            rotations=bodies.rotations,
         )

@@ -1,15 +1,22 @@
-"""What is recorded after every sub-step: loads, breaking, and the hits of the ball."""
+"""What is recorded after every sub-step: loads, breaking, and the hits of the ball.
+
+While Bullet waits, no more is done than copying what it holds and breaking what is overloaded. The loads of many
+sub-steps are then worked out at once, which takes a fraction of the time: all those of a frame, or as many as fit into
+`_BATCH_BYTES`.
+"""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
-from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
+from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
 from ...core.mechanics.section_cuts import SectionCuts, worst_around
 from ...core.mechanics.section_forces import SectionForces, section_forces
 from ...core.mechanics.strength import rectangular_sections, strength_at, utilisation
@@ -23,6 +30,9 @@ from .load_reader import LoadReader
 from .reinforcement import Reinforcement
 
 _SINGLE_PRECISION = 1e-6
+
+_BATCH_BYTES = 2_000_000
+"""Copies of sub-steps that are kept until they are worked out; more do not fit into the cache of a processor's core."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +52,29 @@ class Breaks:
     time_s: float
     connections: np.ndarray
     loads: SectionForces
+
+
+@dataclass(frozen=True, slots=True)
+class _Substep:
+    """A sub-step that is still to be worked out.
+
+    Attributes
+    ----------
+    snapshot : Snapshot
+        What Bullet held after it.
+    substep_s, end_s : float
+        Its length, and simulated time at its end.
+    ties_n : (m, 3) float or None
+        Forces of reinforcement in it, where there is any.
+    broken : (b,) int
+        Connections that broke in it.
+    """
+
+    snapshot: Snapshot
+    substep_s: float
+    end_s: float
+    ties_n: np.ndarray | None
+    broken: np.ndarray
 
 
 class SubstepRecorder:
@@ -105,6 +138,8 @@ class SubstepRecorder:
         self._cuts = SectionCuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
+        self._waiting: list[_Substep] = []
+        self._work_counts = not self._is_warming_up
         self._breaks: list[Breaks] = []
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
@@ -148,7 +183,14 @@ class SubstepRecorder:
         self.elapsed_s += duration_s
 
     def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
-        """Return loads and work of the frame and what broke in it, and begin the next frame."""
+        """Return loads and work of the frame and what broke in it, and begin the next frame.
+
+        Raises
+        ------
+        LayoutError
+            Bullet's memory was not as expected.
+        """
+        self._work_out()
         loads, work, breaks = self._frame.finish(), self._work.finish(), self._breaks
         self._frame.begin()
         self._breaks = []
@@ -163,45 +205,83 @@ class SubstepRecorder:
 
     def _record(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
-        loads = self._reader.read(substep_s)
-        if self._reinforcement:
-            loads.connection_forces_n[:] += self._reinforcement.forces_n
-        self._add_work(loads, self._frame.add(loads))
-        self._break_overloaded(loads)
-        self._note_breaks(loads)
-        self._world.let_broken_collide()
-        if len(self._balls):
-            self._note_balls(loads)
+        if self._work_counts == self._is_warming_up or sum(each.snapshot.size for each in self._waiting) > _BATCH_BYTES:
+            self._work_out()
+            self._work_counts = not self._is_warming_up
+        snapshot = self._reader.snapshot()
+        ties_n = self._reinforcement.forces_n.copy() if self._reinforcement else None
+        intact = snapshot.intact.copy()
+        intact[self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, _NONE))] = False
+        broken = np.flatnonzero(self._intact & ~intact)
+        self._intact = intact
+        self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken))
+        self._world.let_broken_collide(intact)
 
-    def _add_work(self, loads: SubstepLoads, resultants_n: np.ndarray) -> None:
-        motion = Motion(loads.centres_m, self._world.velocities(), self._world.angular_velocities())
-        if self._is_warming_up:
+    def _work_out(self) -> None:
+        """Add up loads and work of all sub-steps that wait for it, and note what broke and what hit the ball."""
+        waiting, self._waiting = self._waiting, []
+        if not waiting:
+            return
+        bodies, loads = self._loads(waiting)
+        self._add_work(bodies, loads, self._frame.add(loads))
+        for substep, each in enumerate(waiting):
+            if len(each.broken):
+                forces = self._section_forces(loads.moment(substep), each.broken)
+                self._breaks.append(Breaks(each.end_s, each.broken, forces))
+            if len(self._balls):
+                self._note_balls(bodies, loads, substep, each.end_s)
+
+    def _loads(self, substeps: Sequence[_Substep]) -> tuple[BodyStates, SubstepLoads]:
+        """Return the states of all bodies after sub-steps, and the loads in these."""
+        snapshots = [each.snapshot for each in substeps]
+        bodies = BodyStates.of(snapshots)
+        loads = self._reader.loads(snapshots, bodies, np.array([each.substep_s for each in substeps]))
+        if self._reinforcement:
+            for substep, each in enumerate(substeps):
+                loads.connection_forces_n[substep] += each.ties_n
+        return bodies, loads
+
+    def _add_work(self, bodies: BodyStates, loads: SubstepLoads, resultants_n: np.ndarray) -> None:
+        motion = Motion(bodies.positions, bodies.velocities, bodies.angular_velocities)
+        if not self._work_counts:
             self._work.pass_over(motion)
             return
+        substeps_s = loads.substeps_s[:, None, None]
         of_connections = PairImpulses(
             self._inventory.pairs,
-            loads.substep_s * loads.connection_forces_n,
+            substeps_s * loads.connection_forces_n,
             loads.connection_points_m,
-            loads.substep_s * loads.connection_moments_nm,
+            substeps_s * loads.connection_moments_nm,
         )
-        of_contacts = PairImpulses(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m)
-        resultants_ns = loads.substep_s * resultants_n
-        self._work.add(motion, self._world.can_move(), of_connections, of_contacts, resultants_ns, loads.substep_s)
+        of_contacts = PairImpulses(
+            loads.contact_pairs,
+            loads.contact_impulses_ns,
+            loads.contact_points_m,
+            substeps=loads.contact_substeps,
+        )
+        resultants_ns = substeps_s * resultants_n
+        self._work.add(motion, bodies.can_move, of_connections, of_contacts, resultants_ns, loads.substeps_s)
 
-    def _break_overloaded(self, loads: SubstepLoads) -> None:
-        """Break what its strength does not bear; Bullet's own threshold has been at work within the sub-step."""
+    def _break_overloaded(self, substep: _Substep) -> np.ndarray:
+        """Break what its strength does not bear, and return it (b,).
+
+        Bullet's own threshold has been at work within the sub-step.
+        """
         if self._is_warming_up:
             if self.elapsed_s < self._breaking.warm_up_s:
-                return
+                return _NONE
             self._is_warming_up = False
             self._world.release_connections()
-        if self._breaking.strength:
-            rows = self._overloaded(loads)
-            self._world.break_connections(rows)
-            if self._reinforcement and len(rows):
-                self._reinforcement.add(rows, loads.connection_points_m[rows])
+        if not self._breaking.strength:
+            return _NONE
+        loads = self._loads([substep])[1].moment(0)
+        rows = self._overloaded(loads)
+        self._world.break_connections(rows)
+        if self._reinforcement and len(rows):
+            self._reinforcement.add(rows, loads.connection_points_m[rows])
+        return rows
 
-    def _overloaded(self, loads: SubstepLoads) -> np.ndarray:
+    def _overloaded(self, loads: Moment) -> np.ndarray:
         """Return the connections (k,) to break: overloaded alone and as parts of their cuts, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
@@ -226,21 +306,19 @@ class SubstepRecorder:
         used = used.reshape(2, -1).mean(axis=0) / left[rows]
         return rows[(used > 1.0) & worst_around(inventory.pairs[rows], used, inventory.masses_kg > 0.0)]
 
-    def _section_forces(self, loads: SubstepLoads, rows: np.ndarray) -> SectionForces:
+    def _section_forces(self, loads: Moment, rows: np.ndarray) -> SectionForces:
         """Loads of some connections (r,) in their own axes."""
         axes = self._reader.section_axes(loads.rotations, rows)
         return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
 
-    def _note_breaks(self, loads: SubstepLoads) -> None:
-        intact = self._world.intact()
-        rows = np.flatnonzero(self._intact & ~intact)
-        self._intact = intact
-        if len(rows):
-            self._breaks.append(Breaks(self.elapsed_s, rows, self._section_forces(loads, rows)))
-
-    def _note_balls(self, loads: SubstepLoads) -> None:
-        (first, second), each = loads.contact_pairs.T, loads.contact_impulses_ns
+    def _note_balls(self, bodies: BodyStates, loads: SubstepLoads, substep: int, end_s: float) -> None:
+        contacts = loads.contacts_of(substep)
+        first, second = loads.contact_pairs[contacts].T
+        each = np.ascontiguousarray(loads.contact_impulses_ns[contacts])  # sums follow the order in memory
         impulses = [each[first == ball].sum(axis=0) - each[second == ball].sum(axis=0) for ball in self._balls]
         # A ball that is lifted moves as animation says: what it pushes off does not hit it.
-        free = self._world.can_move()[self._balls, None]
-        self._hits.append((self.elapsed_s, np.where(free, impulses, 0.0), self._world.velocities()[self._balls]))
+        free = bodies.can_move[substep, self._balls, None]
+        self._hits.append((end_s, np.where(free, impulses, 0.0), bodies.velocities[substep, self._balls]))
+
+
+_NONE = np.zeros(0, int)

@@ -4,13 +4,21 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.geometry.rotations import carried_points
-from bridge_demolition_addon.core.mechanics.forces import magnitude_sums, moments_at, resultants
+from bridge_demolition_addon.core.mechanics.forces import PairSums, moments_at
 
 NO_PAIRS, NO_VECTORS = np.zeros((0, 2), int), np.zeros((0, 3))
 
 # Body 0 is the ceiling; 1 weighs 100 N and hangs on it, 2 weighs 40 N and hangs on 1.
 CHAIN = np.array([[1, 0], [1, 2]])
 CHAIN_FORCES = np.array([[0.0, 0.0, 140.0], [0.0, 0.0, -40.0]])
+
+
+def resultants(pairs, forces, bodies):
+    return PairSums(pairs, None, (1, bodies)).resultants(forces[None])[0]
+
+
+def magnitude_sums(pairs, magnitudes, bodies):
+    return PairSums(pairs, None, (1, bodies)).sums(magnitudes[None])[0]
 
 
 def test_resultants_in_a_hanging_chain_are_the_weights():
@@ -45,6 +53,14 @@ def test_forces_of_all_bodies_cancel():
     assert magnitude_sums(pairs, magnitudes, 50).sum() == pytest.approx(2 * magnitudes.sum())
 
 
+def test_sub_steps_are_added_up_each_for_itself():
+    both = PairSums(CHAIN, None, (2, 3)).resultants(np.stack((CHAIN_FORCES, 2.0 * CHAIN_FORCES)))
+    assert both.tolist() == [[[0, 0, -140], [0, 0, 100], [0, 0, 40]], [[0, 0, -280], [0, 0, 200], [0, 0, 80]]]
+    # Of pairs that are in one sub-step each, here none in the first, and the two in the third and second.
+    single = PairSums(CHAIN[::-1], np.array([1, 2]), (3, 3)).differences(np.array([5.0, 7.0]))
+    assert single.tolist() == [[0, 0, 0], [0, 5, -5], [-7, 7, 0]]
+
+
 def test_bodies_without_connections_feel_nothing():
     assert resultants(NO_PAIRS, NO_VECTORS, 3).tolist() == np.zeros((3, 3)).tolist()
     assert magnitude_sums(NO_PAIRS, np.linalg.norm(NO_VECTORS, axis=1), 3).tolist() == [0, 0, 0]
@@ -72,10 +88,10 @@ def test_points_turn_and_move_with_their_bodies():
     rotations = np.array([np.eye(3), quarter_turn])
     centres = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 5.0]])
     local = np.array([[1.0, 0.0, 2.0], [1.0, 2.0, 3.0], [0.0, 1.0, 0.0]])
-    carried = carried_points(local, np.array([1, 0, 1]), centres, rotations)
+    carried = carried_points(local, centres[[1, 0, 1]], rotations[[1, 0, 1]])
     assert carried.tolist() == [[10, 1, 7], [1, 2, 3], [9, 0, 5]]
 
 
 def test_no_connections_have_no_moments_and_no_points():
     assert moments_at(NO_VECTORS, NO_VECTORS, NO_VECTORS, NO_VECTORS).shape == (0, 3)
-    assert carried_points(NO_VECTORS, np.zeros(0, int), np.zeros((2, 3)), np.zeros((2, 3, 3))).shape == (0, 3)
+    assert carried_points(NO_VECTORS, NO_VECTORS, np.zeros((0, 3, 3))).shape == (0, 3)

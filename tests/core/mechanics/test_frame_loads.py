@@ -29,19 +29,20 @@ def loads_of(
     contact_points=None,
     rotations=None,
 ):
-    """Loads of a sub-step of one second; what is not given is zero, and bodies are not turned."""
+    """Loads of one sub-step of one second; what is not given is zero, and bodies are not turned."""
     count = len(pairs)
     return SubstepLoads(
-        substep_s=1.0,
-        connection_forces_n=np.asarray(forces, float).reshape(count, 3),
-        connection_moments_nm=np.zeros((count, 3)) if moments is None else np.asarray(moments, float),
-        connection_points_m=np.zeros((count, 3)) if points is None else np.asarray(points, float),
-        signed_2019_ns=np.zeros(count) if signed is None else np.asarray(signed, float),
+        substeps_s=np.ones(1),
+        connection_forces_n=np.asarray(forces, float).reshape(1, count, 3),
+        connection_moments_nm=np.zeros((1, count, 3)) if moments is None else np.asarray(moments, float)[None],
+        connection_points_m=np.zeros((1, count, 3)) if points is None else np.asarray(points, float)[None],
+        signed_2019_ns=np.zeros((1, count)) if signed is None else np.asarray(signed, float)[None],
+        contact_substeps=np.zeros(len(contact_pairs), int),
         contact_pairs=np.asarray(contact_pairs, int),
         contact_impulses_ns=np.asarray(contact_forces, float).reshape(-1, 3),
         contact_points_m=np.zeros((len(contact_pairs), 3)) if contact_points is None else np.asarray(contact_points),
-        centres_m=np.asarray(centres, float),
-        rotations=np.tile(np.eye(3), (len(centres), 1, 1)) if rotations is None else rotations,
+        centres_m=np.asarray(centres, float)[None],
+        rotations=(np.tile(np.eye(3), (len(centres), 1, 1)) if rotations is None else rotations)[None],
     )
 
 
@@ -57,7 +58,16 @@ def frame_loads(pairs, volumes, normals=None):
 def during(loads, substep_s):
     """The loads of one second, in a sub-step of another length."""
     impulses = {name: substep_s * getattr(loads, name) for name in ("contact_impulses_ns", "signed_2019_ns")}
-    return replace(loads, substep_s=substep_s, **impulses)
+    return replace(loads, substeps_s=np.array([substep_s]), **impulses)
+
+
+def together(history):
+    """Loads of several sub-steps as one."""
+    arrays = {
+        item.name: np.concatenate([getattr(each, item.name) for each in history]) for item in fields(SubstepLoads)
+    }
+    counts = [len(each.contact_substeps) for each in history]
+    return SubstepLoads(**arrays | {"contact_substeps": np.repeat(np.arange(len(history)), counts)})
 
 
 def by_name(loads):
@@ -65,9 +75,17 @@ def by_name(loads):
 
 
 def gathered(frame, history, substeps=UNEQUAL_S):
-    for loads, substep_s in zip(history, substeps, strict=True):
-        frame.add(during(loads, substep_s))
-    return frame.finish()
+    """Loads of a frame, added one sub-step at a time; added all at once they are the same to the last bit."""
+    history = [during(loads, substep_s) for loads, substep_s in zip(history, substeps, strict=True)]
+    resultants = frame.add(together(history))
+    at_once = frame.finish()
+    frame.begin()
+    one_by_one = [frame.add(each)[0] for each in history]
+    loads = frame.finish()
+    np.testing.assert_array_equal(resultants, one_by_one)
+    for name, values in by_name(loads).items():
+        np.testing.assert_array_equal(values, getattr(at_once, name), err_msg=name)
+    return loads
 
 
 # Body 0 is the ceiling at 10 m; 1 weighs 100 N and hangs on it, 2 weighs 40 N and hangs on 1. Both are cubes of 2 m.
@@ -335,7 +353,7 @@ def test_any_loads_against_sums_body_by_body():
             acting = [
                 (sign * force, point)
                 for two, forces, places in (
-                    (pairs, each.connection_forces_n, points),
+                    (pairs, each.connection_forces_n[0], points),
                     (each.contact_pairs, each.contact_impulses_ns, each.contact_points_m),
                 )
                 for pair, force, point in zip(two, forces, places, strict=True)
@@ -346,7 +364,7 @@ def test_any_loads_against_sums_body_by_body():
             # The same moment turns the other way on the second body; which way the normal points does not matter.
             stress += sum(
                 (1.0 if body == pair[0] else -1.0) * np.outer(normal, np.cross(normal, moment))
-                for pair, normal, moment in zip(pairs, normals, each.connection_moments_nm, strict=True)
+                for pair, normal, moment in zip(pairs, normals, each.connection_moments_nm[0], strict=True)
                 if body in pair
             )
             resultants.append(sum((force for force, _ in acting), np.zeros(3)))

@@ -3,19 +3,26 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.mechanics.forces import resultants
+from bridge_demolition_addon.core.mechanics.forces import PairSums
 from bridge_demolition_addon.core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 STEP_S = 0.01
-NONE = PairImpulses(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros((0, 3)))
+NONE = PairImpulses(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros((0, 3)), substeps=np.zeros(0, int))
 PAIR = np.array([[0, 1]])
 
 
 def motion(velocities, centres=None, spins=None):
+    """Motion at the end of one sub-step."""
     velocities = np.array(velocities, float)
-    zeros = np.zeros_like(velocities)
-    return Motion(zeros if centres is None else np.array(centres, float), velocities, zeros if spins is None else spins)
+    centres, spins = (np.zeros_like(velocities) if each is None else np.array(each, float) for each in (centres, spins))
+    return Motion(centres[None], velocities[None], spins[None])
+
+
+def contacts(impulses, pairs=PAIR):
+    """Impulses of contacts at the origin, in one sub-step."""
+    zeros = np.zeros(len(pairs), int)
+    return PairImpulses(pairs, np.array(impulses, float), np.zeros((len(pairs), 3)), substeps=zeros)
 
 
 def accumulator(masses, start, damping=0.0, gravity=(0.0, 0.0, 0.0)):
@@ -25,8 +32,10 @@ def accumulator(masses, start, damping=0.0, gravity=(0.0, 0.0, 0.0)):
 
 def add(work, after, free, of_connections, of_contacts):
     """Add a sub-step, with the resultants that these impulses have."""
-    sums = sum(resultants(each.pairs, each.impulses_ns, len(free)) for each in (of_connections, of_contacts))
-    work.add(after, free, of_connections, of_contacts, sums, STEP_S)
+    shape = (1, len(free))
+    both = ((PairSums(each.pairs, each.substeps, shape), each) for each in (of_connections, of_contacts))
+    resultants = sum(sums.resultants(each.impulses_ns) for sums, each in both)
+    work.add(after, free[None], of_connections, of_contacts, resultants, np.array([STEP_S]))
 
 
 def along_x(values):
@@ -65,7 +74,7 @@ def test_an_impact_dissipates_what_textbooks_say(restitution):
     impulse = -reduced * speed * (1.0 + restitution)  # on the first body
     after = (speed + impulse / masses[0], -impulse / masses[1])
     work = accumulator(masses, motion(along_x((speed, 0.0))))
-    contact = PairImpulses(PAIR, np.array([[impulse, 0.0, 0.0]]), np.zeros((1, 3)))
+    contact = contacts([[impulse, 0.0, 0.0]])
     add(work, motion(along_x(after), STEP_S * np.array(along_x(after))), np.array([True, True]), NONE, contact)
     frame = work.finish()
     # A central impact with restitution e takes ½ μ u² of the reduced mass μ, less e² of it.
@@ -77,7 +86,7 @@ def test_bodies_that_are_pushed_apart_from_rest_got_their_energy_from_the_solver
     masses, impulse = np.array([1.0, 4.0]), 6.0
     after = np.array([-impulse, impulse]) / masses
     work = accumulator(masses, motion(along_x((0.0, 0.0))))
-    pushed = PairImpulses(PAIR, np.array([[-impulse, 0.0, 0.0]]), np.zeros((1, 3)))
+    pushed = contacts([[-impulse, 0.0, 0.0]])
     add(work, motion(along_x(after), STEP_S * np.array(along_x(after))), np.array([True, True]), NONE, pushed)
     frame = work.finish()
     np.testing.assert_allclose(frame.made_j, 0.5 * masses * after**2, rtol=1e-12)
@@ -89,7 +98,7 @@ def test_a_moment_that_sets_bodies_turning_against_each_other_made_energy():
     inertia, moment = 2.0, 3.0
     spins = np.array([[0.0, 0.0, moment / inertia], [0.0, 0.0, -moment / inertia]])
     work = accumulator([1.0, 1.0], motion(np.zeros((2, 3))))
-    twist = PairImpulses(PAIR, np.zeros((1, 3)), np.zeros((1, 3)), np.array([[0.0, 0.0, moment]]))
+    twist = PairImpulses(PAIR, np.zeros((1, 1, 3)), np.zeros((1, 1, 3)), np.array([[[0.0, 0.0, moment]]]))
     add(work, motion(np.zeros((2, 3)), spins=spins), np.array([True, True]), twist, NONE)
     frame = work.finish()
     np.testing.assert_allclose(frame.made_j, 0.5 * inertia * spins[:, 2] ** 2, rtol=1e-12)
@@ -99,7 +108,7 @@ def test_a_moment_that_sets_bodies_turning_against_each_other_made_energy():
 def test_a_tool_that_moves_as_animation_says_does_work_and_makes_nothing():
     # A tool at 2 m/s takes a resting body of 3 kg along: half of its work is lost in the impact.
     work = accumulator([0.0, 3.0], motion(along_x((2.0, 0.0))))
-    contact = PairImpulses(PAIR, np.array([[-6.0, 0.0, 0.0]]), np.zeros((1, 3)))
+    contact = contacts([[-6.0, 0.0, 0.0]])
     after = along_x((2.0, 2.0))
     add(work, motion(after, STEP_S * np.array(after)), np.array([False, True]), NONE, contact)
     frame = work.finish()
@@ -109,7 +118,7 @@ def test_a_tool_that_moves_as_animation_says_does_work_and_makes_nothing():
 
 
 def test_a_body_moved_up_without_a_velocity_was_lifted_by_the_solver():
-    support = PairImpulses(np.array([[0, 1]]), np.array([[0.0, 0.0, 7.0 * 9.81 * STEP_S]]), np.zeros((1, 3)))
+    support = contacts([[0.0, 0.0, 7.0 * 9.81 * STEP_S]])
     work = accumulator([7.0, 0.0], motion(np.zeros((2, 3))), gravity=GRAVITY)
     lifted = motion(np.zeros((2, 3)), [[0.0, 0.0, 0.002], [0.0, 0.0, 0.0]])
     add(work, lifted, np.array([True, False]), NONE, support)
@@ -123,6 +132,47 @@ def test_a_substep_passed_over_counts_for_nothing():
     work.pass_over(motion([[9.0, 0.0, 0.0]]))
     add(work, motion([[9.0, 0.0, 0.0]], [[9.0 * STEP_S, 0, 0]]), np.array([True]), NONE, NONE)
     assert work.finish().loads_j == pytest.approx(0.0, abs=1e-12)
+
+
+def test_sub_steps_added_at_once_are_those_added_one_by_one_to_the_last_bit():
+    """Bodies that fall, touch and are held, one of them led, another one at rest now and then."""
+    random = np.random.default_rng(3)
+    steps, bodies, connections = 7, 40, 90
+    substeps_s = np.where(np.arange(steps) < 4, STEP_S, STEP_S / 3.0)
+    pairs = np.array([random.choice(bodies, 2, replace=False) for _ in range(connections)])
+    free = random.random((steps, bodies)) > 0.1
+    free[:, 0], free[3] = False, True
+    vectors = random.normal(size=(3, steps, bodies, 3))
+    vectors[:, 2:4] = vectors[:, 1:2] * ([[[[1.0]]], [[[0.0]]], [[[0.0]]]])  # nothing moves in two of them
+    loads = random.normal(size=(3, steps, connections, 3))
+    counts = np.array([30, 0, 11, 11, 57, 1, 20])
+    touching = np.array([random.choice(bodies, 2, replace=False) for _ in range(counts.sum())])
+    impulses, points = random.normal(size=(2, counts.sum(), 3))
+    of_step = np.repeat(np.arange(steps), counts)
+    resultants = random.normal(size=(steps, bodies, 3))
+    masses, damping = random.uniform(1.0, 9.0, bodies), random.uniform(0.0, 0.1, (2, bodies))
+
+    def frame(batches):
+        start = Motion(*np.zeros((3, 1, bodies, 3)))
+        work = WorkAccumulator(masses, *damping, GRAVITY, start)
+        for first, last in batches:
+            rows = (of_step >= first) & (of_step < last)
+            work.add(
+                Motion(*vectors[:, first:last]),
+                free[first:last],
+                PairImpulses(pairs, *loads[:, first:last]),
+                PairImpulses(touching[rows], impulses[rows], points[rows], substeps=of_step[rows] - first),
+                resultants[first:last],
+                substeps_s[first:last],
+            )
+        return work.finish()
+
+    one_by_one = frame([(step, step + 1) for step in range(steps)])
+    for batches in ([(0, steps)], [(0, 3), (3, steps)]):
+        found = frame(batches)
+        for name in FrameWork.__dataclass_fields__:
+            assert np.array_equal(getattr(found, name), getattr(one_by_one, name)), name
+            assert np.any(getattr(found, name)), name
 
 
 def test_unknown_work_has_the_shape_of_known_work():
