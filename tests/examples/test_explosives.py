@@ -8,7 +8,7 @@ from example_claims import assert_claims
 from example_runs import example, run_example
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
-SAG_M = {"single_span_explosives": 0.04, "two_spans_20m_delays": 0.03}
+SAG_M = {"single_span_explosives": 0.01, "two_spans_20m_delays": 0.03}
 """Of Bullet, with 50 iterations, and not of concrete."""
 
 
@@ -26,14 +26,15 @@ def loud(request, tmp_path_factory):
 def test_bridge_stands_without_its_explosion(blender, tmp_path, name):
     run = run_example(quiet(example(name, 1.0)), tmp_path)
     connections = run.summary["connections"]
-    assert connections["broken"] <= 0.03 * connections["count"]  # slivers between members
+    # Slivers between members, and parts of the feet of columns: 0 to 2.8 % over 20 seeds, and 1 to 20 mm of sag.
+    assert connections["broken"] <= 0.05 * connections["count"]
     assert run.fallen_m(run.shards).max() < SAG_M[name]
     assert run.summary["charges"] is run.summary["blast"] is None
 
 
 def test_bridge_stands_until_its_charges_go_off(loud):
     before = loud.results.frames.time_s < loud.scenario.blast.start_s
-    assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.03 * loud.summary["connections"]["count"]
+    assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.05 * loud.summary["connections"]["count"]
 
 
 @pytest.mark.parametrize("loud", NAMES, indirect=True)
