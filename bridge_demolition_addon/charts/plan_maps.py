@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from manifold3d import CrossSection
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 
 from ..core.debris.exclusion import ExclusionZone
-from ..core.debris.footprint import corners_at
+from ..core.debris.footprint import plan_hulls
 from ..core.debris.throws import Debris, HeightMap
 from ..core.geometry.plan_areas import outlines
 from ..core.results.arrays import Results
@@ -53,16 +53,15 @@ def debris_map(
     """Draw where the debris lies, where the bridge stood and, if asked for, the paths of the shards' centres."""
     axes = _plan_axes(figure)
     draw_zones(axes, zones)
-    for body in debris.bodies:
-        hull = CrossSection.hull_points(corners_at(results, -1, body)[:, :2])
-        draw_area(axes, hull, facecolor="0.78", edgecolor="0.45", linewidth=0.3)
+    shards = [ring for hull in plan_hulls(results, debris.bodies, -1) for ring in outlines(hull)]
+    axes.add_collection(PolyCollection(shards, facecolors="0.78", edgecolors="0.45", linewidths=0.3))
     if trajectories:
         paths = np.swapaxes(results.frames.positions_m[:, debris.bodies, :2], 0, 1)
         axes.add_collection(LineCollection(list(paths), colors="0.3", linewidths=0.3, label="paths of the shards"))
     draw_area(axes, debris.area, fill=False, edgecolor="black", linewidth=1.0, label="footprint of the debris")
     draw_area(axes, debris.outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
-    for ball in results.inventory.of_kind("ball"):
-        hull = CrossSection.hull_points(corners_at(results, -1, ball)[:, :2])
+    balls = results.inventory.of_kind("ball")
+    for ball, hull in zip(balls, plan_hulls(results, balls, -1), strict=True):
         name = plain(results.inventory.body_names[ball])
         draw_area(axes, hull, facecolor="0.25", edgecolor="black", linewidth=0.5, label=name)
     largest = np.argsort(-debris.throws_m, kind="stable")[:NAMED_THROWS]

@@ -25,13 +25,12 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="box")
     nearest_last = np.argsort(-results.frames.positions_m[step, shards, 1], kind="stable")
-    polygons = [_elevation(results, step, body) for body in shards[nearest_last]]
+    polygons = _elevations(results, step, shards[nearest_last])
     drawn = PolyCollection(polygons, edgecolors="black", linewidths=0.25, cmap="YlOrRd", norm=scale)
     drawn.set_array(np.maximum(stresses_mpa[nearest_last], scale.vmin))
     axes.add_collection(drawn)
-    for ball in results.inventory.of_kind("ball"):
-        ball_outline = _elevation(results, step, ball)
-        axes.add_collection(PolyCollection([ball_outline], facecolors="0.25", edgecolors="black", linewidths=0.5))
+    balls = _elevations(results, step, results.inventory.of_kind("ball"))
+    axes.add_collection(PolyCollection(balls, facecolors="0.25", edgecolors="black", linewidths=0.5))
     axes.axhline(0.0, color="black", linewidth=1.2)
     axes.autoscale_view()
     axes.set(xlabel="x along the road (m)", ylabel="height (m)")
@@ -40,6 +39,7 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     )
 
 
-def _elevation(results: Results, step: int, body: int) -> np.ndarray:
-    rings = outlines(CrossSection.hull_points(corners_at(results, step, body)[:, [0, 2]]))
-    return rings[0] if rings else np.zeros((1, 2))
+def _elevations(results: Results, step: int, bodies: np.ndarray) -> list[np.ndarray]:
+    """Return the outlines (k, 2) of bodies as seen across the road."""
+    rings = (outlines(CrossSection.hull_points(each[:, [0, 2]])) for each in corners_at(results, step, bodies))
+    return [found[0] if found else np.zeros((1, 2)) for found in rings]

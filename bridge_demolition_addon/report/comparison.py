@@ -9,7 +9,7 @@ from itertools import takewhile
 
 from ..charts.histories import compared_histories
 from ..charts.plan_maps import debris_maps, debris_maps_height_mm
-from ..core.debris.throws import debris_of
+from ..core.debris.throws import Debris, debris_of
 from ..core.results.collapse import collapse_progress, rest_of
 from ..core.results.force_history import largest_on_a_shard
 from ..core.scenario import Ball
@@ -39,8 +39,9 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
     if whole:
-        sections.append(Section("Findings", (_finding_table(whole),)))
-        sections.append(Section("Courses", tuple(_charts(whole))))
+        debris = [(name, debris_of(run.results)) for name, run in whole]
+        sections.append(Section("Findings", (_finding_table(whole, debris),)))
+        sections.append(Section("Courses", tuple(_charts(whole, debris))))
     return Document(f"Comparison of {len(runs)} runs", f"Bridge Demolition Add-on {version}", tuple(sections))
 
 
@@ -81,8 +82,8 @@ def _way_of(ball: Ball) -> str:
     return ", then ".join(drops)
 
 
-def _finding_table(runs: Sequence[tuple[str, Run]]) -> DataTable:
-    by_run = [findings(run) for _, run in runs]
+def _finding_table(runs: Sequence[tuple[str, Run]], debris: Sequence[tuple[str, Debris]]) -> DataTable:
+    by_run = [findings(run, of_it) for (_, run), (_, of_it) in zip(runs, debris, strict=True)]
     columns = (
         Column("", "finding"),
         Column("unit", "unit"),
@@ -92,7 +93,7 @@ def _finding_table(runs: Sequence[tuple[str, Run]]) -> DataTable:
     return DataTable("comparison", "Main findings", columns, rows)
 
 
-def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
+def _charts(runs: Sequence[tuple[str, Run]], debris: Sequence[tuple[str, Debris]]) -> list[Block]:
     progress = [(name, run.results.frames.time_s, 100.0 * collapse_progress(run.results)) for name, run in runs]
     broken = [
         (name, run.results.frames.time_s, 100.0 * (~run.results.frames.intact).mean(axis=1))
@@ -117,6 +118,5 @@ def _charts(runs: Sequence[tuple[str, Run]]) -> list[Block]:
         for label, histories in charts
         if histories
     ]
-    debris = [(name, debris_of(run.results)) for name, run in runs]
     caption = "Debris at the end in plan, and the bridge before."
     return [*blocks, Picture(partial(debris_maps, runs=debris), caption, debris_maps_height_mm(debris))]

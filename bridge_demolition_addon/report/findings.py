@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.debris.throws import Debris, debris_of, percentiles_by_mass
+from ..core.debris.throws import Debris, percentiles_by_mass
 from ..core.results.collapse import collapse_progress, rest_of
 from ..core.results.force_history import most_loaded
 from .run_folder import Run
@@ -24,10 +24,10 @@ class Finding:
     text: str
 
 
-def findings(run: Run) -> list[Finding]:
+def findings(run: Run, debris: Debris) -> list[Finding]:
     """Return the main findings of a run that has results, always in the same order, the value None where unknown."""
     results = run.results
-    debris, rest = debris_of(results), rest_of(results)
+    rest = rest_of(results)
     broken = int((~results.frames.intact[-1]).sum())
     count = results.frames.intact.shape[1]
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"

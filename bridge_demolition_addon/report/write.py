@@ -8,10 +8,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Protocol
 
-from manifold3d import CrossSection
-
 from ..core.debris.exclusion import ExclusionZone
-from ..core.debris.footprint import footprint
+from ..core.debris.throws import debris_of
 from ..core.errors import OutputError
 from ..core.folder_lock import FolderLock
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
@@ -112,13 +110,14 @@ def document_of(
     trajectories
         Whether the map of the debris shows the paths of the shards.
     """
-    sections = [cover_section(run, version), trust_section(run)]
+    debris = None if run.results is None else debris_of(run.results)
+    sections = [cover_section(run, version, debris), trust_section(run)]
     if run.results is not None and len(run.results.inventory.of_kind("shard")):
-        sections.append(debris_section(run, trajectories=trajectories))
+        sections.append(debris_section(run, debris, trajectories=trajectories))
         sections.append(exclusion_section(zone, run, plans))
         sections.append(force_section(run))
         sections.append(collapse_section(run))
-        if run.scenario and (blast := blast_section(run.scenario, _outline(run))):
+        if run.scenario and (blast := blast_section(run.scenario, debris.outline)):
             sections.append(blast)
     elif run.results is None:
         sections.append(logged_section(run))
@@ -150,10 +149,6 @@ def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
         plans.append(target / GEOJSON_FILE)
         write_geojson(plans[1], layers, run.scenario.site)
     return plans
-
-
-def _outline(run: Run) -> CrossSection:
-    return footprint(run.results, run.results.inventory.of_kind("shard"), 0)
 
 
 def _written(document: Document, target: Path, progress: Progress, *only_as_file: DataTable) -> list[Path]:

@@ -18,20 +18,20 @@ from moving_boxes import moving_boxes
 from run_folders import TOLD, flying_shards, keep_run, killed_run
 from sample_results import changed
 from scenarios import I235
+from told_reports import compared, told
 
 from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
+from bridge_demolition_addon.core.debris.throws import debris_of
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.scenario import BallCable, BallHit
-from bridge_demolition_addon.report.comparison import comparison
-from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph, Picture
+from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.cover import cover_section
-from bridge_demolition_addon.report.sections.debris import zone_of
-from bridge_demolition_addon.report.write import document_of, write_report
+from bridge_demolition_addon.report.write import write_report
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -75,36 +75,6 @@ def made(folder, *more, **options):
     return Page(written[0].read_text(encoding="utf-8")), written
 
 
-class Told:
-    """What a document says, with all its pictures drawn, though laid out and written nowhere."""
-
-    def __init__(self, document):
-        self.titles = [section.title for section in document.sections]
-        paragraphs = [block for block in document.blocks() if isinstance(block, Paragraph)]
-        self.paragraphs = [block.text for block in paragraphs]
-        self.notices = [block.text for block in paragraphs if block.is_notice]
-        self.tables = {block.name: block for block in document.blocks() if isinstance(block, DataTable)}
-        self.pictures = [block for block in document.blocks() if isinstance(block, Picture)]
-        for picture in self.pictures:
-            picture.draw(Figure(layout="constrained"))
-
-    def column(self, table, key):
-        """The cells of a column of a table, as they stand in its file."""
-        keys = [column.key for column in self.tables[table].columns]
-        return [row[keys.index(key)] for row in self.tables[table].rows]
-
-
-def told(folder):
-    """What the report of a run says."""
-    run = read_run(folder)
-    return Told(document_of(run, "0", zone_of(run)))
-
-
-def compared(*folders):
-    """What the report of several runs says."""
-    return Told(comparison([read_run(folder) for folder in folders], "0"))
-
-
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """A run with everything that a report can show, and its report."""
@@ -113,7 +83,8 @@ def whole(tmp_path_factory):
 
 
 def notices_on_the_cover(run):
-    return {block.text for block in cover_section(run, "0").blocks if isinstance(block, Paragraph) and block.is_notice}
+    cover = cover_section(run, "0", debris_of(run.results))
+    return {block.text for block in cover.blocks if isinstance(block, Paragraph) and block.is_notice}
 
 
 def table(folder, name):
@@ -340,7 +311,8 @@ def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, s
         tmp_path / "run",
         changed(flying, places_m=places[:1] + share * (places - places[:1]), velocities_m_s=share * speeds),
     )
-    (rest,) = (each for each in findings(read_run(run)) if each.label == "All shards at rest from")
+    read = read_run(run)
+    (rest,) = (each for each in findings(read, debris_of(read.results)) if each.label == "All shards at rest from")
     assert (rest.value, rest.text) == (None, words)
 
 

@@ -15,6 +15,9 @@ from ..results.arrays import Results
 from ..results.motion import MOVED_M, throw, travel
 from .footprint import corners_at, footprint
 
+_STRAIGHT_M = 1e-5
+"""What leaves a straight line by no more is one."""
+
 PERCENTS = (50, 75, 90, 95, 99, 100)
 
 
@@ -55,17 +58,27 @@ def debris_of(results: Results) -> Debris:
     first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
     bodies = shards[travel(first[shards], last[shards]) > MOVED_M]
     outline = footprint(results, shards, 0)
-    corners = [corners_at(results, -1, body) for body in bodies]
-    reaches = [distances_outside(outline, each[:, :2]).max() for each in corners]
+    corners = corners_at(results, -1, bodies)
     return Debris(
         bodies=bodies,
         throws_m=throw(first[bodies], last[bodies]),
-        reaches_m=np.array(reaches, float),
+        reaches_m=_reaches(outline, corners),
         masses_kg=results.inventory.masses_kg[bodies],
         area=footprint(results, bodies, -1),
         outline=outline,
         highest_m=max((float(each[:, 2].max()) for each in corners), default=float("nan")),
     )
+
+
+def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray:
+    """Return how far bodies with these corners, d times (v, 3), stick out of an outline in plan, (d,)."""
+    if not len(corners):
+        return np.zeros(0)
+    # The edge of a deck is a line of a thousand sides, one for each shard at it.
+    smooth = outline.simplify(_STRAIGHT_M)
+    distances = distances_outside(outline if smooth.is_empty() else smooth, np.concatenate(corners)[:, :2])
+    counts = [len(each) for each in corners]
+    return np.maximum.reduceat(distances, np.cumsum([0, *counts[:-1]]))
 
 
 def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: Sequence[float] = PERCENTS) -> np.ndarray:
@@ -112,14 +125,15 @@ def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> Height
     solid = [body for body in bodies if results.inventory.volumes_m3[body] > 0.0]
     if not solid:
         return HeightMap(np.zeros(0), np.zeros(0), np.zeros((0, 0)))
-    all_corners = [corners_at(results, -1, body) for body in solid]
+    all_corners = corners_at(results, -1, solid)
     low = np.min([each[:, :2].min(axis=0) for each in all_corners], axis=0)
     high = np.max([each[:, :2].max(axis=0) for each in all_corners], axis=0)
     size = float((high - low).max()) / cells
     counts = np.maximum(np.ceil((high - low) / size).astype(int), 2)
     xs, ys = (low[axis] + size * (np.arange(counts[axis]) + 0.5) for axis in (0, 1))
     heights = np.full((len(ys), len(xs)), np.nan)
-    hulls = convex_hulls([results.inventory.vertices_of(body) for body in solid])
+    own = results.inventory.vertices_by_body()
+    hulls = convex_hulls([own[body] for body in solid])
     for number, (body, corners) in enumerate(zip(solid, all_corners, strict=True)):
         faces = slice(hulls.starts[number], hulls.starts[number + 1])
         normals = transformed(results.frames.rotations[-1, body], hulls.normals[faces])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from manifold3d import CrossSection, Manifold
@@ -74,11 +75,13 @@ def watch_zone(results: Results, zone: Zone, bodies: Sequence[int]) -> ZoneWatch
     """
     prism = _Prism.of(zone)
     there_before, entries = [], []
-    for body in bodies:
-        if prism.meets(corners_at(results, 0, body)):
+    bodies = _coming_near(results, prism, np.asarray(bodies, int))
+    before, after = corners_at(results, 0, bodies), corners_at(results, -1, bodies)
+    for row, body in enumerate(bodies):
+        if prism.meets(before[row]):
             there_before.append(int(body))
         elif (time_s := _first_entry(results, prism, body)) is not None:
-            entries.append(Entry(int(body), time_s, prism.meets(corners_at(results, -1, body))))
+            entries.append(Entry(int(body), time_s, prism.meets(after[row])))
     entries.sort(key=lambda entry: entry.time_s)
     mass = sum(float(results.inventory.masses_kg[entry.body]) for entry in entries if entry.stays)
     return ZoneWatch(zone, tuple(entries), tuple(there_before), mass)
@@ -109,6 +112,17 @@ class _Prism:
         if not self.may_meet(corners.min(axis=0), corners.max(axis=0)):
             return False
         return (hull(corners) ^ self.solid).volume() > 0.0
+
+
+def _coming_near(results: Results, prism: _Prism, bodies: np.ndarray) -> np.ndarray:
+    """Return those of the bodies whose spheres meet the box around a prism on their way from step to step."""
+    own = results.inventory.vertices_by_body()
+    radii = np.array([float(length(own[body]).max()) for body in bodies])[:, None]
+    places = results.frames.positions_m[:, bodies]
+    near = prism.may_meet(places[0] - radii, places[0] + radii)
+    for before, after in pairwise(places):
+        near |= prism.may_meet(np.minimum(before, after) - radii, np.maximum(before, after) + radii)
+    return bodies[near]
 
 
 def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:

@@ -74,13 +74,12 @@ def moments_of_inertia(results: Results) -> np.ndarray:
     """
     inventory, masses = results.inventory, results.inventory.masses_kg
     moments = np.zeros((len(masses), 3))
-    for body in np.flatnonzero(masses > 0.0):
-        corners = inventory.vertices_of(body)
-        if not len(corners):
-            continue
-        squares = np.square(np.ptp(corners, axis=0))
-        if inventory.body_kinds[body] == "ball":
-            moments[body] = _SPHERE * masses[body] * squares.max() / 4.0
-        else:
-            moments[body] = masses[body] * (squares.sum() - squares) / 12.0
+    bodies = np.flatnonzero((masses > 0.0) & (inventory.vertex_counts > 0))
+    if not len(bodies):
+        return moments
+    own = inventory.vertices_by_body()
+    squares = np.square([np.ptp(own[body], axis=0) for body in bodies])
+    moments[bodies] = masses[bodies, None] * (squares.sum(axis=1, keepdims=True) - squares) / 12.0
+    balls = inventory.body_kinds[bodies] == "ball"
+    moments[bodies[balls]] = (_SPHERE * masses[bodies[balls]] * squares[balls].max(axis=1) / 4.0)[:, None]
     return moments

@@ -114,7 +114,7 @@ class BreakingByKind:
 
 def breaking_by_kind(results: Results) -> list[BreakingByKind]:
     """Connections by what they join, the most numerous kind first."""
-    kinds = np.array([_kind(results, *pair) for pair in results.inventory.pairs], str)
+    kinds = _kinds(results)
     found = []
     for kind in np.unique(kinds):
         of_kind = kinds == kind
@@ -122,14 +122,15 @@ def breaking_by_kind(results: Results) -> list[BreakingByKind]:
     return sorted(found, key=lambda each: -each.count)
 
 
-def _kind(results: Results, first: int, second: int) -> str:
-    if "ground" in (results.inventory.body_kinds[first], results.inventory.body_kinds[second]):
-        return "foundation"
-    members = {str(results.inventory.body_members[body]) for body in (first, second)}
-    names = [
-        str(results.inventory.body_member_kinds[body]) or str(results.inventory.body_kinds[body])
-        for body in (first, second)
-    ]
-    if len(members) == 1 and "" not in members:
-        return f"within {names[0]}"
-    return " - ".join(sorted(names))
+def _kinds(results: Results) -> np.ndarray:
+    """What each of the connections joins, (m,) str."""
+    inventory, pairs = results.inventory, results.inventory.pairs
+    if not len(pairs):
+        return np.zeros(0, str)
+    named = np.where(inventory.body_member_kinds != "", inventory.body_member_kinds, inventory.body_kinds)[pairs]
+    members = inventory.body_members[pairs]
+    first, second = np.sort(named, axis=1).T
+    joined = np.char.add(np.char.add(first, " - "), second)
+    within = (members[:, 0] == members[:, 1]) & (members[:, 0] != "")
+    kinds = np.where(within, np.char.add("within ", named[:, 0]), joined)
+    return np.where((inventory.body_kinds[pairs] == "ground").any(axis=1), "foundation", kinds)

@@ -60,6 +60,11 @@ class Inventory:
         """Indices of the bodies of a kind."""
         return np.flatnonzero(self.body_kinds == kind)
 
+    def vertices_by_body(self) -> list[np.ndarray]:
+        """Vertices (v, 3) of every body in its own axes, m; its origin where it has none."""
+        parts = np.split(self.vertices_m, np.cumsum(self.vertex_counts)[:-1])
+        return [part if len(part) else np.zeros((1, 3)) for part in parts]
+
     def vertices_of(self, body: int) -> np.ndarray:
         """Vertices (v, 3) of a body in its own axes, m; its origin where it has none."""
         if not self.vertex_counts[body]:

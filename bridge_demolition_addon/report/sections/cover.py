@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...core.debris.throws import Debris
 from ...core.results.arrays import Results
 from ...core.results.collapse import rest_of
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
@@ -47,13 +48,13 @@ LIMITS = (
 )
 
 
-def cover_section(run: Run, version: str) -> Section:
+def cover_section(run: Run, version: str, debris: Debris | None) -> Section:
     """Return what was run, and whether all of it is there."""
     blocks: list[Block] = [Paragraph(text, is_notice=True) for text in run.shortcomings]
     blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
     if run.results is not None:
         blocks += [Paragraph(text, is_notice=True) for text in _doubts(run)]
-        blocks.append(facts("Main findings", list(_findings(run)), "findings"))
+        blocks.append(facts("Main findings", list(_findings(run, debris)), "findings"))
     blocks += [Photo(path, _caption(run, name)) for name, path in run.pictures.items()]
     return Section("The run", tuple(blocks))
 
@@ -154,9 +155,9 @@ def _doubts(run: Run) -> Iterator[str]:
         yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."
 
 
-def _findings(run: Run) -> Iterator[tuple[str, str]]:
+def _findings(run: Run, debris: Debris) -> Iterator[tuple[str, str]]:
     has_ball = len(run.results.inventory.of_kind("ball")) > 0
-    yield from ((each.label, each.text) for each in findings(run) if has_ball or each.label != IMPACT)
+    yield from ((each.label, each.text) for each in findings(run, debris) if has_ball or each.label != IMPACT)
 
 
 def _caption(run: Run, picture: str) -> str:

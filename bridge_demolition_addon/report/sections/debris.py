@@ -10,7 +10,7 @@ import numpy as np
 from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, pile_map
 from ...core.debris.exclusion import ExclusionZone, exclusion_zone
-from ...core.debris.throws import PERCENTS, Debris, HeightMap, debris_of, height_map, percentiles_by_mass
+from ...core.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
 from ...core.debris.zones import ZoneWatch, watch_zone
 from ...core.geometry.plan_areas import outlines
 from ...core.results.arrays import Results
@@ -26,10 +26,9 @@ NAMED = 10
 _SHORTEST_MAP_MM, _TALLEST_MAP_MM = 75.0, 150.0
 
 
-def debris_section(run: Run, *, trajectories: bool) -> Section:
+def debris_section(run: Run, debris: Debris, *, trajectories: bool) -> Section:
     """Return where the debris went."""
     results, zones = run.results, run.scenario.zones if run.scenario else ()
-    debris = debris_of(results)
     words = (
         f"Debris is every shard that ended more than {MOVED_M:g} m from where it began. The throw is the horizontal "
         "distance between the first and the last place of its centre of mass; its reach is how far it sticks out of "
