@@ -21,6 +21,16 @@ def test_debris_is_what_moved_and_how_far():
     assert debris.highest_m == pytest.approx(1.0)
 
 
+def test_reaches_do_not_need_every_side_of_a_long_edge():
+    """The edge of a deck of many shards is straight but for rounding."""
+    count = 60
+    first = np.column_stack([np.arange(count), 1e-7 * np.random.default_rng(1).normal(size=count), np.full(count, 5.0)])
+    last = first.copy()
+    last[20] = (20.0, 4.0, 0.5)
+    debris = debris_of(moving_boxes([0, 1], np.ones((count, 3)), [first, last]))
+    assert debris.reaches_m == pytest.approx([4.0], abs=2e-5)
+
+
 def test_without_debris_there_is_none():
     debris = debris_of(moving_boxes([0, 1], [(1, 1, 1)], np.zeros((2, 1, 3))))
     assert len(debris.bodies) == len(debris.throws_m) == 0
