@@ -131,11 +131,12 @@ class _Unrecorded(Recording):
     def __init__(self, scene: bpy.types.Scene, folder: Path):
         super().__init__(scene, folder, every_substep=False)
 
-    def _keep(self, frame):
-        self.frames.append(frame)
+    def _keep(self, frame, balls):
+        self._last = frame
 
     def _begin_blast(self, world):
         self._blast = blast.Blast(self.scene, self._bodies, self.inventory, world)
+        self._last = None
         self._logs = _NoLogs()
 
 

@@ -17,11 +17,12 @@ from matplotlib.image import imread
 from ..core.debris.footprint import check_covers_ground
 from ..core.errors import OutputError, ScenarioError, UnreadableError
 from ..core.reading import MEGABYTE, check_file, file_text
-from ..core.results.arrays import Results, load_results
+from ..core.results.arrays import Results, load_results, results_in
 from ..core.results.checks import checked_summary
 from ..core.results.files import (
     BREAKING_LOG,
     FORCE_LOG,
+    FRAMES_FILE,
     PICTURE_FOLDER,
     PICTURES,
     RESULTS_FILE,
@@ -123,7 +124,7 @@ def read_run(folder: Path) -> Run:
     """
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
-    if not any((folder / name).exists() for name in (RESULTS_FILE, FORCE_LOG)):
+    if not any((folder / name).exists() for name in (RESULTS_FILE, FRAMES_FILE, FORCE_LOG)):
         raise OutputError(f"{folder}: holds no run: expected {RESULTS_FILE} or {FORCE_LOG} in it")
     shortcomings: list[str] = []
     results = _results(folder, shortcomings)
@@ -144,7 +145,7 @@ def read_run(folder: Path) -> Run:
 
 
 def _results(folder: Path, shortcomings: list[str]) -> Results | None:
-    path = folder / RESULTS_FILE
+    path = results_in(folder)
     if not path.exists():
         shortcomings.append(
             f"The run was killed before it could write {RESULTS_FILE}: only its logs are here, and all that needs more "
@@ -155,10 +156,13 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
         results, removed = without_removed(load_results(path))
         check_covers_ground(results)
     except OutputError as error:
-        shortcomings.append(
-            f"{RESULTS_FILE} cannot be read, and all that needs it is left out: {_reason(error, path)}."
-        )
+        shortcomings.append(f"{path.name} cannot be read, and all that needs it is left out: {_reason(error, path)}.")
         return None
+    if path.name == FRAMES_FILE:
+        shortcomings.append(
+            f"The run ended before its end, as by a kill, a crash or a full disk; {len(results.frames)} frames are "
+            "kept, and everything here ends with the last of them."
+        )
     if removed:
         shortcomings.append(
             f"{removed} shards were removed in the course of the run, as the scenario says. They are no "

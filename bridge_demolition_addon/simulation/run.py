@@ -14,8 +14,7 @@ from ..core.disk import write_whole_text
 from ..core.display.camera_targets import points_to_see
 from ..core.display.contours import ContourSettings
 from ..core.errors import DemolitionError, SimulationError
-from ..core.results.arrays import Results
-from ..core.results.files import BLEND_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
+from ..core.results.files import BLEND_FILE, FRAMES_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
 from ..core.sequence.checked_model import checked_model
@@ -113,16 +112,15 @@ def run_scenario(
             if recording.distrust:
                 distrust = f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}"
                 progress.stage(distrust)
-            results = recording.results()
-            summary = run_summary(recording, results, context, completed=not (signals or recording.error))
+            summary = run_summary(recording, recording.results(), context, completed=not (signals or recording.error))
             summary["density_kg_m3"] = model.density_kg_m3
             summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
             blender_s = playing.seconds - recording.seconds
             summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
             progress.stage("writing the results")
-            with _results_of_failure(recording.error):
+            with _results_of_failure(recording.error, lock.folder):
                 kept = locks.enter_context(lock_in_place(lock))
-                _keep_all(kept.folder, scene, scenario, results, summary)
+                _keep_all(kept.folder, scene, scenario, recording, summary)
         if recording.error:
             raise SimulationError(f"{recording.error}; the results up to then are in {kept.folder}")
         if kept is not lock:
@@ -146,12 +144,13 @@ def _keep_scenario(folder: Path, scenario: Scenario) -> None:
 
 
 def _keep_all(
-    folder: Path, scene: bpy.types.Scene, scenario: Scenario, results: Results, summary: dict[str, Any]
+    folder: Path, scene: bpy.types.Scene, scenario: Scenario, recording: Recording, summary: dict[str, Any]
 ) -> None:
     """Leave results, scenario and scene in a folder."""
     if not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
         _keep_scenario(folder, scenario)
-    keep_results(folder, results, summary)
+    keep_results(folder, recording.results(), summary)
+    recording.remove_stream()
     keep_played_frames(scene)
     path = folder.resolve() / BLEND_FILE
     try:  # Blender itself writes beside it and renames
@@ -161,14 +160,15 @@ def _keep_all(
 
 
 @contextmanager
-def _results_of_failure(error: Exception | None) -> Iterator[None]:
+def _results_of_failure(error: Exception | None, folder: Path) -> Iterator[None]:
     """Where results cannot be kept of a recording that ended for an error, say so together with that."""
     try:
         yield
     except (DemolitionError, OSError) as failure:
         if error is None:
             raise
-        raise SimulationError(f"{error}; the results up to then could not be kept: {failure}") from failure
+        left = f"the frames up to then are in {folder}, " if (folder / FRAMES_FILE).is_file() else ""
+        raise SimulationError(f"{error}; {left}the results could not be kept: {failure}") from failure
 
 
 def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> None:

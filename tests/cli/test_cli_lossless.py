@@ -9,11 +9,13 @@ import sys
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from processes import TIMEOUT_S, outcome, run_bda, start_bda
 from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.core.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.2))
@@ -43,6 +45,7 @@ def whole_results(folder):
     assert read_scenario(folder / "scenario_as_run.toml").title == ENDLESS.title
     assert (folder / "scene.blend").stat().st_size > 0
     assert not list(folder.rglob("*.part*"))
+    assert not any((folder / name).exists() for name in (FRAMES_FILE, BALLS_FILE, INVENTORY_FILE))
     return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
 
 
@@ -73,6 +76,27 @@ def test_a_killed_run_leaves_no_half_of_a_file_and_its_folder_free(tmp_path):
     assert run_bda("run", brief, "--output", output, "--no-pictures", "--overwrite", "--quiet") == (0, "", "")
     assert whole_results(output)["completed"]
     assert not (output / "run.lock").exists()
+
+
+@POSIX
+def test_a_killed_run_keeps_all_but_its_last_frame_and_is_reported_as_such(tmp_path):
+    path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
+    process = started(path, output)
+    while len((output / "force_log.csv").read_text(encoding="utf-8").splitlines()) < 400:
+        time.sleep(0.05)
+    process.kill()
+    outcome(process)
+    lines = (output / "force_log.csv").read_text(encoding="utf-8").splitlines()[1:]
+    left = load_results(output)
+    logged = len(lines) // len(left.inventory.body_names)
+    assert len(left.frames) in (logged, logged + 1)  # a frame is kept before it is logged
+    last = [line.split(",") for line in lines if line.startswith(f"{left.frames.number[logged - 1]},")]
+    forces = [[float(number) for number in line[3:6]] for line in last]
+    np.testing.assert_allclose(left.frames.loads.body_forces_n[logged - 1], forces, rtol=1e-6)
+    assert left.balls.times_s[-1] == pytest.approx(left.frames.time_s[-1])
+    assert run_bda("report", output, "--quiet") == (0, "", "")
+    page = (output / "report.html").read_text(encoding="utf-8")
+    assert "The run ended before its end" in page and f"{len(left.frames)} frames are kept" in page
 
 
 @POSIX
@@ -121,7 +145,7 @@ def test_a_run_outlives_the_reader_of_what_it_prints(tmp_path):
 
 @POSIX
 def test_a_full_disk_leaves_no_half_of_a_file(tmp_path):
-    """The disk is as full as a limit for the size of files makes it: the arrays do not fit any more."""
+    """The disk is as full as a limit for the size of files makes it: after some frames no more fit."""
     path, output = scenario_file(tmp_path, BRIEF), tmp_path / "results"
     limited = "import resource, runpy, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
     limited += "resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)); "
@@ -129,10 +153,12 @@ def test_a_full_disk_leaves_no_half_of_a_file(tmp_path):
     command = [sys.executable, "-c", limited, "run", str(path), "--output", str(output), "--no-pictures", "--quiet"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     assert done.returncode == 1
-    assert str(output / "results.npz") in done.stderr
+    assert f"{output / FRAMES_FILE}: cannot be written" in done.stderr and "the frames up to then are in" in done.stderr
     assert len(done.stderr.splitlines()) == 1
     assert not (output / "results.npz").exists() and not list(output.glob("*.part*"))
     assert not (output / "summary.json").exists()
+    left = load_results(output)
+    assert len(left.frames) > 1 and left.frames.number.tolist() == list(range(2, 2 + len(left.frames)))
 
 
 @POSIX

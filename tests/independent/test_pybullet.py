@@ -121,8 +121,8 @@ def test_impulse_of_a_ball_that_falls_on_a_plate(blender, tmp_path, engine, rest
     recorded, computed = fall_in_blender(tmp_path, **ball), fall_in_engine(engine, **ball)
     impulses = recorded.balls.impulses_ns[:, 0, 2]
     np.testing.assert_allclose(
-        recorded.frames.loads.body_contact_impulses_ns[1:, 1, 2], impulses, rtol=1e-12
-    )  # a frame is a step
+        recorded.frames.loads.body_contact_impulses_ns[1:, 1, 2], impulses, rtol=1e-7
+    )  # a frame is a step, and is kept with seven digits
     hit, hit_computed = int(impulses.argmax()), int(computed[:, 2].argmax())
     assert hit == hit_computed
     # Without restitution a second step takes up what the first has left of the fall.

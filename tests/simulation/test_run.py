@@ -105,17 +105,17 @@ def test_logs_hold_what_was_recorded(span):
     assert len(forces) == len(results.frames) * len(results.inventory.body_names)
     logged = np.array([[float(row[f"force_{axis}_N"]) for axis in ("x", "y", "z", "sum")] for row in forces])
     expected = np.dstack((results.frames.loads.body_forces_n, results.frames.loads.body_sums_n))
-    # Nine digits are written.
-    np.testing.assert_allclose(logged, expected.reshape(-1, 4), rtol=1e-8, atol=1e-8)
+    # Nine digits are written, and seven kept: single precision rounds by 6e-8.
+    np.testing.assert_allclose(logged, expected.reshape(-1, 4), rtol=1e-7, atol=1e-8)
     debris = rows(folder / "debris_log.csv")
     count = len(results.inventory.body_names)
     assert [row["body"] for row in debris] == 2 * results.inventory.body_names.tolist()
     assert {int(row["frame"]) for row in debris[:count]} == {int(results.frames.number[0])}
     assert {int(row["frame"]) for row in debris[count:]} == {int(results.frames.number[-1])}
     places = np.array([[float(row[f"{axis}_m"]) for axis in "xyz"] for row in debris]).reshape(2, count, 3)
-    np.testing.assert_allclose(places, results.frames.positions_m[[0, -1]], rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(places, results.frames.positions_m[[0, -1]], rtol=1e-7, atol=1e-8)
     throws = [float(row["throw_m"]) for row in debris[count:] if row["body"].startswith("Shard")]
-    assert max(throws) == pytest.approx(summary["largest_throw"]["throw_m"], rel=1e-8)
+    assert max(throws) == pytest.approx(summary["largest_throw"]["throw_m"], rel=1e-6)
 
 
 def test_summary_is_what_was_returned(span):

@@ -86,6 +86,7 @@ def test_forces_sum_to_zero_over_all_bodies(blender, tmp_path):
     for pair in ((top, left), (left, right), (right, top)):
         blocks.connect("POINT", (0, 0, 9.5), *pair)
     results = blocks.play(tmp_path, 10)
-    # Each connection enters once with each sign: only the rounding of sums of some hundred N remains.
-    np.testing.assert_allclose(results.frames.loads.body_forces_n.sum(axis=1), 0.0, atol=1e-9)
-    assert abs(results.frames.loads.body_forces_n).max() > 1.0
+    # Each connection enters once with each sign: only rounding remains, to the seven digits that are kept.
+    forces = results.frames.loads.body_forces_n
+    assert abs(forces).max() > 1.0
+    np.testing.assert_allclose(forces.sum(axis=1, dtype=float), 0.0, atol=3 * 6e-8 * abs(forces).max())

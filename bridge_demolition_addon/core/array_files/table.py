@@ -55,12 +55,17 @@ class GrowingTable:
             path.unlink(missing_ok=True)  # whoever has mapped it would crash if it was emptied
             self._file = path.open("x+b", buffering=0)
         self._unwanted: list[bool] = []
-        weakref.finalize(self, _finish, self._file, path, self._unwanted)
+        self._finish = weakref.finalize(self, _finish, self._file, path, self._unwanted)
         with writing(path):
             self._write(0, _header(row_type, 0))
 
     def __len__(self) -> int:
         return self._count
+
+    @property
+    def is_in_place(self) -> bool:
+        """Whether the file is still where it was made."""
+        return not self._file.closed and is_in_place(self._file.fileno(), self.path)
 
     def append(self, rows: np.ndarray) -> None:
         """Add rows (k,).
@@ -72,7 +77,7 @@ class GrowingTable:
         """
         count = self._count + len(rows)
         with writing(self.path), self._lock:
-            self._write(self._start + self._count * self.row_type.itemsize, rows.tobytes())
+            self._write(self._start + self._count * self.row_type.itemsize, rows.view(np.uint8).data)
             self._write(0, _header(self.row_type, count))
         self._count = count
 
@@ -107,10 +112,15 @@ class GrowingTable:
         """
         if sys.platform == "win32":
             self._unwanted.append(True)
-        elif is_in_place(self._file.fileno(), self.path):
+        elif self.is_in_place:
             self.path.unlink()
 
-    def _write(self, place: int, content: bytes) -> None:
+    def discard(self) -> None:
+        """Take the file away with all that is in it; rows that were mapped stay."""
+        self._unwanted.append(True)
+        self._finish()
+
+    def _write(self, place: int, content: bytes | memoryview) -> None:
         self._file.seek(place)
         left = memoryview(content)
         while left:
@@ -155,7 +165,11 @@ def _description(row_type: np.dtype, count: int) -> bytes:
 
 
 def _finish(file: BinaryIO, path: Path, unwanted: list[bool]) -> None:
-    """Close a table that nobody has any more."""
+    """Close a table that nobody has any more, and remove it if nobody wants it."""
+    is_to_go = unwanted and is_in_place(file.fileno(), path)
     file.close()
-    if unwanted:
-        path.unlink(missing_ok=True)
+    if is_to_go:
+        try:
+            path.unlink(missing_ok=True)
+        except PermissionError:  # Windows removes no mapped file either: the next run in the folder does
+            return

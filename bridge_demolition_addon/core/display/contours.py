@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bisect
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -171,26 +172,34 @@ class ContourSeries:
     ----------
     inventory : Inventory
         Its bodies and connections. Bodies that do not move are not coloured and do not count for ranges.
+    recorded : sequence of Frame
+        Its frames, each of which is looked up when it is needed; there may be more of them later.
+
+    Attributes
+    ----------
+    recorded
+        As given.
     """
 
-    def __init__(self, inventory: Inventory):
+    def __init__(self, inventory: Inventory, recorded: Sequence[Frame]):
         self.body_names = inventory.body_names.tolist()
         self.moves, self.pairs, self.points_m = inventory.moves, inventory.pairs, inventory.points_m
-        self._frames: list[Frame] = []
+        self.recorded = recorded
         self._rows: dict[int, int] = {}
+        self._numbers: list[int] = []
+        self._times_s: list[float] = []
         self._values: dict[tuple[Quantity, bool], list[np.ndarray]] = {}
         self._extents: dict[tuple[Quantity, bool], list[tuple[float, float]]] = {}
 
     @classmethod
     def of_results(cls, results: Results) -> ContourSeries:
         """Return the contours of a finished recording."""
-        series = cls(results.inventory)
-        for frame in results.frames:
-            series.append(frame)
+        series = cls(results.inventory, results.frames)
+        series.follow()
         return series
 
     def __len__(self) -> int:
-        return len(self._frames)
+        return len(self._times_s)
 
     @property
     def frames(self) -> list[int]:
@@ -200,22 +209,25 @@ class ContourSeries:
     @property
     def times_s(self) -> np.ndarray:
         """(k,) simulated times of the frames."""
-        return np.array([frame.time_s for frame in self._frames], float)
+        return np.array(self._times_s, float)
 
-    def append(self, frame: Frame) -> None:
-        """Add the next frame."""
-        self._rows[int(frame.number)] = len(self._frames)
-        self._frames.append(frame)
+    def follow(self) -> None:
+        """Take in the frames that were recorded since the last look."""
+        for row in range(len(self), len(self.recorded)):
+            frame = self.recorded[row]
+            self._rows[int(frame.number)] = row
+            self._numbers.append(int(frame.number))
+            self._times_s.append(float(frame.time_s))
 
     def row_at(self, frame: int) -> int | None:
         """Return the row of a frame or of the last recorded one before it, else the first; None without any."""
         if frame in self._rows:
             return self._rows[frame]
-        return max(bisect.bisect_right(self.frames, frame) - 1, 0) if self._frames else None
+        return max(bisect.bisect_right(self.frames, frame) - 1, 0) if self._times_s else None
 
     def frame(self, row: int) -> Frame:
         """Return the frame of a row as it was recorded."""
-        return self._frames[row]
+        return self.recorded[row]
 
     def values(self, row: int, quantity: Quantity, *, peak: bool = False) -> np.ndarray:
         """Return the values (n,) of a row, N or Pa; nan for bodies that do not move and where nothing is known."""
@@ -226,9 +238,8 @@ class ContourSeries:
         """Return the colours of a row."""
         values = self.values(row, settings.quantity, peak=settings.peak)
         scale = self._scale(row, settings)
-        frame = self._frames[row]
         painted = colours(settings.colour_map, scale.shares(values))
-        return ContourFrame(int(frame.number), float(frame.time_s), values, scale, painted)
+        return ContourFrame(self._numbers[row], self._times_s[row], values, scale, painted)
 
     def extent(self, row: int | None, quantity: Quantity, *, peak: bool = False) -> tuple[float, float]:
         """Return the lowest and highest value, N or Pa, of a row, or of all rows for None; 0 is always among them.
@@ -254,10 +265,9 @@ class ContourSeries:
         """Calculate the rows that were added since."""
         values = self._values.setdefault((quantity, peak), [])
         extents = self._extents.setdefault((quantity, peak), [])
-        for frame in self._frames[len(values) :]:
-            found = np.where(
-                self.moves, _peaks(quantity, frame.loads) if peak else _means(quantity, frame.loads), np.nan
-            )
+        for row in range(len(values), len(self)):
+            loads = self.recorded[row].loads
+            found = np.where(self.moves, _peaks(quantity, loads) if peak else _means(quantity, loads), np.nan)
             if peak and values:
                 found = np.fmax(values[-1], found)
             known = found[np.isfinite(found)]

@@ -137,7 +137,7 @@ def load_results(path: Path) -> Results:
 def results_in(folder: Path) -> Path:
     """Return the file in the folder of a run that its results are read from: that of a whole run, if it is there."""
     left = folder / FRAMES_FILE
-    return left if left.is_file() and not (folder / RESULTS_FILE).exists() else folder / RESULTS_FILE
+    return left if left.exists() and not (folder / RESULTS_FILE).exists() else folder / RESULTS_FILE
 
 
 def named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
@@ -167,11 +167,13 @@ def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
 
 def _left_arrays(path: Path) -> dict[str, np.ndarray]:
     """Return the arrays that a run has left on its way; of the sub-steps, those of whole frames."""
-    frames = stored_rows(path)
-    arrays = read_archive(path.with_name(INVENTORY_FILE)) | columns(frames)
-    if not path.with_name(BALLS_FILE).is_file():
+    frames, inventory, balls = stored_rows(path), path.with_name(INVENTORY_FILE), path.with_name(BALLS_FILE)
+    check_file(inventory)
+    arrays = read_archive(inventory) | columns(frames)
+    if not balls.exists():
         return arrays | dict(named_arrays(BallHistory.unknown()))
-    substeps = stored_rows(path.with_name(BALLS_FILE))
+    check_file(balls)
+    substeps = stored_rows(balls)
     end_s = frames["times_s"][-1] if len(frames) else 0.0
     return arrays | columns(substeps[: np.searchsorted(substeps["ball_times_s"], end_s, side="right")])
 

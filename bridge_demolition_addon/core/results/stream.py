@@ -49,7 +49,7 @@ class FrameStream(Sequence[Frame]):
             write_archive(folder / INVENTORY_FILE, known)
 
     def __len__(self) -> int:
-        return len(self._frames) if self._frames else 0
+        return 0 if self._frames is None else len(self._frames)
 
     def __getitem__(self, row: int) -> Frame:
         """Return a frame as it is kept."""
@@ -76,16 +76,29 @@ class FrameStream(Sequence[Frame]):
     def results(self) -> Results:
         """Return everything so far, mapped: only what is looked at is read. There has to be a frame."""
         balls = BallHistory.unknown()
-        if self._substeps:
+        if self._substeps is not None:
             balls = balls_of(columns(self._substeps.rows()) | {"balls": self._balls})
         return Results(self._reading, self._inventory, frames_of(columns(self._frames.rows())), balls)
 
     def remove(self) -> None:
         """Take the files away; what is in them can be read as long as the stream is there."""
-        for table in (self._frames, self._substeps):
-            if table:
-                table.remove()
-        (self._folder / INVENTORY_FILE).unlink(missing_ok=True)
+        self._remove_inventory()
+        for table in self._tables:
+            table.remove()
+
+    def discard(self) -> None:
+        """Take the files away with all that is in them; only what is mapped can still be read."""
+        self._remove_inventory()
+        for table in self._tables:
+            table.discard()
+
+    def _remove_inventory(self) -> None:
+        if self._frames is not None and self._frames.is_in_place:  # or the folder is elsewhere, or another one
+            (self._folder / INVENTORY_FILE).unlink(missing_ok=True)
+
+    @property
+    def _tables(self) -> list[GrowingTable]:
+        return [table for table in (self._frames, self._substeps) if table is not None]
 
 
 def _row_type(arrays: Mapping[str, np.ndarray], fractions: type[np.floating]) -> np.dtype:

@@ -129,7 +129,7 @@ def _connections(results: Results) -> dict[str, Any]:
 
 def _blast(results: Results) -> dict[str, Any] | None:
     """Impulse of the blast on all bodies together and on the one that got most; None where there was none."""
-    impulses = results.frames.blast_impulses_ns.sum(axis=0)
+    impulses = results.frames.blast_impulses_ns.sum(axis=0, dtype=float)
     sizes = length(impulses)
     if not sizes.any():
         return None

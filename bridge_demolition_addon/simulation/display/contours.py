@@ -127,15 +127,12 @@ class ContourDisplay:
 
     def _followed(self) -> ContourSeries | None:
         """Return the series of the recording, with the frames that came since the last look."""
-        if self.recording is None or not self.recording.frames:
+        if self.recording is None or not self.recording.recorded_frames:
             return None
         frames, series = self.recording.frames, self._recorded
-        count = len(series) if series else 0
-        goes_on = 0 < count <= len(frames) and series.frame(count - 1) is frames[count - 1]
-        if not goes_on:
-            series = self._recorded = ContourSeries(self.recording.inventory)
-        for frame in frames[len(series) :]:
-            series.append(frame)
+        if series is None or series.recorded is not frames:
+            series = self._recorded = ContourSeries(self.recording.inventory, frames)
+        series.follow()
         return series
 
     def _paint(self, depsgraph: bpy.types.Depsgraph) -> None:

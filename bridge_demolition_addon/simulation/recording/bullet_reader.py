@@ -70,10 +70,9 @@ class BulletReader:
         """Removals, saw cuts and weakenings so far."""
         return self._events.applied
 
-    @property
-    def ball_history(self) -> BallHistory:
-        """Hits of the balls so far."""
-        return self._substeps.ball_history()
+    def take_ball_history(self) -> BallHistory:
+        """Return what hit the balls since this was asked last."""
+        return self._substeps.take_ball_history()
 
     @property
     def seconds(self) -> float:

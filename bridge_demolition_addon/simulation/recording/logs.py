@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import numpy as np
 
 from ...core.blast.explosion import StepLoads
 from ...core.disk import is_in_place
-from ...core.errors import SimulationError
+from ...core.errors import SimulationError, writing
 from ...core.geometry.vectors import dot
 from ...core.mechanics.stress import principal_stresses
 from ...core.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
@@ -180,12 +181,19 @@ class Logs:
         self._explosion.write(frame.number, frame.time_s, frame_s, loads)
 
     def close(self, last_frame: Frame | None) -> None:
-        """Log where everything is at last, if there was a frame, and close the files."""
-        if last_frame:
-            self._write_positions(last_frame)
-        for each in (self._forces, self._debris, self._breaking, self._explosion):
-            if each:
-                each.close()
+        """Log where everything is at last, if there was a frame, and close the files.
+
+        Raises
+        ------
+        OutputError
+            The disk is full; the files are closed all the same.
+        """
+        with ExitStack() as files:
+            for each in (self._forces, self._debris, self._breaking, self._explosion):
+                if each:
+                    files.callback(each.close)
+            if last_frame:
+                self._write_positions(last_frame)
 
     def _write_positions(self, frame: Frame) -> None:
         first, last = self._first_positions, frame.positions_m
@@ -217,13 +225,27 @@ class CsvLog:
         return is_in_place(self._file.fileno(), self._path)
 
     def add(self, lines: str) -> None:
-        """Add lines; a run that is killed keeps them."""
-        self._file.write(lines)
-        self._file.flush()
+        """Add lines; a run that is killed keeps them.
+
+        Raises
+        ------
+        OutputError
+            They cannot be written, as on a full disk.
+        """
+        with writing(self._path):
+            self._file.write(lines)
+            self._file.flush()
 
     def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+        """Close the file.
+
+        Raises
+        ------
+        OutputError
+            Lines that are still to be written cannot be.
+        """
+        with writing(self._path):
+            self._file.close()
 
 
 class ExplosionLog(CsvLog):

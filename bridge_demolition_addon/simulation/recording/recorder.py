@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any
@@ -12,11 +13,12 @@ import numpy as np
 
 from ...bullet.time_control import release_time, set_time_scale, time_stands_still
 from ...bullet.world import BulletWorld, WorldState
-from ...core.errors import LayoutError, SimulationError
+from ...core.errors import LayoutError, OutputError, SimulationError
 from ...core.results.arrays import Results
 from ...core.results.fingerprint import built_digest
-from ...core.results.frames import BallHistory, Frame, FrameSeries
+from ...core.results.frames import BallHistory, Frame
 from ...core.results.inventory import Inventory
+from ...core.results.stream import FrameStream
 from ...scene.bodies import bodies_of
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
@@ -41,7 +43,7 @@ class Recording:
     scene : bpy.types.Scene
         Scene with a rigid-body world.
     folder : Path
-        Folder for the logs, which has to exist once it is recorded.
+        Folder for the frames and the logs, which has to exist once it is recorded.
     every_substep : bool
         Whether loads are read after every sub-step, or only after the last one of each frame.
     log_files : LogFiles or None
@@ -65,8 +67,6 @@ class Recording:
         from its change of momentum.
     world : BulletWorld
         The world that is recorded.
-    frames : list of Frame
-        Frames recorded so far.
     inventory : Inventory or None
         The bodies and connections; None before the first frame.
     built_digest : str
@@ -95,7 +95,8 @@ class Recording:
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
-        self.frames: list[Frame] = []
+        self._stream: FrameStream | None = None
+        self._last: Frame | None = None
         self.built_digest = ""
 
     def before_frame(self) -> None:
@@ -137,28 +138,44 @@ class Recording:
         if self._blast:
             self._blast.rest()
         self.world.release()
-        if self._logs:
-            self._logs.close(self.frames[-1] if self.frames else None)
-            self._logs = None
+        logs, self._logs = self._logs, None
+        if logs:
+            try:
+                logs.close(self._last)
+            except OutputError as error:
+                self.error = self.error or error  # a full disk, which may be what the recording ended for
+
+    @property
+    def frames(self) -> Sequence[Frame]:
+        """Frames recorded so far, as they are kept: each is read from the disk when it is asked for."""
+        return () if self._stream is None else self._stream
 
     @property
     def recorded_frames(self) -> int:
         """Frames recorded so far."""
         return len(self.frames)
 
+    @property
+    def last_frame(self) -> int | None:
+        """Number of the last frame recorded; None before the first."""
+        return self._last.number if self._last else None
+
     def has_frame(self, frame: int) -> bool:
         """Whether a frame was recorded, or lies before those that are."""
-        return frame <= (self.frames[-1].number if self.frames else self._start_frame)
+        return frame <= (self._last.number if self._last else self._start_frame)
 
     def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-        """Time in s of the last frame, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies."""
+        """Time in s of the last frame, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies.
+
+        They are those that are kept, so that whoever reads the results finds the same rest.
+        """
         last = self.frames[-1]
         return last.time_s, last.positions_m, last.rotations, last.asleep
 
     @property
     def broken(self) -> int:
         """Connections broken by now."""
-        return int((~self.frames[-1].intact).sum()) if self.frames else 0
+        return int((~self._last.intact).sum()) if self._last else 0
 
     @property
     def lost_blast_loads(self) -> int:
@@ -191,17 +208,30 @@ class Recording:
         return self._reader.seconds if self._reader else 0.0
 
     def results(self) -> Results:
-        """Everything recorded.
+        """Everything recorded, mapped from the disk: only what is looked at is read.
 
         Raises
         ------
         SimulationError
             Nothing was recorded.
         """
-        if not self.frames:
+        if not self.recorded_frames:
             raise SimulationError("nothing was recorded: play the timeline from its start frame")
-        balls = self._reader.ball_history if self._reader else BallHistory.unknown()
-        return Results(self._reading, self.inventory, FrameSeries.of(self.frames), balls)
+        return self._stream.results()
+
+    def remove_stream(self) -> None:
+        """Take away the files with the frames, as the results are kept by now.
+
+        What was recorded can be read as before, as long as the recording is there.
+        """
+        self._stream.remove()
+
+    def forget(self) -> None:
+        """Let go of all that was recorded, and of its files, of which Windows replaces none that is open."""
+        self._last = None
+        if self._stream is not None:
+            self._stream.discard()
+            self._stream = None
 
     @property
     def _start_frame(self) -> int:
@@ -219,7 +249,7 @@ class Recording:
             if self.scene.frame_current > self._start_frame:
                 self._record(self.world.bind(depsgraph), time_stands_still(depsgraph))
         except LayoutError as error:
-            if self.frames:  # it was trusted, and parts of it are recorded
+            if self._last:  # it was trusted, and parts of it are recorded
                 raise
             self.distrust = error
         finally:
@@ -230,9 +260,9 @@ class Recording:
         frame = self.scene.frame_current
         if frame == self._start_frame or not self._momentum:
             self._begin_with_motion()
-        elif frame != self.frames[-1].number + 1:
+        elif frame != self._last.number + 1:
             return  # not a step forward in time, but a frame that was recorded already or will be
-        self._keep(self._momentum.read_frame(depsgraph))
+        self._keep(self._momentum.read_frame(depsgraph), BallHistory.unknown())
 
     def _begin_with_motion(self) -> None:
         if changes_of(self.scene):
@@ -240,18 +270,19 @@ class Recording:
                 "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
                 f"({self.distrust}): take them out of the scenario, or run it in another Blender"
             )
-        self.frames.clear()
         self.inventory = take_inventory(self._bodies, ())
         self._momentum = MomentumReader(self.scene, self._bodies, self.inventory)
         self._begin_blast(None)
 
     def _begin_blast(self, world: BulletWorld | None) -> None:
-        """Set up what explodes, and the logs of it and of everything else."""
+        """Set up what explodes, the frames, and the logs of all."""
         if self._blast:
             self._blast.rest()
+        self.forget()
         self._blast = Blast(self.scene, self._bodies, self.inventory, world) if goes_off(self.scene) else None
         self.built_digest = self._digest()
         charges = [charge.name for charge in self._blast.charges] if self._blast else ()
+        self._stream = FrameStream(self.folder, self._reading, self.inventory)
         self._logs = Logs(self.folder, self.inventory, charges, self._log_files)
 
     def _digest(self) -> str:
@@ -291,7 +322,7 @@ class Recording:
         """Load the coming frame, if it follows on the last one recorded."""
         if not self._blast:
             return
-        last, coming = self.frames[-1] if self.frames else None, self.scene.frame_current
+        last, coming = self._last, self.scene.frame_current
         if last is None or coming != last.number + 1:
             self._blast.rest()
             return
@@ -312,16 +343,15 @@ class Recording:
         if state is WorldState.NEW:
             self._begin()
             # The solver of a new world names a default step before it has taken any.
-            self._keep(self._reader.read_first_frame(0.0 if held else substep))
+            self._keep(self._reader.read_first_frame(0.0 if held else substep), BallHistory.unknown())
         elif substep > 0.0:
             frame, breaks = self._reader.read_frame(substep)
-            self._keep(frame)
+            self._keep(frame, self._reader.take_ball_history())
             self._logs.write_breaks(frame.number, breaks)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin(self) -> None:
         """Begin with the first frame of a new world."""
-        self.frames.clear()
         self.inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self.world)
         self._reader = BulletReader(
@@ -334,14 +364,15 @@ class Recording:
             every_substep=self._every_substep,
         )
 
-    def _keep(self, frame: Frame) -> None:
-        """Keep and log a frame, with what exploded in it."""
-        frame_s = frame.time_s - (self.frames[-1].time_s if self.frames else 0.0)
+    def _keep(self, frame: Frame, balls: BallHistory) -> None:
+        """Keep and log a frame, with what exploded and what hit the balls in it."""
+        frame_s = frame.time_s - (self._last.time_s if self._last else 0.0)
         exploded = self._blast is not None and frame_s > 0.0
         if exploded:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
             frame = replace(frame, blast_impulses_ns=impulses)
-        self.frames.append(frame)
+        self._stream.append(frame, balls)
+        self._last = frame
         self._logs.write_frame(frame)
         if exploded:
             self._logs.write_blast(frame, blast_loads, frame_s)

@@ -196,11 +196,12 @@ class SubstepRecorder:
         self._breaks = []
         return loads, work, breaks
 
-    def ball_history(self) -> BallHistory:
-        """Return the hits of the balls in every sub-step so far."""
+    def take_ball_history(self) -> BallHistory:
+        """Return the hits of the balls in every sub-step since this was asked last."""
         if not self._hits:
             return BallHistory.unknown()
         times, impulses, velocities = map(np.array, zip(*self._hits, strict=True))
+        self._hits.clear()
         return BallHistory(self._balls, times, impulses, velocities)
 
     def _record(self, substep_s: float) -> None:

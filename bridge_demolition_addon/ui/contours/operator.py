@@ -5,7 +5,8 @@ from pathlib import Path
 import bpy
 
 from ...core.errors import DemolitionError
-from ...core.results.arrays import load_results
+from ...core.results.arrays import load_results, results_in
+from ...core.results.files import FRAMES_FILE
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...simulation.blender_events import contours_of
@@ -17,7 +18,7 @@ _TICK_S = 0.01
 
 
 class BDA_OT_load_results(Action, bpy.types.Operator):
-    """Show contours of an earlier recording of this scene, kept in a file results.npz"""
+    """Show contours of an earlier recording of this scene, kept in a file results.npz or in the folder of its run"""
 
     bl_idname = "bda.load_results"
     bl_label = "Load Results"
@@ -30,10 +31,13 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
-        results = load_results(absolute(scene.bda.results_path))
+        path = absolute(scene.bda.results_path)
+        path = results_in(path) if path.is_dir() else path
+        results = load_results(path)
         contours_of(scene).use_results(results)
         contour_view.follow(scene)
-        return f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
+        found = f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
+        return f"{found}, of a run that ended before its end" if path.name == FRAMES_FILE else found
 
 
 class BDA_OT_render_contours(Refusing, bpy.types.Operator):

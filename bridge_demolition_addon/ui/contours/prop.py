@@ -94,7 +94,7 @@ class ContourProperties:
     colour_bar: BoolProperty(
         name="Colour Bar", description="Show the colour bar in the 3D view", default=True, update=_redraw
     )
-    results_path: path_property("Kept Results", "File results.npz of an earlier recording of this scene")
+    results_path: path_property("Kept Results", "File results.npz of an earlier recording, or its folder")
     show_vectors: BoolProperty(
         name="Force Vectors", description="Show forces as arrows in the 3D view", default=False, update=_redraw
     )

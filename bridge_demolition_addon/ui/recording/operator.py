@@ -16,12 +16,19 @@ from ...core.results.files import SCENARIO_FILE
 from ...core.scenario import RecordingSettings, Scenario
 from ...core.scenario.file import scenario_from_text, scenario_text
 from ...core.sequence.rest import Rest
-from ...simulation.blender_events import running_recording, start_recording, stop_recording
+from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
 from ...simulation.playback import start_over
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
-from ...simulation.results_folder import checked_log, keep_results, lock_in_place, prepare_folder, withdraw_folder
+from ...simulation.results_folder import (
+    check_folder,
+    checked_log,
+    keep_results,
+    lock_in_place,
+    prepare_folder,
+    withdraw_folder,
+)
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
@@ -104,12 +111,20 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
         raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
     folder = absolute(settings.output_directory)
     recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
+    check_folder(folder, overwrite=settings.overwrite)
+    _let_go_of(folder, scene)
     lock = prepare_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
     _locks[recording] = lock
     if scenario:
         write_whole_text(folder / SCENARIO_FILE, scenario_text(scenario))
     _contexts[recording] = RunContext.of(scene, settings.title or scene.name, scenario)
     return recording
+
+
+def _let_go_of(folder: Path, scene: bpy.types.Scene) -> None:
+    """Let go of what was recorded into a folder that is to be cleared: Windows removes no file that is in use."""
+    session.forget_recording(folder)
+    contours_of(scene).forget()
 
 
 def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:
@@ -161,7 +176,8 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
         if context.scenario and not (lock.folder / SCENARIO_FILE).exists():  # a folder in the place of one that moved
             write_whole_text(lock.folder / SCENARIO_FILE, scenario_text(context.scenario))
         keep_results(lock.folder, results, summary)
-    session.keep_recording(lock.folder, results, summary)
+        recording.remove_stream()
+    session.keep_recording(lock.folder, recording, summary)
     return lock.folder
 
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import bpy
 
-from ...core.results.arrays import Results
 from ...simulation.blender_events import running_recording, stop_recording
+from ...simulation.recording.recorder import Recording
 
 _REDRAWN_EVERY_S = 0.25
 
@@ -20,16 +20,22 @@ _recordings: list[LastRecording] = []
 
 
 class LastRecording(NamedTuple):
-    """Folder, results and summary of a recording, for the panel of its results and the charts of them."""
+    """A recording with its folder and summary, for the panel of its results and the charts of them."""
 
     folder: Path
-    results: Results
+    recording: Recording
     summary: dict[str, Any]
 
 
-def keep_recording(folder: Path, results: Results, summary: dict[str, Any]) -> None:
+def keep_recording(folder: Path, recording: Recording, summary: dict[str, Any]) -> None:
     """Keep a recording in place of the one before."""
-    _recordings[:] = [LastRecording(folder, results, summary)]
+    _recordings[:] = [LastRecording(folder, recording, summary)]
+
+
+def forget_recording(folder: Path) -> None:
+    """Forget the last recording if its results are in a folder, which is to be cleared."""
+    if _recordings and _recordings[0].folder == folder:
+        _recordings.pop().recording.forget()
 
 
 def last_recording() -> LastRecording | None:

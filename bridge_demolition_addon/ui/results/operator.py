@@ -88,7 +88,9 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
         model = BlastModel(context.scene.bda.scenario.blast.model)
         with writing(folder):
             paths = write_charts(folder, ChartSettings(model=model))
-            plot_forces(last.results, folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary))
+            plot_forces(
+                last.recording.results(), folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary)
+            )
         return f"{len(paths) + 1} charts are in {folder}"
 
 

@@ -27,7 +27,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         for line in lines_of(summary):
             column.label(text=line)
         self._draw_place("Largest peak force", summary["largest_resultant"], last_frame=None)
-        self._draw_place("Largest throw", summary["largest_throw"], last_frame=int(last.results.frames.number[-1]))
+        self._draw_place("Largest throw", summary["largest_throw"], last_frame=last.recording.last_frame)
         row = layout.row(align=True)
         row.operator("bda.open_results")
         row.operator("bda.draw_charts")

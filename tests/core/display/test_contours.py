@@ -54,10 +54,12 @@ def test_peak_so_far_never_falls_and_is_reached(series):
 
 def test_a_growing_series_is_the_finished_one(series):
     results = hanging_chain()
-    growing = ContourSeries(results.inventory)
+    recorded = []
+    growing = ContourSeries(results.inventory, recorded)
     settings = ContourSettings(peak=True)
     for row in range(5):
-        growing.append(results.frames[row])
+        recorded.append(results.frames[row])
+        growing.follow()
         growing.show(row, settings)
     for row in range(5):
         assert np.array_equal(growing.show(row, settings).screen_colours, series.show(row, settings).screen_colours)
@@ -101,7 +103,7 @@ def test_units_keep_numbers_short():
 
 def test_rows_by_frames(series):
     assert [series.row_at(frame) for frame in (1, 2, 4, 6, 99)] == [0, 0, 2, 4, 4]
-    assert ContourSeries(hanging_chain().inventory).row_at(1) is None
+    assert ContourSeries(hanging_chain().inventory, ()).row_at(1) is None
 
 
 def test_connections_move_with_their_first_bodies(series):

@@ -69,10 +69,10 @@ def test_ball_hands_over_its_momentum(blender, tmp_path):
         velocity = results.balls.velocities_m_s[-1, 0, 2]
         assert impulses.sum() == pytest.approx(mass * (velocity - GRAVITY[2] * times[-1]), rel=1e-6)
         np.testing.assert_allclose(
-            results.frames.loads.body_contact_impulses_ns[:, 1].sum(axis=0),
+            results.frames.loads.body_contact_impulses_ns[:, 1].sum(axis=0, dtype=float),
             results.balls.impulses_ns[:, 0].sum(axis=0),
-            rtol=1e-9,
-            atol=1e-9 * impulses.sum(),
+            rtol=1e-7,  # frames are kept with seven digits
+            atol=1e-7 * impulses.sum(),
         )
 
 

@@ -116,6 +116,18 @@ def test_results_that_are_none_are_refused(recorded, tmp_path):
         bpy.ops.bda.load_results()
 
 
+def test_results_of_a_run_that_ended_before_its_end_are_shown(recorded):
+    import bpy
+
+    from bridge_demolition_addon.simulation.blender_events import contours_of
+
+    recording = contours_of(recorded.scene).recording
+    recorded.scene.bda.results_path = str(recording.folder)  # its results were not written yet
+    assert bpy.ops.bda.load_results() == {"FINISHED"}
+    series = contours_of(recorded.scene).series
+    assert len(series) == recording.recorded_frames and series.recorded is not recording.frames
+
+
 def test_pictures_by_the_button(recorded, tmp_path):
     import bpy
 
