@@ -57,8 +57,15 @@ def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Containe
                 np.lib.format.write_array(file, values, allow_pickle=False)
 
 
-def read_archive(path: Path) -> dict[str, np.ndarray]:
+def read_archive(path: Path, *, mapped: bool = True) -> dict[str, np.ndarray]:
     """Read all arrays of an archive by their names, and check that they are as they were written.
+
+    Parameters
+    ----------
+    path : Path
+        The archive.
+    mapped : bool
+        Whether large arrays are mapped. What has mapped a file crashes if another program empties it in its place.
 
     Raises
     ------
@@ -67,12 +74,12 @@ def read_archive(path: Path) -> dict[str, np.ndarray]:
     """
     with path.open("rb") as file, zipfile.ZipFile(file) as archive:
         members = [each for each in archive.infolist() if each.filename.endswith(_ENDING)]
-        return {each.filename.removesuffix(_ENDING): _array(file, archive, each) for each in members}
+        return {each.filename.removesuffix(_ENDING): _array(file, archive, each, mapped) for each in members}
 
 
-def _array(file: BinaryIO, archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
+def _array(file: BinaryIO, archive: zipfile.ZipFile, member: zipfile.ZipInfo, mapped: bool) -> np.ndarray:
     with archive.open(member) as content:
-        if member.compress_type != zipfile.ZIP_STORED or member.file_size < _MAPPED_FROM:
+        if not mapped or member.compress_type != zipfile.ZIP_STORED or member.file_size < _MAPPED_FROM:
             return np.lib.format.read_array(content, allow_pickle=False)
         read_header = _HEADER_READERS[np.lib.format.read_magic(content)]
         shape, is_fortran, dtype = read_header(content)

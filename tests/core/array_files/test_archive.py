@@ -57,6 +57,12 @@ def test_large_arrays_are_mapped_and_aligned(path):
         assert found[name].ctypes.data % 64 == 0, name
 
 
+def test_arrays_can_be_read_instead(path):
+    found = read_archive(path, mapped=False)
+    path.write_bytes(b"")  # which would end a process that has mapped it
+    assert same(found)
+
+
 def test_the_same_arrays_give_the_same_file(path, tmp_path):
     write_archive(tmp_path / "again.npz", ARRAYS, PACKED)
     assert (tmp_path / "again.npz").read_bytes() == path.read_bytes()

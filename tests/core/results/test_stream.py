@@ -118,6 +118,18 @@ def test_a_stream_in_the_place_of_another_leaves_its_results(tmp_path):
     after.remove()
 
 
+@pytest.mark.parametrize("name", [RESULTS_FILE, FRAMES_FILE])
+def test_results_that_are_read_outlive_their_files(tmp_path, name):
+    stream = streamed(tmp_path, flying_shards(300, 30))
+    stream.results().save(tmp_path / RESULTS_FILE)
+    digest = result_digest(stream.results())
+    read = load_results(tmp_path / name, mapped=False)
+    for path in tmp_path.iterdir():
+        if path.name in (name, BALLS_FILE, INVENTORY_FILE):
+            path.write_bytes(b"")  # which would end a process that has mapped them
+    assert result_digest(read) == digest
+
+
 @pytest.mark.parametrize("missing", [INVENTORY_FILE, FRAMES_FILE])
 def test_frames_that_cannot_be_read_are_named(tmp_path, missing):
     streamed(tmp_path, hanging_chain())
