@@ -175,6 +175,8 @@ def _left_arrays(path: Path, mapped: bool) -> dict[str, np.ndarray]:
         return arrays | dict(named_arrays(BallHistory.unknown()))
     check_file(balls)
     substeps = stored_rows(balls) if mapped else stored_rows(balls).copy()
+    if not len(substeps):
+        return arrays | dict(named_arrays(BallHistory.unknown()))
     end_s = frames["times_s"][-1] if len(frames) else 0.0
     return arrays | columns(substeps[: np.searchsorted(substeps["ball_times_s"], end_s, side="right")])
 

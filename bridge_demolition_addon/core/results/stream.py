@@ -63,20 +63,17 @@ class FrameStream(Sequence[Frame]):
         OutputError
             They cannot be written. Those before them stay.
         """
-        if len(balls.times_s):  # first, so that no whole frame is without them
-            arrays = {name: values for name, values in named_arrays(balls) if name != "balls"}
-            if self._substeps is None:
-                self._substeps = GrowingTable(self._folder / BALLS_FILE, _row_type(arrays, np.float64))
-            self._substeps.append(_rows(arrays, self._substeps.row_type))
         arrays = {name: np.asarray(values)[None] for name, values in named_arrays(frame)}
         if self._frames is None:
-            self._frames = GrowingTable(self._folder / FRAMES_FILE, _row_type(arrays, _FRACTIONS))
+            self._begin(arrays)
+        if len(balls.times_s):  # first, so that no whole frame is without them
+            self._substeps.append(_rows(_substeps(balls), self._substeps.row_type))
         self._frames.append(_rows(arrays, self._frames.row_type))
 
     def results(self) -> Results:
         """Return everything so far, mapped: only what is looked at is read. There has to be a frame."""
         balls = BallHistory.unknown()
-        if self._substeps is not None:
+        if self._substeps:
             balls = balls_of(columns(self._substeps.rows()) | {"balls": self._balls})
         return Results(self._reading, self._inventory, frames_of(columns(self._frames.rows())), balls)
 
@@ -92,6 +89,14 @@ class FrameStream(Sequence[Frame]):
         for table in self._tables:
             table.discard()
 
+    def _begin(self, arrays: Mapping[str, np.ndarray]) -> None:
+        """Make all files with the first frame: the folder may be moved later, and they with it."""
+        if len(self._balls):
+            nothing = np.zeros((0, len(self._balls), 3))
+            substeps = _substeps(BallHistory(self._balls, np.zeros(0), nothing, nothing))
+            self._substeps = GrowingTable(self._folder / BALLS_FILE, _row_type(substeps, np.float64))
+        self._frames = GrowingTable(self._folder / FRAMES_FILE, _row_type(arrays, _FRACTIONS))
+
     def _remove_inventory(self) -> None:
         if self._frames is not None and self._frames.is_in_place:  # or the folder is elsewhere, or another one
             (self._folder / INVENTORY_FILE).unlink(missing_ok=True)
@@ -99,6 +104,11 @@ class FrameStream(Sequence[Frame]):
     @property
     def _tables(self) -> list[GrowingTable]:
         return [table for table in (self._frames, self._substeps) if table is not None]
+
+
+def _substeps(balls: BallHistory) -> dict[str, np.ndarray]:
+    """Return the arrays (s, …) of a history by their names in the files."""
+    return {name: values for name, values in named_arrays(balls) if name != "balls"}
 
 
 def _row_type(arrays: Mapping[str, np.ndarray], fractions: type[np.floating]) -> np.dtype:

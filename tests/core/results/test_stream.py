@@ -114,7 +114,7 @@ def test_a_stream_in_the_place_of_another_leaves_its_results(tmp_path):
     digest = result_digest(before)
     after = streamed(tmp_path, replace(hanging_chain(), balls=BallHistory.unknown()), 2)
     assert result_digest(before) == digest
-    assert len(load_results(tmp_path).frames) == 2 and not (tmp_path / BALLS_FILE).exists()
+    assert len(load_results(tmp_path).frames) == 2 and not len(load_results(tmp_path).balls.times_s)
     after.remove()
 
 
