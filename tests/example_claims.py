@@ -43,6 +43,18 @@ I235_THIRD_MAY_FALL = {
 
 CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
     "i235_one_span": I235_HIT | {"hit_deck_down_share": (0.7, 1.0)},  # 0.82 to 1
+    "i235_steps": {  # over 20 seeds
+        "moved_before_m": (0.0, 1e-3),
+        "broken_before": (0, 0),
+        "lowest_shard_m": (0.0, MOST),  # 0.04 to 0.12: nobody falls through the ground
+        "broken_by_jackhammer": (20, MOST),  # 67 to 163
+        "broken_by_first_fall": (3, MOST),  # 12 to 114
+        "broken_later": (80, MOST),  # 193 to 451
+        "hits_of_first_fall": (1, MOST),  # 1 to 7
+        "hits_of_second_fall": (1, MOST),  # 1 to 7
+        # Animation lifts the ball in between: nothing hits it.
+        "hits_while_lifted": (0, 0),
+    },
     "i235_three_spans_between_decks": I235_HIT
     | I235_OTHERS
     | I235_THIRD_MAY_FALL
