@@ -114,15 +114,18 @@ def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: 
 
 
 def _connections(results: Results) -> dict[str, Any]:
-    intact = results.frames.intact.sum(axis=1)
+    """How many there are, and how many hold in the first frame, in each in which that changes, and in the last."""
+    count, intact = len(results.inventory.connection_names), results.frames.intact.sum(axis=1)
+    changed = np.flatnonzero(np.diff(intact, prepend=-1))
+    shown = np.union1d(changed, len(intact) - 1)
     return {
-        "count": len(results.inventory.connection_names),
+        "count": count,
         "intact": int(intact[-1]),
-        "broken": int(len(results.inventory.connection_names) - intact[-1]),
+        "broken": int(count - intact[-1]),
         "over_time": {
-            "time_s": results.frames.time_s.tolist(),
-            "intact": intact.tolist(),
-            "broken": (len(results.inventory.connection_names) - intact).tolist(),
+            "time_s": results.frames.time_s[shown].tolist(),
+            "intact": intact[shown].tolist(),
+            "broken": (count - intact[shown]).tolist(),
         },
     }
 
