@@ -296,7 +296,8 @@ def shown(value: Any) -> str:
     if isinstance(value, Integral) and abs(value) > 2**63:
         return "a whole number of more than 64 bits"
     if isinstance(value, str):
-        return json.dumps(_shortened(value), ensure_ascii=False)
+        letters = value.encode(errors="backslashreplace").decode()  # halves of letters cannot be written
+        return json.dumps(_shortened(letters), ensure_ascii=False)
     if isinstance(value, list | tuple):
         return f"a list of length {len(value)}"
     if isinstance(value, dict):

@@ -33,10 +33,13 @@ class Kind(StrEnum):
     CRANE = "crane"
 
 
+_KINDS = tuple(Kind)
+
+
 def kind_of(body: bpy.types.Object) -> Kind:
     """Return what a body stands for; one without a mark is a shard where it can move, and ground where it cannot."""
-    if _KIND in body:
-        return Kind(body[_KIND])
+    if (mark := body.get(_KIND)) in _KINDS:
+        return Kind(mark)
     return Kind.SHARD if body.rigid_body.type == "ACTIVE" else Kind.GROUND
 
 

@@ -65,7 +65,7 @@ def test_wrong_arrays_are_named(tmp_path, name, changed, said):
     "changes, said",
     [
         ({"title": 3}, "title: is 3"),
-        ({"title": "\udcfc"}, "title: is"),
+        ({"title": "\udcfc"}, 'title: is "\\\\udcfc"'),
         ({"completed": "no"}, 'completed: is "no"'),
         ({"blender": None}, "blender: is missing"),
         ({"density_kg_m3": "2400"}, 'density_kg_m3: is "2400"'),

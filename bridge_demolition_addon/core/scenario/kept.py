@@ -9,7 +9,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from typing import Any
 
-from ..schema import Table, key_fields, value_type
+from ..errors import ScenarioError
+from ..schema import Table, key_fields, shown, value_type
 
 
 def tables_text(tables: Iterable[Table]) -> str:
@@ -23,10 +24,14 @@ def tables_from_text(text: str, classes: Iterable[type[Table]]) -> tuple[Table, 
     Raises
     ------
     ScenarioError
-        A key has a value that it cannot have.
+        A key has a value that it cannot have, or the text is no such list.
     """
     named = {each.table: each for each in classes}
-    return tuple(table_from_values(named[values.pop("table")], values) for values in values_from_text(text, []))
+    kept = values_from_text(text, [])
+    try:
+        return tuple(table_from_values(named[values.pop("table")], values) for values in kept)
+    except (AttributeError, KeyError, TypeError) as error:
+        raise ScenarioError(f"what this file keeps of its scenario was edited: {error}; undo that") from error
 
 
 def table_values(table: Table) -> dict[str, Any]:
@@ -53,5 +58,19 @@ def values_text(values: Any) -> str:
 
 
 def values_from_text(text: str, nothing: Any) -> Any:
-    """Return the values in JSON; `nothing` where the text is empty."""
-    return json.loads(text) if text else nothing
+    """Return the values in JSON; `nothing` where the text is empty.
+
+    Raises
+    ------
+    ScenarioError
+        The text is none that `values_text` gives, as where it was edited by hand.
+    """
+    if text == "":
+        return nothing
+    try:
+        values = json.loads(text)
+    except (TypeError, ValueError) as error:
+        raise ScenarioError(f"what this file keeps of its scenario was edited: {error}; undo that") from error
+    if not isinstance(values, type(nothing)):
+        raise ScenarioError(f"what this file keeps of its scenario was edited: found {shown(values)}; undo that")
+    return values

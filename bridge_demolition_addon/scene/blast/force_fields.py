@@ -60,7 +60,7 @@ def force_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
 
 def force_objects(scene: bpy.types.Scene) -> dict[bpy.types.Object, bpy.types.Object]:
     """The force object of each body that has one."""
-    return {each[_BODY]: each for each in _all(scene) if each[_BODY] is not None}
+    return {each[_BODY]: each for each in _all(scene) if isinstance(each[_BODY], bpy.types.Object)}
 
 
 def has_other_fields(scene: bpy.types.Scene) -> bool:

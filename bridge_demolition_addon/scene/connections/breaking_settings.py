@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...core.mechanics.strength import Ductility, Strength
+from ..custom_properties import kept_number, kept_numbers
 
 _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
@@ -61,9 +62,9 @@ def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] 
 
     Where any of m connections has a strength of its own, the strength has arrays (m,) float.
     """
-    strength = Strength(*scene[_STRENGTH]) if _STRENGTH in scene else None
+    strength = Strength(*kept_numbers(scene, _STRENGTH, astuple(_UNBREAKABLE))) if _STRENGTH in scene else None
     if any(_STRENGTH in each for each in connections):
         other = astuple(strength or _UNBREAKABLE)
-        strength = Strength(*np.array([tuple(each.get(_STRENGTH, other)) for each in connections]).T)
-    ductility = Ductility(*scene[_DUCTILITY]) if _DUCTILITY in scene else None
-    return Breaking(strength, scene.get(_WARM_UP, 0.0), ductility, scene.get(_DAMPING, 0.0))
+        strength = Strength(*np.array([kept_numbers(each, _STRENGTH, other) for each in connections]).T)
+    ductility = Ductility(*kept_numbers(scene, _DUCTILITY, (0.0, 0.0))) if _DUCTILITY in scene else None
+    return Breaking(strength, kept_number(scene, _WARM_UP, 0.0), ductility, kept_number(scene, _DAMPING, 0.0))

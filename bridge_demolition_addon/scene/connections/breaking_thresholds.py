@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ...core.timing.time_step import TimeStep
+from ..custom_properties import kept_number
 from ..time_scale import time_step_at
 from .constraints import connections_of
 
@@ -34,9 +35,9 @@ def rewrite_thresholds(scene: bpy.types.Scene) -> bool:
     step = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start)
     changed = False
     for connection in connections_of(scene):
-        force = connection.get(_FORCE)
-        if force is None:
+        if _FORCE not in connection:
             continue
+        force = kept_number(connection, _FORCE, 0.0)
         constraint, impulse = connection.rigid_body_constraint, float(np.float32(step.impulse(force)))
         if constraint.breaking_threshold != impulse:
             constraint.breaking_threshold = impulse

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.structure.connections import GROUND, Connections
 from ..bodies import bodies_of
+from ..custom_properties import kept_number, kept_numbers
 from ..naming import make_named, numbered_names
 
 _SYMBOL_SIZE_M = 0.1
@@ -57,19 +58,19 @@ def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np
     second_moments_m4 : (m, 2, 2) float
         Second moments of area.
     """
-    areas = np.array([connection.get(_AREA, 0.0) for connection in connections], float)
+    areas = np.array([kept_number(connection, _AREA, 0.0) for connection in connections], float)
     normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
     square = np.eye(2).ravel() / 12.0
     moments = [
-        connection.get(_SECOND_MOMENTS, area * area * square)
+        kept_numbers(connection, _SECOND_MOMENTS, area * area * square)
         for connection, area in zip(connections, areas, strict=True)
     ]
-    return areas, normals, np.array([list(each) for each in moments], float).reshape(-1, 2, 2)
+    return areas, normals, np.array(moments, float).reshape(-1, 2, 2)
 
 
 def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
     if _NORMAL in connection:
-        return tuple(connection[_NORMAL])
+        return kept_numbers(connection, _NORMAL, (0.0, 0.0, 1.0))
     constraint = connection.rigid_body_constraint
     between = constraint.object2.matrix_world.translation - constraint.object1.matrix_world.translation
     return tuple(between.normalized()) if between.length else (0.0, 0.0, 1.0)

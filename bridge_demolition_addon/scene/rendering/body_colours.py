@@ -123,9 +123,11 @@ def show_colours(scene: bpy.types.Scene) -> None:
 def show_materials(scene: bpy.types.Scene) -> None:
     """Put back what `show_colours` has replaced, if it has."""
     if _LOOK in scene:
-        for name, value in scene[_LOOK].to_dict().items():
-            path, _, last = name.rpartition(".")
-            setattr(scene.path_resolve(path), last, value)
+        kept = scene[_LOOK].to_dict() if hasattr(scene[_LOOK], "to_dict") else {}  # it can be edited by hand
+        for path, settings in _PLAIN.items():
+            for name in settings:
+                if (value := kept.get(f"{path}.{name}")) is not None:
+                    setattr(scene.path_resolve(path), name, value)
         del scene[_LOOK]
     for layer in scene.view_layers:
         if _HAD_MATERIAL in layer:

@@ -14,6 +14,7 @@ from ...core.scenario.kept import values_from_text, values_text
 from ...core.sequence.tool_paths import lift_path
 from ...core.timing.timeline import Timeline
 from ..bodies import Kind, create_body, mesh_of, set_surface
+from ..custom_properties import edited
 from ..world import START_FRAME
 from .keyframes import key_values
 
@@ -108,7 +109,10 @@ def plan_lift(
 def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """Return first frame, shares of time (k,) float and end (3,) float of every planned lift."""
     lifts = values_from_text(ball.get(_LIFTS, ""), [])
-    return [(frame, np.array(shares), np.array(end)) for frame, shares, end in lifts]
+    try:
+        return [(int(frame), np.array(shares, float), np.array(end, float)) for frame, shares, end in lifts]
+    except (TypeError, ValueError) as error:
+        raise edited(ball, _LIFTS, "frames, shares and places of lifts") from error
 
 
 def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:

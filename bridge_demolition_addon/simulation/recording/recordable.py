@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ...core.errors import SimulationError
+from ...scene.bodies import bodies_of
 from ...scene.connections.constraints import loose_connections
 
 
@@ -14,11 +15,13 @@ def check_recordable(scene: bpy.types.Scene) -> None:
     Raises
     ------
     SimulationError
-        It has no rigid-body world or one in which nothing moves, other units than metres, or connections without a
-        body.
+        It has no rigid-body world, or one without bodies or in which no time passes, other units than metres, or
+        connections without a body.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
+    if not bodies_of(scene):
+        raise SimulationError(f"the rigid-body world of scene {scene.name!r} has no bodies: build a demolition first")
     if not scene.rigidbody_world.enabled:
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
     if scene.rigidbody_world.time_scale == 0.0:

@@ -1,0 +1,47 @@
+"""Custom properties: Blender data keeps in them what it was made with, and anyone can edit them in Blender's panel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+
+from ..core.errors import SimulationError
+from ..core.schema import LARGEST_NUMBER
+
+
+def kept_numbers(holder: bpy.types.ID, name: str, default: Sequence[float]) -> tuple[float, ...]:
+    """Return the numbers that a property holds, as many as its default, which is returned where there is none.
+
+    Raises
+    ------
+    SimulationError
+        It holds something else.
+    """
+    value = holder.get(name, default)
+    try:
+        numbers = tuple(map(float, value))
+    except (TypeError, ValueError):
+        numbers = ()
+    if len(numbers) != len(default):
+        raise edited(holder, name, f"{len(default)} numbers")
+    return numbers
+
+
+def kept_number(holder: bpy.types.ID, name: str, default: float) -> float:
+    """Return the number that a property holds, or the default where there is none.
+
+    Raises
+    ------
+    SimulationError
+        It holds something else.
+    """
+    value = holder.get(name, default)
+    if not isinstance(value, int | float) or not abs(value) <= LARGEST_NUMBER:
+        raise edited(holder, name, "a number that something can have")
+    return float(value)
+
+
+def edited(holder: bpy.types.ID, name: str, wanted: str) -> SimulationError:
+    """Return the error that a property does not hold what is wanted of it."""
+    return SimulationError(f"{holder.name}: its custom property {name} was edited: expected {wanted}; undo that")

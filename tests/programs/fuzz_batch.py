@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Play sequences of steps in this process, and tell of each step. Usage: … PLAYER FOLDER [--bare]
+
+Each line of standard input is a sequence as it is drawn, in JSON; news of it come as lines of JSON.
+"""
+
+import faulthandler
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from fuzzing.players import player_named
+from fuzzing.sequences import Drawn, play, telling
+
+
+def main(name: str, folder: str, *options: str) -> None:
+    """Play all sequences, each in a folder of its own."""
+    player_class = player_named(name)
+    with telling(Path(folder) / "printed.log") as tell:
+        faulthandler.enable()
+        for line in sys.stdin:
+            with tempfile.TemporaryDirectory(dir=folder, ignore_cleanup_errors=True) as place:
+                os.chdir(place)
+                player = player_class(Path(place), bare="--bare" in options)
+                play(player, Drawn(*json.loads(line)).steps(player_class), tell)
+                player.end()
+                os.chdir(folder)
+            tell({"done": True})
+    os._exit(0)  # Blender's own end may hang
+
+
+main(*sys.argv[1:])
