@@ -184,7 +184,8 @@ class BlenderPlayer(Player):
         return random.choice(("", "//made", "made", str(self.folder / "made"), str(self.folder / "no" / "made.x"), "/"))
 
     def _do_without(self, button: str, random: Random) -> str:
-        """Do what is left of a button in bare Blender."""
+        """Do what is left of a button in bare Blender, which brings the scene up to date before any operator."""
+        bpy.context.view_layer.update()
         scene = bpy.context.scene
         if button == "build_scenario" and not scene.rigidbody_world and bpy.context.mode == "OBJECT":
             scenario = read_scenario(random.choice(self.scenarios))
