@@ -51,8 +51,10 @@ class FrameStream(Sequence[Frame]):
     def __len__(self) -> int:
         return 0 if self._frames is None else len(self._frames)
 
-    def __getitem__(self, row: int) -> Frame:
-        """Return a frame as it is kept."""
+    def __getitem__(self, row: int | slice) -> Frame | list[Frame]:
+        """Return a frame as it is kept, or several."""
+        if isinstance(row, slice):
+            return [self[each] for each in range(len(self))[row]]
         return frames_of(columns(self._frames.row(range(len(self))[row])))[0]
 
     def append(self, frame: Frame, balls: BallHistory) -> None:

@@ -144,6 +144,12 @@ def test_a_run_that_was_killed_before_its_first_frame_has_no_results(tmp_path):
         load_results(tmp_path)
 
 
+def test_a_part_of_the_frames_is_a_list(tmp_path):
+    stream = streamed(tmp_path, hanging_chain())
+    assert [frame.number for frame in stream[1:]] == [3, 4, 5, 6]
+    assert [frame.number for frame in stream[-1:0:-2]] == [6, 4] and stream[5:] == []
+
+
 @pytest.mark.parametrize("row", [5, -6])
 def test_there_are_no_frames_beyond_the_last(tmp_path, row):
     stream = streamed(tmp_path, hanging_chain())
