@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 
@@ -33,6 +34,9 @@ _LARGEST_FRICTION = 10.0
 
 _CHECKED_POINTS = 200
 """Contact points looked at in a check; a wrong offset is wrong in the first of them."""
+
+_MANIFOLD_END = struct.Struct("<QQi")
+"""Both bodies of a contact and the number of its points, which follow each other."""
 
 _UNIT = 1e-6
 """How far a unit vector's length, computed by Bullet in double precision, may be from 1."""
@@ -133,17 +137,16 @@ class ContactReader:
         """
         manifolds = self._checked_manifolds()
         layout = self._layout.manifold
-        *bodies, counts = gather_words(manifolds, layout.body_a, 3)
-        counts = counts.astype(np.uint32).astype(np.int32)
+        counts = gather_integers(manifolds + np.uint64(layout.count))
         if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
             raise LayoutError("a contact has more than four points")
         used = np.flatnonzero(counts)
-        counts = counts[used]
-        rows = np.repeat(used, counts)
+        manifolds, counts = manifolds[used], counts[used]
+        rows = np.repeat(np.arange(len(used)), counts)
         number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
         points = manifolds[rows] + (layout.points + number * layout.point.size).astype(np.uint64)
         values = gather_doubles_at(points + self._offsets)
-        return ContactCopies(values, np.stack([each[rows] for each in bodies]))
+        return ContactCopies(values, gather_words(manifolds, layout.body_a, 2).take(rows, axis=1))
 
     def contacts(self, copies: Sequence[ContactCopies]) -> Contacts:
         """Contact points that carry a load, also those of sleeping bodies, which keep their last one.
@@ -232,11 +235,13 @@ def check_contacts(layout: Layout, manifolds: np.ndarray, bodies: set[int]) -> N
     """
     left = _CHECKED_POINTS
     for manifold in manifolds.tolist():
-        pair = [read_pointer(manifold + side) for side in (layout.manifold.body_a, layout.manifold.body_b)]
-        count = read_value(manifold + layout.manifold.count, "i")
+        raw = read(manifold + layout.manifold.body_a, _MANIFOLD_END.size)
+        if raw is None:
+            raise LayoutError("a contact cannot be read")
+        *pair, count = _MANIFOLD_END.unpack(raw)
         if not bodies.issuperset(pair) or pair[0] == pair[1] or not 0 <= count <= _MOST_POINTS:
             raise LayoutError("a contact does not name two bodies of the scene")
-        frictions = [read_value(body + layout.body.friction, "d") for body in pair]
+        frictions = [read_value(body + layout.body.friction, "d") for body in pair] if count else []
         for number in range(count):
             _check_point(layout, manifold + layout.manifold.points + number * layout.manifold.point.size, frictions)
         left -= count

@@ -158,7 +158,8 @@ _INTEGERS = np.asarray(_AddressSpace("<i4", 4))
 
 
 def _indices(addresses: np.ndarray | int, item_size: int) -> np.ndarray:
-    return (np.asarray(addresses).astype(np.int64) - _LOWEST) // item_size
+    shift = item_size.bit_length() - 1  # all sizes are powers of two
+    return (np.asarray(addresses).astype(np.int64) >> shift) - (_LOWEST >> shift)
 
 
 def _linux_reader() -> Callable[[int, int], bytes | None]:

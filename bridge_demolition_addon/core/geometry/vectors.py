@@ -60,9 +60,11 @@ def by_component(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 def cross_by_component(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Cross products (..., 3) of vectors (..., 3), each component of which lies together in memory."""
-    x, y, z = (first[..., axis] for axis in range(3))
-    a, b, c = (second[..., axis] for axis in range(3))
-    return by_component(y * c - z * b, z * a - x * c, x * b - y * a)
+    product = np.empty((3, *np.broadcast_shapes(first.shape, second.shape)[:-1]))
+    for axis, (one, other) in enumerate(((1, 2), (2, 0), (0, 1))):
+        np.multiply(first[..., one], second[..., other], out=product[axis])
+        product[axis] -= first[..., other] * second[..., one]
+    return np.moveaxis(product, 0, -1)
 
 
 def taken(vectors: np.ndarray, rows: np.ndarray) -> np.ndarray:

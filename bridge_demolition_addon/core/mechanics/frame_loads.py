@@ -241,9 +241,10 @@ class LoadAccumulator:
         self, loads: SubstepLoads, magnitudes: np.ndarray, body_magnitudes: np.ndarray, sums: np.ndarray
     ) -> None:
         for substep in range(len(magnitudes)):
-            higher = np.flatnonzero(magnitudes[substep] > self._connection_peaks)
-            self._connection_peak_forces[higher] = loads.connection_forces_n[substep][higher]
-            self._connection_peak_moments[higher] = loads.connection_moments_nm[substep][higher]
+            higher = magnitudes[substep] > self._connection_peaks
+            if higher.any():
+                np.copyto(self._connection_peak_forces, loads.connection_forces_n[substep], where=higher[:, None])
+                np.copyto(self._connection_peak_moments, loads.connection_moments_nm[substep], where=higher[:, None])
             for peaks, values in (
                 (self._connection_peaks, magnitudes),
                 (self._body_peaks, body_magnitudes),

@@ -164,10 +164,28 @@ def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Secti
     return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
 
 
+def sections_at(sections: Sections, rows: np.ndarray) -> Sections:
+    """Some of the sections (k,)."""
+    return Sections(*(getattr(sections, item.name)[rows] for item in fields(Sections)))
+
+
 def strength_at(strength: Strength, rows: np.ndarray) -> Strength:
     """The strength of some connections (k,), of a strength for all or for each of them."""
     values = (np.asarray(getattr(strength, item.name)) for item in fields(Strength))
     return Strength(*(value[rows] if value.ndim else value for value in values))
+
+
+def largest_utilisations(sections: Sections, strength: Strength) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds (m,) and (m,) of `utilisation` by a force of 1 N and by a moment of 1 N·m, however they are directed.
+
+    A force F and a moment M together use no more than F times the first plus M times the second, as neither of the
+    edge stresses nor shear is larger than the sum of what the two make alone, and √(edge² + shear²) is a length.
+    """
+    weakest_pa = np.minimum(strength.tension_pa, strength.compression_pa)
+    edge_by_moment = length(1.0 / sections.bending_moduli_m3) / np.minimum(strength.bending_pa, strength.compression_pa)
+    shear_by_moment = 1.0 / sections.torsion_moduli_m3 / strength.torsion_pa
+    by_force = np.stack((1.0 / weakest_pa / sections.areas_m2, 1.0 / strength.shear_pa / sections.areas_m2), axis=-1)
+    return length(by_force), length(np.stack((edge_by_moment, shear_by_moment), axis=-1))
 
 
 def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry.vectors import outer, symmetric_eigenvalues
+from ..geometry.vectors import cross_by_component, symmetric_eigenvalues
 
 
 def average_stress(
@@ -81,7 +81,7 @@ def average_stress_of_moments(
     ----------
     Love (1927), § 123: (1/V) ∮ t ⊗ r dA. With tractions t = s n and M = ∫ r × s n dA, ∫ s r dA = n × M within the face.
     """
-    return _averaged(bodies, normals, np.cross(normals, moments), volumes)
+    return _averaged(bodies, normals, cross_by_component(normals, moments), volumes)
 
 
 def von_mises(stresses: np.ndarray) -> np.ndarray:
@@ -100,9 +100,10 @@ def principal_stresses(stresses: np.ndarray) -> np.ndarray:
 
 def _averaged(bodies: np.ndarray, first: np.ndarray, second: np.ndarray, volumes: np.ndarray) -> np.ndarray:
     """Symmetric part of Σ first ⊗ second (k, 3) over the loads of each body, divided by its volume, (n, 3, 3)."""
-    count = len(volumes)
-    dyads = outer(first, second).reshape(-1, 9)
-    entries = 9 * np.asarray(bodies)[:, None] + np.arange(9)
-    sums = np.bincount(entries.ravel(), dyads.ravel(), 9 * count).reshape(count, 3, 3)
+    count, bodies = len(volumes), np.asarray(bodies)
+    sums = np.empty((count, 3, 3))
+    rows, columns = np.ascontiguousarray(first.T), np.ascontiguousarray(second.T)
+    for row, column in np.ndindex(3, 3):
+        sums[:, row, column] = np.bincount(bodies, rows[row] * columns[column], count)
     solid = np.where(np.asarray(volumes) > 0.0, volumes, np.nan)
     return (sums + sums.transpose(0, 2, 1)) / (2.0 * solid[:, None, None])

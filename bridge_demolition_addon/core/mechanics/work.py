@@ -237,6 +237,7 @@ class WorkAccumulator:
 
     def _of_pairs(self, between: PairImpulses, mean: Motion, free: np.ndarray) -> PairWork:
         """Return what is taken away between bodies, what tools did, and what is made and by which body it is got."""
+        substeps = between.of_substeps(len(free))
         sums = PairSums(between.pairs, between.substeps, free.shape)
         first, second = sums.first, sums.second
         # The velocity of a point p of a body is v + ω × (p - c): of what it has at the origin and of ω.
@@ -251,20 +252,19 @@ class WorkAccumulator:
         is_free = free.ravel()
         first_free, second_free = is_free[first], is_free[second]
         total[~(first_free | second_free)] = 0.0
-        made = total > 0.0
+        rows = np.flatnonzero(total > 0.0)
         gains = [
-            np.maximum(sign * _dot(loads, moving), 0.0) * are_free
+            np.maximum(sign * _dot(loads, moving).take(rows), 0.0) * are_free.take(rows)
             for sign, moving, are_free in ((1.0, of_first, first_free), (-1.0, of_second, second_free))
         ]
-        both = gains[0] + gains[1]
-        share = np.divide(total, both, out=np.zeros_like(both), where=made & (both > 0.0))
-        substeps = between.of_substeps(len(free))
-        taken = np.minimum(total, 0.0)
+        both, made, taken = gains[0] + gains[1], total.take(rows), np.minimum(total, 0.0)
+        share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
+        starts = np.searchsorted(rows, [each.start for each in substeps] + [len(total)]).tolist()
         return PairWork(
             taken_j=[float(taken[each].sum()) for each in substeps],
-            made_j=[float(total[each][made[each]].sum()) for each in substeps],
+            made_j=[float(made[start:end].sum()) for start, end in itertools.pairwise(starts)],
             made_by_body_j=[
-                np.bincount(bodies, share * gain, free.size).reshape(free.shape)
+                np.bincount(bodies.take(rows), share * gain, free.size).reshape(free.shape)
                 for bodies, gain in zip((first, second), gains, strict=True)
             ],
             tools_j=_of_tools(sums, loads, motion, is_free, substeps),

@@ -9,7 +9,7 @@ import numpy as np
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
-from ...core.geometry.vectors import by_component, taken, transformed, transformed_back
+from ...core.geometry.vectors import by_component, length, taken, transformed, transformed_back
 from ...core.mechanics import forces
 from ...core.mechanics.frame_loads import SubstepLoads
 from ...core.mechanics.section_forces import section_axes
@@ -27,6 +27,11 @@ class LoadReader:
         Whether each body can move at all.
     points_m, normals : (m, 3) float
         Where the connections are now, and unit vectors from their first to their second bodies.
+
+    Attributes
+    ----------
+    lever_arms_m : (m,) float
+        From the centres of the bodies on which loads are read to the connections, which stay where they are on these.
     """
 
     def __init__(
@@ -41,6 +46,7 @@ class LoadReader:
         centres, rotations = world.positions()
         bodies = self._bodies
         self._local_points = by_component(*transformed_back(rotations[bodies], points_m - centres[bodies]).T)
+        self.lever_arms_m = length(self._local_points)
         self._local_axes = axes_in_bodies(section_axes(normals), bodies, rotations)
 
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:

@@ -16,10 +16,17 @@ import numpy as np
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
+from ...core.geometry.vectors import length
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
 from ...core.mechanics.section_cuts import SectionCuts, worst_around
 from ...core.mechanics.section_forces import SectionForces, section_forces
-from ...core.mechanics.strength import rectangular_sections, strength_at, utilisation
+from ...core.mechanics.strength import (
+    largest_utilisations,
+    rectangular_sections,
+    sections_at,
+    strength_at,
+    utilisation,
+)
 from ...core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 from ...core.results.frames import BallHistory
 from ...core.results.inventory import Inventory
@@ -124,6 +131,8 @@ class SubstepRecorder:
         self._events, self._work = events, work
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
+        if breaking.strength:
+            self._largest_utilisations = largest_utilisations(self._sections, breaking.strength)
         self._reinforcement = None
         if breaking.ductility:
             remaining = events.remaining_strength
@@ -275,21 +284,33 @@ class SubstepRecorder:
             self._world.release_connections()
         if not self._breaking.strength:
             return _NONE
+        rows = self._perhaps_overloaded(substep.snapshot)
+        if not len(rows):
+            return _NONE
         loads = self._loads([substep])[1].moment(0)
-        rows = self._overloaded(loads)
+        rows = self._overloaded(rows, loads)
         self._world.break_connections(rows)
         if self._reinforcement and len(rows):
             self._reinforcement.add(rows, loads.connection_points_m[rows])
         return rows
 
-    def _overloaded(self, loads: Moment) -> np.ndarray:
-        """Return the connections (k,) to break: overloaded alone and as parts of their cuts, and each the worst around.
+    def _perhaps_overloaded(self, snapshot: Snapshot) -> np.ndarray:
+        """Return the intact connections (k,) whose forces and moments are large enough for it, whatever they act on."""
+        by_force, by_moment = self._largest_utilisations
+        force, torque = length(snapshot.forces_n), length(snapshot.torques_nm)
+        most = (by_force + by_moment * self._reader.lever_arms_m) * force + by_moment * torque
+        return np.flatnonzero((most * (1.0 + _SINGLE_PRECISION) > self._events.remaining_strength) & self._intact)
+
+    def _overloaded(self, rows: np.ndarray, loads: Moment) -> np.ndarray:
+        """Return which connections (r,) break (k,): overloaded alone and in their cuts, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
         """
         strength, inventory, left = self._breaking.strength, self._inventory, self._events.remaining_strength
-        forces = self._section_forces(loads, np.arange(len(self._intact)))
-        rows = np.flatnonzero((utilisation(forces, self._sections, strength) > left) & self._intact)
+        used = utilisation(
+            self._section_forces(loads, rows), sections_at(self._sections, rows), strength_at(strength, rows)
+        )
+        rows = rows[used > left[rows]]
         if not len(rows):
             return rows
         cut_loads, areas, second_moments = self._cuts.sections(

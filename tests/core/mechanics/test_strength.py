@@ -11,6 +11,7 @@ from bridge_demolition_addon.core.mechanics.strength import (
     MATERIALS,
     Ductility,
     Strength,
+    largest_utilisations,
     rectangular_sections,
     utilisation,
 )
@@ -189,3 +190,25 @@ def test_impossible_strengths_are_refused(value):
 def test_impossible_ductility_is_refused(share, elongation):
     with pytest.raises(ScenarioError, match="expected 0"):
         Ductility(share, elongation)
+
+
+def test_no_force_and_moment_use_more_than_the_bounds():
+    """Whatever their directions; and the bounds are no more than twice what the worst along an axis uses."""
+    random = np.random.default_rng(5)
+    count = 500
+    areas, moments = zip(*(rectangle(*sides) for sides in random.uniform(0.1, 3.0, (count, 2))), strict=True)
+    sections = rectangular_sections(np.concatenate(areas), np.concatenate(moments))
+    strength = Strength(*random.uniform(1e5, 1e8, (5, count)))
+    by_force, by_moment = largest_utilisations(sections, strength)
+
+    def used_by(force, moment):
+        return utilisation(SectionForces(force[:, 0], force[:, 1:], moment[:, 0], moment[:, 1:]), sections, strength)
+
+    for share in random.uniform(0.0, 1.0, 100):
+        directions = random.normal(size=(2, count, 3))
+        directions /= np.linalg.norm(directions, axis=-1)[..., None]
+        most = share * by_force + (1.0 - share) * by_moment
+        assert (used_by(share * directions[0], (1.0 - share) * directions[1]) <= (1.0 + 1e-12) * most).all()
+    none, axes = np.zeros((count, 3)), [np.tile(axis, (count, 1)) for axis in (*np.eye(3), *-np.eye(3))]
+    assert (by_force <= 2.0 * np.max([used_by(axis, none) for axis in axes], axis=0)).all()
+    assert (by_moment <= 2.0 * np.max([used_by(none, axis) for axis in axes], axis=0)).all()
