@@ -105,7 +105,8 @@ def symmetric_eigenvalues(matrices: np.ndarray) -> np.ndarray:
     ----------
     G. H. Golub, C. F. Van Loan (1996), Matrix Computations, 3rd edition, section 8.4.
     """
-    rest = np.array(matrices, float)
+    # The components of all matrices lie together in memory.
+    rest = np.moveaxis(np.array(np.moveaxis(matrices, (-2, -1), (0, 1)), float, order="C"), (0, 1), (-2, -1))
     for _ in range(_SWEEPS):
         for p, q in ((0, 1), (0, 2), (1, 2)):
             cosine, sine = _jacobi_rotation(rest[..., p, p], rest[..., q, q], rest[..., p, q])
@@ -141,6 +142,6 @@ def _jacobi_rotation(first: np.ndarray, second: np.ndarray, beside: np.ndarray) 
 
 def _turn(matrices: np.ndarray, p: int, q: int, cosine: np.ndarray, sine: np.ndarray) -> None:
     """Rotate rows p and q of matrices (..., 3, 3), in place."""
-    first, second = matrices[..., p, :].copy(), matrices[..., q, :].copy()
+    first, second = matrices[..., p, :].copy(order="K"), matrices[..., q, :].copy(order="K")
     matrices[..., p, :] = cosine[..., None] * first - sine[..., None] * second
     matrices[..., q, :] = sine[..., None] * first + cosine[..., None] * second

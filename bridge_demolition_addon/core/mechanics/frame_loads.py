@@ -233,9 +233,17 @@ class LoadAccumulator:
         return self._of_connections
 
     def _add_contacts(self, loads: SubstepLoads, by_contacts: np.ndarray) -> None:
-        for substep, impulses in enumerate(by_contacts):
+        substeps, count = by_contacts.shape[:2]
+        stresses = self._stresses(
+            loads.contact_pairs + count * loads.contact_substeps[:, None],
+            loads.contact_impulses_ns,
+            loads.contact_points_m,
+            loads.centres_m.reshape(-1, 3),
+            np.tile(self._volumes, substeps),
+        )
+        for impulses, stress in zip(by_contacts, stresses.reshape(substeps, count, 3, 3), strict=True):
             self._contact_impulses += impulses
-            self._contact_stress_impulses += self._stress_impulses_of_contacts(loads.moment(substep))
+            self._contact_stress_impulses += stress
 
     def _note_peaks(
         self, loads: SubstepLoads, magnitudes: np.ndarray, body_magnitudes: np.ndarray, sums: np.ndarray
@@ -258,7 +266,8 @@ class LoadAccumulator:
 
     def _stress_impulses_of_contacts(self, loads: Moment) -> np.ndarray:
         """Stresses (n, 3, 3) under the contacts of a sub-step times its length, Pa·s."""
-        return self._stresses(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m, loads.centres_m)
+        pairs, impulses, points = loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m
+        return self._stresses(pairs, impulses, points, loads.centres_m, self._volumes)
 
     def _stresses_of_connections(self, loads: Moment, forces: np.ndarray, moments: np.ndarray) -> np.ndarray:
         """Stresses (n, 3, 3) under forces and moments (m, 3) of the connections, where they are in a sub-step."""
@@ -269,17 +278,21 @@ class LoadAccumulator:
             np.concatenate((normals, -normals)),
             self._volumes,
         )
-        of_forces = self._stresses(self._pairs, forces, loads.connection_points_m, loads.centres_m)
-        return of_forces + self._of_solids(of_moments)
+        of_forces = self._stresses(self._pairs, forces, loads.connection_points_m, loads.centres_m, self._volumes)
+        return of_forces + _of_solids(of_moments, self._volumes)
 
-    def _stresses(self, pairs: np.ndarray, forces: np.ndarray, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    @staticmethod
+    def _stresses(
+        pairs: np.ndarray, forces: np.ndarray, points: np.ndarray, centres: np.ndarray, volumes: np.ndarray
+    ) -> np.ndarray:
         """Stresses under forces (k, 3) on the first bodies of pairs (k, 2), and their opposites on the second."""
         both, twice = np.concatenate((forces, -forces)), np.concatenate((points, points))
-        return self._of_solids(average_stress(pairs.T.ravel(), both, twice, centres, self._volumes))
+        return _of_solids(average_stress(pairs.T.ravel(), both, twice, centres, volumes), volumes)
 
-    def _of_solids(self, stresses: np.ndarray) -> np.ndarray:
-        """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
-        return np.where(self._volumes[:, None, None] > 0.0, stresses, 0.0)
+
+def _of_solids(stresses: np.ndarray, volumes: np.ndarray) -> np.ndarray:
+    """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
+    return np.where(volumes[:, None, None] > 0.0, stresses, 0.0)
 
 
 def _vectors(*shape: int) -> np.ndarray:

@@ -238,6 +238,8 @@ class WorkAccumulator:
     def _of_pairs(self, between: PairImpulses, mean: Motion, free: np.ndarray) -> PairWork:
         """Return what is taken away between bodies, what tools did, and what is made and by which body it is got."""
         substeps = between.of_substeps(len(free))
+        if not len(between.pairs):
+            return PairWork.none(len(free))
         sums = PairSums(between.pairs, between.substeps, free.shape)
         first, second = sums.first, sums.second
         # The velocity of a point p of a body is v + ω × (p - c): of what it has at the origin and of ω.
@@ -294,6 +296,12 @@ class PairWork:
     made_j: list[float]
     made_by_body_j: list[np.ndarray]
     tools_j: list[list[float]]
+
+    @classmethod
+    def none(cls, substeps: int) -> PairWork:
+        """Return the work where there is nothing between bodies."""
+        nothing = [0.0] * substeps
+        return cls(nothing, nothing, [], [nothing] * 2)
 
 
 def _of_tools(
