@@ -4,6 +4,8 @@ import os
 import sys
 from typing import NoReturn
 
+from .core.signals import interrupted_afterwards
+
 INTERRUPTED = 130
 
 
@@ -11,7 +13,8 @@ def main() -> NoReturn:
     """Run the command line; Ctrl-C also ends it without a word of Python's while it is being loaded."""
     try:
         _open_closed_streams()
-        from .cli.main import entry
+        with interrupted_afterwards():  # while they load, some libraries take an interrupt for a missing part
+            from .cli.main import entry
 
         entry()
     except KeyboardInterrupt:
