@@ -19,7 +19,9 @@ def main() -> NoReturn:
         entry()
     except KeyboardInterrupt:
         print("bda: interrupted", file=sys.stderr)
-        os._exit(INTERRUPTED)
+        from .cli.process_end import end_process
+
+        end_process(INTERRUPTED)
 
 
 def _open_closed_streams() -> None:

@@ -11,6 +11,7 @@ from types import ModuleType
 import pytest
 
 import bridge_demolition_addon
+from bridge_demolition_addon.cli.process_end import end_process
 
 # Asserts that stand outside of test files say what they compared, too.
 pytest.register_assert_rewrite("falling_pair")
@@ -68,4 +69,4 @@ def pytest_unconfigure(config: pytest.Config) -> None:
     if session is not None and "bpy" in sys.modules:
         sys.stdout.flush()
         sys.stderr.flush()
-        os._exit(int(session.exitstatus))
+        end_process(int(session.exitstatus))

@@ -1,7 +1,6 @@
 """Command line ``bda``: its commands, and what each kind of failure prints and returns."""
 
 import argparse
-import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -12,6 +11,7 @@ from ..core.errors import BlastError, DemolitionError, GeometryError, OutputErro
 from ..core.signals import Interrupted, interrupt
 from . import charge, charts, check, report, run
 from .console import StandardStream
+from .process_end import end_process
 
 DONE = 0
 RUN_FAILED = 1
@@ -73,7 +73,7 @@ def entry() -> NoReturn:
         sys.stdout.drop()  # or Python would try again when it ends
         status = _failed(error, RUN_FAILED)
     if "bpy" in sys.modules:
-        os._exit(status)  # Blender's own clean-up may hang or crash when Python ends
+        end_process(status)
     sys.exit(status)
 
 

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Demolish one span of the I-235 bridge, as an example of what a run gives::
+
+    python scripts/demo.py [OUTPUT]      (runs/i235_one_span)
+
+Needs an environment in which the project is installed; on Linux, scripts/demo makes one.
+"""
+
+import sys
+from pathlib import Path
+
+from bridge_demolition_addon.__main__ import main
+
+ROOT = Path(__file__).resolve().parents[1]
+EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
+OUTPUT = ROOT / "runs" / "i235_one_span"
+
+if __name__ == "__main__":
+    output = sys.argv[1] if len(sys.argv) > 1 else str(OUTPUT)
+    sys.argv = ["bda", "run", str(EXAMPLE), "--output", output, "--overwrite"]
+    main()
