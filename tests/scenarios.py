@@ -15,5 +15,6 @@ SHORT_RUN = replace(
     fracture=replace(I235.fracture, shards=10),
     connections=replace(I235.connections, search_radius_m=3.0),
     ball=replace(I235.ball, drop_height_m=0.1, release_time_s=0.0),
+    pictures=replace(I235.pictures, width_px=320, height_px=180),
 )
-"""A few large shards for a few frames, hit at once."""
+"""A few large shards for a few frames, hit at once, and small pictures."""

@@ -114,10 +114,9 @@ def test_a_run_that_is_asked_to_end_keeps_what_it_has(tmp_path):
 def test_a_run_whose_folder_goes_ends_and_leaves_its_results_in_its_place(tmp_path, happens):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
     process = started(path, output)
-    if happens == "deleted":
-        shutil.rmtree(output)
-    else:
-        output.rename(tmp_path / "elsewhere")
+    output.rename(tmp_path / "elsewhere")
+    if happens == "deleted":  # all at once: a folder that goes file by file is still there when the run looks
+        shutil.rmtree(tmp_path / "elsewhere")
     kept = output
     if happens == "replaced":
         output.mkdir()

@@ -12,7 +12,6 @@ from traces import module
 
 SHARDS = 1000
 CHARGES = 100
-MOST_MS = 2.0
 SCROLLS = 20
 NOTCHES = 9
 """Of the mouse wheel; together they move the sidebar by less than it is high."""
@@ -91,4 +90,3 @@ def measure(person: Person, seconds: dict[str, list[float]]) -> Steps:
         f"all panels together are drawn in {sum(fastest.values()):.2f} ms at their fastest, {slowest} in "
         f"{fastest[slowest]:.2f} ms; usually in {sum(usual.values()):.2f} ms"
     )
-    person.expect(f"less than {MOST_MS} ms", sum(fastest.values()) < MOST_MS)
