@@ -204,7 +204,7 @@ class Recording:
 
     @property
     def reading_seconds(self) -> float:
-        """The part of it that went into reading loads from Bullet and gathering them."""
+        """The part of it in Bullet's sub-steps: copying what it holds, and judging it where strength breaks."""
         return self._reader.seconds if self._reader else 0.0
 
     def results(self) -> Results:
