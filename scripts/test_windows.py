@@ -60,12 +60,16 @@ class Windows:
 
     def set_up(self) -> None:
         """Install everything, once for each set of versions."""
-        versions, stamp = _versions(), self.folder / "installed"
+        versions, asked, stamp = _versions(), self.folder / "versions.txt", self.folder / "installed"
         if not stamp.exists() or stamp.read_text() != versions:
-            shutil.rmtree(self.folder, ignore_errors=True)
-            self.folder.mkdir(parents=True)
+            if asked.exists():
+                shutil.rmtree(self.folder)
+            elif self.folder.exists() and any(self.folder.iterdir()):
+                sys.exit(f"test_windows: {self.folder} holds other files: choose a new folder")
+            self.folder.mkdir(parents=True, exist_ok=True)
+            asked.write_text(versions)
             self._install_python()
-            self._install_libraries(versions)
+            self._install_libraries(asked)
             self._make_disk()
             stamp.write_text(versions)
         # This Windows Python looks nowhere else, whatever PYTHONPATH says, and its child processes do as it does.
@@ -111,11 +115,9 @@ class Windows:
                         target.parent.mkdir(parents=True, exist_ok=True)
                         target.write_bytes(archive.read(name))
 
-    def _install_libraries(self, versions: str) -> None:
-        constraints = self.folder / "versions.txt"
-        constraints.write_text(versions)
+    def _install_libraries(self, versions: Path) -> None:
         libraries = (*LIBRARIES, *WINDOWS_ONLY)
-        _pip("install", *FOR_WINDOWS, "--target", str(self.folder / "libraries"), "-c", str(constraints), *libraries)
+        _pip("install", *FOR_WINDOWS, "--target", str(self.folder / "libraries"), "-c", str(versions), *libraries)
 
     def _make_disk(self) -> None:
         for command in (["wineboot", "-i"], ["winecfg", "-v", "win10"]):
@@ -197,7 +199,8 @@ def _versions() -> str:
 
 def _pip(command: str, *arguments: str) -> None:
     pip = [sys.executable, "-m", "pip", command, "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, *arguments], check=True)
+    if subprocess.run([*pip, *arguments], check=False).returncode != 0:
+        sys.exit(f"test_windows: pip could not {command} what is needed")
 
 
 if __name__ == "__main__":
