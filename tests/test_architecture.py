@@ -84,3 +84,11 @@ def test_tables_explain_each_of_them_and_no_other(heading, container):
 @pytest.mark.parametrize("heading", ["The way of a charge", "The way of an impulse"])
 def test_a_way_passes_eight_files_at_most(heading):
     assert 5 <= len(first_cells(heading)) <= 8
+
+
+def test_no_folder_has_more_modules_than_one_takes_in_at_a_glance():
+    folders = {path.parent for path in (ROOT / PACKAGE).rglob("*.py")}
+    counts = {
+        folder.relative_to(ROOT): sum(path.stem != "__init__" for path in folder.glob("*.py")) for folder in folders
+    }
+    assert {folder: count for folder, count in counts.items() if count > 15} == {}
