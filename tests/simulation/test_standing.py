@@ -107,7 +107,7 @@ height_m = 4.0
 """,
 }
 MOST_BROKEN = 0.06
-"""Of all connections: slivers of faces at the edges between members, which carry next to nothing. Draws: up to 3.3 %."""
+"""Of all connections: slivers of faces at edges between members, which carry next to nothing. Draws: up to 3.3 %."""
 
 MOST_SAG_M = 0.005
 """With 100 iterations: Bullet's own sag, up to a millimetre here, and not that of concrete."""
