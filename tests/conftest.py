@@ -51,6 +51,11 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_user_folder] = os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="bda-tests-")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes long, so that no process is left alone with it at the end: all but arrays and formulas."""
+    items.sort(key=lambda item: "core" in item.path.parts)
+
+
 def pytest_sessionstart(session: pytest.Session) -> None:
     session.config.stash[_session] = session
 
