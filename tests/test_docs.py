@@ -9,8 +9,14 @@ from places import ROOT
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
 
 PACKAGE = ROOT / "bridge_demolition_addon"
+MADE = {line.strip("/") for line in (ROOT / ".gitignore").read_text(encoding="utf-8").split()}
+"""What a run or a build leaves in the project."""
+
 FOLDERS = "|".join(
-    path.name for base in (ROOT, PACKAGE) for path in base.iterdir() if path.is_dir() and path.name[0] != "."
+    path.name
+    for base in (ROOT, PACKAGE)
+    for path in base.iterdir()
+    if path.is_dir() and path.name[0] != "." and path.name not in MADE
 )
 
 
