@@ -24,7 +24,7 @@ from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball, create_hits
 from .tools.cable import create_cable
 from .tools.jackhammer import create_jackhammer
-from .world import START_FRAME, create_world, off_scene, remove_world
+from .world import START_FRAME, create_world, off_scene, remove_world, settings_restored_on_failure
 
 FIRST_STEP_FRAME = START_FRAME + 2
 """First frame that time leads to: in the frame before, Blender makes the world and no time passes."""
@@ -43,7 +43,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     settings = scenario.ball
     surfaces = [surface_height(scenario, model.members, drop.target_m) for drop in settings.drops] if settings else []
     hammered = [surface_height(scenario, model.members, hammer.path_m[0]) for hammer in scenario.jackhammers]
-    with _all_or_nothing(scene):
+    with settings_restored_on_failure(scene), _all_or_nothing(scene):
         _build(scene, scenario, model, surfaces, hammered)
 
 

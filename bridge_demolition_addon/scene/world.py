@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import bpy
 
@@ -12,6 +13,15 @@ from ..core.timing.time_step import TimeStep
 from ..core.units import STANDARD_GRAVITY_M_S2
 
 START_FRAME = 1
+
+
+_OF_SCENE = ("gravity", "frame_start", "frame_end")
+_OF_UNITS = ("system", "scale_length")
+_OF_RENDERING = ("fps", "fps_base", "use_lock_interface")
+"""Settings of the scene, its units and its rendering that `create_world` makes."""
+
+_OURS = "bda_"
+"""What the names of properties begin with that a scene keeps for us."""
 
 
 def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int) -> bpy.types.RigidBodyWorld:
@@ -37,6 +47,35 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
     scene.collection.children.link(world.collection)
     scene.collection.children.link(world.constraints)
     return world
+
+
+@contextmanager
+def settings_restored_on_failure(scene: bpy.types.Scene) -> Iterator[None]:
+    """Give a scene back its gravity, units, frames and kept properties where what is built in the block fails."""
+    groups = ((scene, _OF_SCENE), (scene.unit_settings, _OF_UNITS), (scene.render, _OF_RENDERING))
+    settings = [(group, name, _copied(getattr(group, name))) for group, names in groups for name in names]
+    kept = _kept_properties(scene)
+    frame, part = scene.frame_current, scene.frame_subframe
+    try:
+        yield
+    except BaseException:
+        for group, name, value in settings:
+            setattr(group, name, value)
+        for name in _kept_properties(scene):
+            del scene[name]
+        for name, value in kept.items():
+            scene[name] = value
+        scene.frame_set(frame, subframe=part)
+        raise
+
+
+def _kept_properties(scene: bpy.types.Scene) -> dict[str, Any]:
+    return {name: _copied(value) for name, value in scene.items() if name.startswith(_OURS)}
+
+
+def _copied(value: Any) -> Any:
+    """Return a value that stays when Blender's own is changed: of arrays it gives what shows the present one."""
+    return value if isinstance(value, str | int | float) else tuple(value)
 
 
 def remove_world(scene: bpy.types.Scene) -> None:

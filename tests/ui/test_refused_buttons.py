@@ -31,6 +31,21 @@ def busy(extension, request):
     extension.ops.object.mode_set(mode="OBJECT")
 
 
+def settings_of(scene):
+    """All plain settings of a scene, its units and its rendering, and what it keeps under names of its own."""
+    found = {
+        name: str(getattr(value, "to_list", lambda value=value: value)())
+        for name, value in scene.items()
+        if name != "bda"
+    }
+    for part in (scene, scene.unit_settings, scene.render):
+        for each in part.bl_rna.properties:
+            if each.type in ("BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"):
+                value = getattr(part, each.identifier)
+                found[part.bl_rna.identifier, each.identifier] = tuple(value) if getattr(each, "is_array", 0) else value
+    return found
+
+
 def everything(bpy):
     kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions)
     return {each for kind in kinds for each in kind}
@@ -52,12 +67,18 @@ def test_a_script_that_builds_in_another_mode_leaves_nothing(busy):
     from bridge_demolition_addon.scene.demolition import build_demolition
 
     scenario, scene, before = read_scenario(EXPLOSIVES), busy.context.scene, everything(busy)
+    scene.gravity, scene.unit_settings.system, scene.unit_settings.scale_length = (1.0, 2.0, -3.0), "IMPERIAL", 0.5
+    scene.render.fps, scene.render.fps_base, scene.frame_start, scene.frame_end = 30, 1.001, 7, 90
+    scene["bda_strength_pa"], scene["bda_blast_explosion"], scene["mine"] = [1.0, 2.0, 3.0, 4.0], False, "stays"
+    scene.frame_set(12)
+    settings = settings_of(scene)
     scenario = replace(
         scenario, fracture=replace(scenario.fracture, shards=20), blast=replace(scenario.blast, apply="fields")
     )
     with pytest.raises(SimulationError, match="go to object mode first, or apply the blast directly"):
         build_demolition(scene, scenario, checked_model(scenario))
     assert everything(busy) == before
+    assert settings_of(scene) == settings
     assert scene.rigidbody_world is None
     busy.ops.object.mode_set(mode="OBJECT")
     build_demolition(scene, scenario, checked_model(scenario))
