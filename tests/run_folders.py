@@ -7,6 +7,8 @@ import numpy as np
 from moving_boxes import moving_boxes
 from scenarios import I235
 
+from bridge_demolition_addon.core.results.frames import BallHistory
+from bridge_demolition_addon.core.results.stream import FrameStream
 from bridge_demolition_addon.core.results.summary import summarise
 from bridge_demolition_addon.core.scenario import BlastSettings, Charge, Exclusion, Neighbour, Site, Zone
 from bridge_demolition_addon.core.scenario.file import scenario_text
@@ -93,6 +95,17 @@ def keep_run(folder, results, scenario=TOLD, *, completed=True):
     if scenario:
         (folder / "scenario_as_run.toml").write_text(scenario_text(scenario), encoding="utf-8")
     return folder
+
+
+def stream_run(folder, results, frames=None):
+    """The stream of a run that goes on or was killed, with as many of the frames of these results."""
+    stream = FrameStream(folder, results.reading, results.inventory)
+    times, balls = results.frames.time_s, results.balls
+    for row in range(len(times) if frames is None else frames):
+        first, last = np.searchsorted(balls.times_s, [times[max(row - 1, 0)], times[row]], side="right")
+        substeps = (values[first:last] for values in (balls.times_s, balls.impulses_ns, balls.velocities_m_s))
+        stream.append(results.frames[row], BallHistory(balls.bodies, *substeps))
+    return stream
 
 
 def killed_run(folder, last_lines=()):

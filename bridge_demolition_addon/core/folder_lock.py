@@ -102,6 +102,23 @@ def check_unlocked(folder: Path) -> None:
             _take(file.fileno(), path)
 
 
+def writer_in(folder: Path) -> str | None:
+    """Return who writes to a folder, None where nobody does or it cannot be told; nothing in it is changed."""
+    path = folder / LOCK_FILE
+    if not path.is_file():
+        return None
+    try:
+        file = path.open("rb", buffering=0)
+    except OSError:  # it has gone just now, or is not for everybody to read
+        return None
+    with file:
+        try:
+            _take(file.fileno(), path)
+        except OutputError:
+            return _holder(path)
+    return None
+
+
 def _locked_file(path: Path) -> io.FileIO:
     """Open and lock the file; one that its holder has removed meanwhile is no lock, and another is made."""
     while True:
@@ -120,10 +137,13 @@ def _take(descriptor: int, path: Path) -> None:
     try:
         _lock(descriptor)
     except (BlockingIOError, PermissionError) as error:
-        holder = path.read_text(encoding="utf-8", errors="replace") or "a process that has just begun"
         raise OutputError(
-            f"{path.parent}: is being written to by {holder}: wait for its end, or choose another folder"
+            f"{path.parent}: is being written to by {_holder(path)}: wait for its end, or choose another folder"
         ) from error
+
+
+def _holder(path: Path) -> str:
+    return path.read_text(encoding="utf-8", errors="replace") or "a process that has just begun"
 
 
 def _remove_closed(path: Path) -> None:

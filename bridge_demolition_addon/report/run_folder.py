@@ -16,6 +16,7 @@ from matplotlib.image import imread
 
 from ..core.debris.footprint import check_covers_ground
 from ..core.errors import OutputError, ScenarioError, UnreadableError
+from ..core.folder_lock import LOCK_FILE, writer_in
 from ..core.reading import MEGABYTE, check_file, file_text
 from ..core.results.arrays import Results, load_results, results_in
 from ..core.results.checks import checked_summary
@@ -30,9 +31,10 @@ from ..core.results.files import (
     SUMMARY_FILE,
 )
 from ..core.results.removed_shards import without_removed
-from ..core.results.summary import first_hit_s
+from ..core.results.summary import first_hit_s, hits_of_balls, impact_of
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
+from ..core.units import STANDARD_GRAVITY_M_S2
 
 MOST_SUMMARY_BYTES = 100 * MEGABYTE
 """Size up to which a summary is read, which lists every frame."""
@@ -71,6 +73,8 @@ class Run:
         The folder.
     scenario, summary, results
         Each None where it is missing or cannot be read.
+    ball
+        Impact and hits of the ball, with the keys of the summary; from the results where there is no summary.
     logged_forces
         Read from the log where there are no results; None where there is no log either.
     logged_breaks
@@ -85,6 +89,7 @@ class Run:
     scenario: Scenario | None
     summary: dict[str, Any] | None
     results: Results | None
+    ball: dict[str, Any]
     logged_forces: LoggedForces | None
     logged_breaks: int | None
     pictures: dict[str, Path]
@@ -105,13 +110,13 @@ class Run:
     @property
     def impact_s(self) -> float | None:
         """End of the frame in which the ball hit; None where it did not, or nobody knows."""
-        impact = self.summary.get("impact") if self.summary else None
+        impact = self.ball.get("impact")
         return float(impact["time_s"]) if impact else None
 
     @property
     def hit_s(self) -> float | None:
         """When the ball hit, to a sub-step where its hits were recorded; None as for `impact_s`."""
-        return first_hit_s(self.summary) if self.summary else None
+        return first_hit_s(self.ball)
 
 
 def read_run(folder: Path) -> Run:
@@ -124,19 +129,24 @@ def read_run(folder: Path) -> Run:
     """
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
+    at_work = _run_at_work(folder)  # before anything is read: what a run that has ended by now left is whole
     if not any((folder / name).exists() for name in (RESULTS_FILE, FRAMES_FILE, FORCE_LOG)):
+        if at_work:
+            raise OutputError(f"{folder}: holds no frame yet, and is being written to by {at_work}: wait for its end")
         raise OutputError(f"{folder}: holds no run: expected {RESULTS_FILE} or {FORCE_LOG} in it")
     shortcomings: list[str] = []
-    results = _results(folder, shortcomings)
+    results = _results(folder, at_work, shortcomings)
     summary = _summary(folder, shortcomings)
     if summary and not summary.get("completed", True):
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
     logged = _logged_forces(folder, shortcomings) if results is None else None
+    scenario = _scenario(folder, shortcomings)
     return Run(
         folder=folder,
-        scenario=_scenario(folder, shortcomings),
+        scenario=scenario,
         summary=summary,
         results=results,
+        ball=_ball(summary, results, scenario),
         logged_forces=logged,
         logged_breaks=_logged_breaks(folder, shortcomings) if results is None else None,
         pictures=_pictures(folder, shortcomings),
@@ -144,24 +154,31 @@ def read_run(folder: Path) -> Run:
     )
 
 
-def _results(folder: Path, shortcomings: list[str]) -> Results | None:
+def _results(folder: Path, at_work: str | None, shortcomings: list[str]) -> Results | None:
     path = results_in(folder)
     if not path.exists():
         shortcomings.append(
-            f"The run was killed before it could write {RESULTS_FILE}: only its logs are here, and all that needs more "
-            "than them is left out: debris, zones, exclusion zone, spans, energy, stresses."
+            f"{_still_at_work(at_work)} No frame is recorded yet."
+            if at_work
+            else f"The run was killed before it could write {RESULTS_FILE}: only its logs are here, and all that needs "
+            "more than them is left out: debris, zones, exclusion zone, spans, energy, stresses."
         )
         return None
     try:
         results, removed = without_removed(load_results(path))
         check_covers_ground(results)
     except OutputError as error:
+        if path != results_in(folder):  # the run has ended meanwhile
+            return _results(folder, None, shortcomings)
         shortcomings.append(f"{path.name} cannot be read, and all that needs it is left out: {_reason(error, path)}.")
         return None
     if path.name == FRAMES_FILE:
         shortcomings.append(
-            f"The run ended before its end, as by a kill, a crash or a full disk; {len(results.frames)} frames are "
-            "kept, and everything here ends with the last of them."
+            f"{_still_at_work(at_work)} {len(results.frames)} frames are recorded so far, and everything here ends "
+            "with the last of them."
+            if at_work
+            else f"The run ended before its end, as by a kill, a crash or a full disk; {len(results.frames)} frames "
+            "are kept, and everything here ends with the last of them."
         )
     if removed:
         shortcomings.append(
@@ -169,6 +186,26 @@ def _results(folder: Path, shortcomings: list[str]) -> Results | None:
             "debris, and are left out of everything here, masses, loads and energies of the time before included."
         )
     return results
+
+
+def _run_at_work(folder: Path) -> str | None:
+    """Return who is still at work on the run in a folder; None where it has ended.
+
+    Who makes the report of a killed run locks its folder too, but its frames and its log are older than that.
+    """
+    growing = [path for path in (folder / FRAMES_FILE, folder / FORCE_LOG) if path.exists()]
+    writer = writer_in(folder)
+    if writer is None or (folder / RESULTS_FILE).exists():
+        return None
+    try:
+        begun = (folder / LOCK_FILE).stat().st_mtime
+        return writer if not growing or max(path.stat().st_mtime for path in growing) >= begun else None
+    except FileNotFoundError:  # it has ended just now
+        return None
+
+
+def _still_at_work(writer: str) -> str:
+    return f"The run is still at work ({writer}): make the report again once it has ended."
 
 
 def _reason(error: Exception, path: Path) -> str:
@@ -180,7 +217,8 @@ def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
     path = folder / SUMMARY_FILE
     if not path.exists():
         shortcomings.append(
-            f"There is no {SUMMARY_FILE}: what the run came from, and the hits of the ball, are not known."
+            f"There is no {SUMMARY_FILE}: which Blender the run came from is not known. Hits of the ball are worked "
+            "out from the frames, as far as these are here."
         )
         return None
     try:
@@ -190,6 +228,18 @@ def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
     except (UnreadableError, RecursionError, ValueError) as error:
         shortcomings.append(f"{SUMMARY_FILE} cannot be read, and what it says is left out: {error}.")
     return None
+
+
+def _ball(summary: dict[str, Any] | None, results: Results | None, scenario: Scenario | None) -> dict[str, Any]:
+    """Return impact and hits of the ball: where there is no summary, as that would have them under standard gravity."""
+    if summary or results is None:
+        return summary or {}
+    gravity = np.array([0.0, 0.0, -STANDARD_GRAVITY_M_S2])
+    contact_time_s = scenario.ball.contact_time_s if scenario and scenario.ball else None
+    return {
+        "impact": impact_of(results, gravity),
+        "hits_of_the_ball": hits_of_balls(results, gravity, contact_time_s),
+    }
 
 
 def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:

@@ -121,6 +121,7 @@ def run_scenario(
             with _results_of_failure(recording.error, lock.folder):
                 kept = locks.enter_context(lock_in_place(lock))
                 _keep_all(kept.folder, scene, scenario, recording, summary)
+                locks.callback(recording.forget)  # its files are gone when the folder is free, on Windows too
         if recording.error:
             raise SimulationError(f"{recording.error}; the results up to then are in {kept.folder}")
         if kept is not lock:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -64,6 +65,19 @@ def test_a_second_run_does_not_write_to_the_folder_of_the_first(tmp_path):
 
 
 @POSIX
+def test_a_report_of_a_run_at_work_says_so(tmp_path):
+    path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
+    process = started(path, output)
+    assert run_bda("report", output, "--output", tmp_path / "report", "--quiet") == (0, "", "")
+    assert process.poll() is None
+    process.kill()
+    outcome(process)
+    page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert re.search(rf"still at work \(process {process.pid} on [^)]*\): .* \d+ frames are recorded so far", page)
+    assert "ended before its end" not in page and "killed" not in page
+
+
+@POSIX
 def test_a_killed_run_leaves_no_half_of_a_file_and_its_folder_free(tmp_path):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
     process = started(path, output)
@@ -96,6 +110,7 @@ def test_a_killed_run_keeps_all_but_its_last_frame_and_is_reported_as_such(tmp_p
     assert left.balls.times_s[-1] == pytest.approx(left.frames.time_s[-1])
     assert run_bda("report", output, "--quiet") == (0, "", "")
     page = (output / "report.html").read_text(encoding="utf-8")
+    assert "still at work" not in page and (output / "tables" / "hits_of_the_ball.csv").is_file()
     assert "The run ended before its end" in page and f"{len(left.frames)} frames are kept" in page
 
 

@@ -1,6 +1,7 @@
 """Reports from the folders of runs: complete in themselves, whole or cut short, one or several."""
 
 import csv
+import os
 import re
 import shutil
 import subprocess
@@ -15,7 +16,7 @@ from manifold3d import CrossSection
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from moving_boxes import moving_boxes
-from run_folders import TOLD, flying_shards, keep_run, killed_run
+from run_folders import TOLD, flying_shards, keep_run, killed_run, stream_run
 from sample_results import changed
 from scenarios import I235
 from told_reports import compared, told
@@ -26,6 +27,8 @@ from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
 from bridge_demolition_addon.core.debris.throws import debris_of
 from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.core.folder_lock import FolderLock
+from bridge_demolition_addon.core.results.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
 from bridge_demolition_addon.core.scenario import BallCable, BallHit
 from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
@@ -209,6 +212,33 @@ def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
     assert "1.000 s as far as logged" in page.texts
     assert "Connections broken as far as logged: 2." in page.texts
     assert len(page.pictures) == 1
+
+
+def test_frames_of_a_killed_run_give_the_hits_that_its_summary_would_give(tmp_path):
+    results = flying_shards()
+    whole = keep_run(tmp_path / "whole", results)
+    killed = keep_run(tmp_path / "killed", results)
+    for name in (RESULTS_FILE, SUMMARY_FILE):
+        (killed / name).unlink()
+    stream_run(killed, results)
+    hits, left = (told(folder).tables["hits_of_the_ball"] for folder in (whole, killed))
+    assert len(hits.rows) == 1
+    np.testing.assert_allclose(left.rows[0][1:], hits.rows[0][1:], rtol=1e-6)  # frames are kept with seven digits
+    assert read_run(killed).hit_s == pytest.approx(read_run(whole).hit_s)
+    assert any("The run ended before its end" in text for text in read_run(killed).shortcomings)
+
+
+def test_a_folder_that_is_locked_by_the_report_of_a_killed_run_is_of_no_run_at_work(tmp_path):
+    killed = keep_run(tmp_path / "killed", flying_shards())
+    (killed / RESULTS_FILE).unlink()
+    stream_run(killed, flying_shards())
+    for path in (killed / FRAMES_FILE, killed):
+        os.utime(path, (0, 0))
+    with FolderLock(killed):
+        assert any("The run ended before its end" in text for text in read_run(killed).shortcomings)
+    with FolderLock(killed):
+        os.utime(killed / FRAMES_FILE)
+        assert any("The run is still at work (process " in text for text in read_run(killed).shortcomings)
 
 
 def test_a_scene_that_was_built_by_hand_has_no_scenario(tmp_path):

@@ -2,15 +2,19 @@
 
 import csv
 import json
+import os
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from scenarios import I235
+from scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.bridge import deck_underside
 from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.core.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
@@ -143,6 +147,16 @@ def test_saved_scene_plays_what_was_recorded(span, blender):
             place = blender.data.objects[name].evaluated_get(graph).matrix_world.translation
             # The cache keeps single precision.
             np.testing.assert_allclose(place, results.frames.positions_m[step, body], atol=1e-5)
+
+
+def test_files_of_a_run_that_has_ended_are_let_go_of(tmp_path):
+    """None of them is mapped or open: Windows removes no such file."""
+    run(SHORT_RUN, tmp_path / "run")
+    assert not any((tmp_path / "run" / name).exists() for name in (FRAMES_FILE, BALLS_FILE, INVENTORY_FILE))
+    if sys.platform.startswith("linux"):
+        open_files = [os.readlink(each) for each in Path("/proc/self/fd").iterdir() if each.is_symlink()]
+        mapped = Path("/proc/self/maps").read_text(encoding="utf-8")
+        assert str(tmp_path) not in "\n".join([*open_files, mapped])
 
 
 def test_same_scenario_gives_the_same_logs(tmp_path):

@@ -1,4 +1,4 @@
-"""Archives of arrays as numpy's ``.npz``, written and read in little memory: large arrays are mapped, not read."""
+"""Archives of arrays as numpy's ``.npz``, written and read in little memory: large arrays are mapped."""
 
 from __future__ import annotations
 
@@ -6,18 +6,16 @@ import struct
 import zipfile
 from collections.abc import Container, Mapping
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy as np
 
 from ..disk import whole_file
+from .own_copy import mapped_copy
 
 _ENDING = ".npy"
 
 _MAPPED_FROM = 1 << 16
 """Bytes from which on an array is mapped; a smaller one is read, which takes less."""
-
-_BLOCK = 1 << 20
 
 _ALIGNMENT = 64
 """Bytes; numpy works fastest on arrays that begin at multiples of them."""
@@ -57,43 +55,27 @@ def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Containe
                 np.lib.format.write_array(file, values, allow_pickle=False)
 
 
-def read_archive(path: Path, *, mapped: bool = True) -> dict[str, np.ndarray]:
+def read_archive(path: Path) -> dict[str, np.ndarray]:
     """Read all arrays of an archive by their names, and check that they are as they were written.
 
-    Parameters
-    ----------
-    path : Path
-        The archive.
-    mapped : bool
-        Whether large arrays are mapped. What has mapped a file crashes if another program empties it in its place.
+    Large arrays are mapped from a copy, and stay as they are, whatever becomes of the archive.
 
     Raises
     ------
-    OSError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error
+    OSError, OutputError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error
         It is none, is damaged, or holds something else than plain arrays.
     """
-    with path.open("rb") as file, zipfile.ZipFile(file) as archive:
+    with zipfile.ZipFile(path) as archive:
         members = [each for each in archive.infolist() if each.filename.endswith(_ENDING)]
-        return {each.filename.removesuffix(_ENDING): _array(file, archive, each, mapped) for each in members}
+        return {each.filename.removesuffix(_ENDING): _array(archive, each) for each in members}
 
 
-def _array(file: BinaryIO, archive: zipfile.ZipFile, member: zipfile.ZipInfo, mapped: bool) -> np.ndarray:
+def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
     with archive.open(member) as content:
-        if not mapped or member.compress_type != zipfile.ZIP_STORED or member.file_size < _MAPPED_FROM:
+        if member.compress_type != zipfile.ZIP_STORED or member.file_size < _MAPPED_FROM:
             return np.lib.format.read_array(content, allow_pickle=False)
         read_header = _HEADER_READERS[np.lib.format.read_magic(content)]
         shape, is_fortran, dtype = read_header(content)
         if dtype.hasobject:
             raise ValueError(f"{member.filename}: holds objects")
-        begin = content.tell()
-        while content.read(_BLOCK):  # which compares the checksum at the end
-            pass
-    order = "F" if is_fortran else "C"
-    return np.asarray(np.memmap(file, dtype, "r", _content_start(file, member) + begin, shape, order))
-
-
-def _content_start(file: BinaryIO, member: zipfile.ZipInfo) -> int:
-    """Return where in the file the content of a member begins."""
-    file.seek(member.header_offset)
-    name_length, extra_length = struct.unpack("<HH", file.read(_LOCAL_HEADER)[26:30])
-    return member.header_offset + _LOCAL_HEADER + name_length + extra_length
+        return mapped_copy(content, dtype, shape, is_fortran=is_fortran)  # read to its end, where the checksum is

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..disk import is_in_place
 from ..errors import OutputError, writing
+from .own_copy import mapped_copy
 
 _MAGIC = np.lib.format.magic(2, 0)
 
@@ -128,11 +129,11 @@ class GrowingTable:
 
 
 def stored_rows(path: Path) -> np.ndarray:
-    """Return the whole rows (k,) of a table that was left, mapped.
+    """Return the whole rows (k,) of a table that was left, or that still grows, mapped from a copy.
 
     Raises
     ------
-    OSError, ValueError
+    OSError, OutputError, ValueError
         The file is no table, or cannot be read.
     """
     with path.open("rb") as file:
@@ -141,9 +142,9 @@ def stored_rows(path: Path) -> np.ndarray:
         shape, is_fortran, row_type = np.lib.format.read_array_header_2_0(file)
         if len(shape) != 1 or is_fortran or row_type.hasobject or row_type.names is None or not row_type.itemsize:
             raise ValueError("no table")
-        start = file.tell()
-        whole = (path.stat().st_size - start) // row_type.itemsize
-        return _mapped(file, row_type, start, min(shape[0], whole))
+        whole = (path.stat().st_size - file.tell()) // row_type.itemsize
+        count = min(shape[0], whole)
+        return mapped_copy(file, row_type, (count,)) if count else np.empty(0, row_type)
 
 
 def _mapped(file: BinaryIO, row_type: np.dtype, start: int, count: int) -> np.ndarray:

@@ -109,16 +109,16 @@ class Results:
         write_archive(path, arrays, packed)
 
 
-def load_results(path: Path, *, mapped: bool = True) -> Results:
+def load_results(path: Path) -> Results:
     """Read what `Results.save` wrote, or the frames that a run left which ended before its end.
+
+    Large arrays are mapped from copies: only what is looked at is read, and they stay as they are, whatever becomes of
+    the files.
 
     Parameters
     ----------
     path : Path
         File of the results, or of the frames; or the folder of the run.
-    mapped : bool
-        Whether large arrays are mapped, so that only what is looked at is read. Who keeps the results for long has them
-        read: if another program empties a mapped file, the process crashes.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def load_results(path: Path, *, mapped: bool = True) -> Results:
     path = results_in(path) if path.is_dir() else path
     try:
         check_file(path)
-        arrays = _left_arrays(path, mapped) if path.name == FRAMES_FILE else read_archive(path, mapped=mapped)
+        arrays = _left_arrays(path) if path.name == FRAMES_FILE else read_archive(path)
         check_arrays(arrays)
         return Results.of_arrays(arrays)
     except _UNREADABLE as error:
@@ -166,15 +166,15 @@ def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
     return {name: rows[name] for name in rows.dtype.names}
 
 
-def _left_arrays(path: Path, mapped: bool) -> dict[str, np.ndarray]:
+def _left_arrays(path: Path) -> dict[str, np.ndarray]:
     """Return the arrays that a run has left on its way; of the sub-steps, those of whole frames."""
     frames, inventory, balls = stored_rows(path), path.with_name(INVENTORY_FILE), path.with_name(BALLS_FILE)
     check_file(inventory)
-    arrays = read_archive(inventory, mapped=mapped) | columns(frames if mapped else frames.copy())
+    arrays = read_archive(inventory) | columns(frames)
     if not balls.exists():
         return arrays | dict(named_arrays(BallHistory.unknown()))
     check_file(balls)
-    substeps = stored_rows(balls) if mapped else stored_rows(balls).copy()
+    substeps = stored_rows(balls)
     if not len(substeps):
         return arrays | dict(named_arrays(BallHistory.unknown()))
     end_s = frames["times_s"][-1] if len(frames) else 0.0

@@ -40,10 +40,10 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         },
         "bodies": {kind: len(results.inventory.of_kind(kind)) for kind in ("shard", "ball", "ground")},
         "connections": _connections(results),
-        "impact": _moment(results, impact_step(results, gravity_m_s2)),
+        "impact": impact_of(results, gravity_m_s2),
         "key_frame": {**_moment(results, key), "reason": reason},
         "reading": results.reading,
-        "hits_of_the_ball": _hits(results, gravity_m_s2, contact_time_s),
+        "hits_of_the_ball": hits_of_balls(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
         "largest_throw": _largest_throw(left),
@@ -73,8 +73,18 @@ def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
     return {"time_s": float(results.frames.time_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
 
 
-def _hits(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None) -> list[dict[str, Any]]:
-    """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not."""
+def impact_of(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any] | None:
+    """Return frame and time in which the ball first hit, None where it did not, ready for JSON."""
+    return _moment(results, impact_step(results, gravity_m_s2))
+
+
+def hits_of_balls(
+    results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None
+) -> list[dict[str, Any]]:
+    """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not.
+
+    Parameters are those of `summarise`.
+    """
     steps = np.diff(results.balls.times_s, prepend=results.frames.time_s[0])
     found = []
     for column, ball in enumerate(results.balls.bodies):

@@ -116,7 +116,7 @@ def _connection_row(results: Results, peak: Peak) -> tuple:
 
 
 def _hit_blocks(run: Run) -> list[Block]:
-    hits = (run.summary or {}).get("hits_of_the_ball", [])
+    hits = run.ball.get("hits_of_the_ball", [])
     if not len(run.results.inventory.of_kind("ball")):
         return [Paragraph("There is no ball in this run.")]
     if not hits:

@@ -33,7 +33,7 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
         scene = context.scene
         path = absolute(scene.bda.results_path)
         path = results_in(path) if path.is_dir() else path
-        results = load_results(path, mapped=False)
+        results = load_results(path)
         contours_of(scene).use_results(results)
         contour_view.follow(scene)
         found = f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"

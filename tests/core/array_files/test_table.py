@@ -51,6 +51,13 @@ def test_what_was_mapped_stays_as_it_is_when_rows_are_added(table):
     assert mapped.tobytes() == rows(0, 12).tobytes()
 
 
+def test_stored_rows_stay_when_another_program_empties_the_file(table):
+    stored = stored_rows(table.path)
+    with table.path.open("rb+") as file:
+        file.truncate(0)  # which ends a process that has mapped it
+    assert stored.tobytes() == rows(0, 12).tobytes()
+
+
 @pytest.mark.parametrize("cut", [1, ROW.itemsize - 1, ROW.itemsize, 3 * ROW.itemsize + 1])
 def test_rows_that_were_cut_off_are_dropped(table, cut):
     with table.path.open("rb+") as file:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from run_folders import flying_shards
+from run_folders import flying_shards, stream_run
 from sample_results import hanging_chain, without_connections
 
 from bridge_demolition_addon.core.errors import OutputError
@@ -16,22 +16,6 @@ from bridge_demolition_addon.core.results.stream import FrameStream
 
 NEVER_FALLS_SHORT = 1e-6
 """Of single precision, which rounds by up to 6e-8."""
-
-
-def in_frame(results, row):
-    """The part of the balls' history that is in one frame."""
-    times, balls = results.frames.time_s, results.balls
-    first, last = np.searchsorted(balls.times_s, [times[max(row - 1, 0)], times[row]], side="right")
-    return BallHistory(
-        balls.bodies, balls.times_s[first:last], balls.impulses_ns[first:last], balls.velocities_m_s[first:last]
-    )
-
-
-def streamed(folder, results, frames=None):
-    stream = FrameStream(folder, results.reading, results.inventory)
-    for row in range(len(results.frames) if frames is None else frames):
-        stream.append(results.frames[row], in_frame(results, row))
-    return stream
 
 
 RUNS = pytest.mark.parametrize(
@@ -48,7 +32,7 @@ RUNS = pytest.mark.parametrize(
 
 @RUNS
 def test_what_is_in_memory_is_what_is_in_the_files(tmp_path, run):
-    stream = streamed(tmp_path, run)
+    stream = stream_run(tmp_path, run)
     results = stream.results()
     left = load_results(tmp_path)
     results.save(tmp_path / RESULTS_FILE)
@@ -66,7 +50,7 @@ def test_what_is_in_memory_is_what_is_in_the_files(tmp_path, run):
 
 @RUNS
 def test_arrays_of_frames_are_kept_in_single_precision_and_all_else_as_it_is(tmp_path, run):
-    kept = streamed(tmp_path, run).results().arrays()
+    kept = stream_run(tmp_path, run).results().arrays()
     assert kept.keys() == run.arrays().keys()
     for name, values in run.arrays().items():
         values, length = np.asarray(values), len(run.frames)
@@ -80,14 +64,14 @@ def test_arrays_of_frames_are_kept_in_single_precision_and_all_else_as_it_is(tmp
 
 def test_results_take_at_most_half_of_what_they_took_in_double_precision(tmp_path):
     run = flying_shards(300, 30)
-    streamed(tmp_path, run).results().save(tmp_path / RESULTS_FILE)
+    stream_run(tmp_path, run).results().save(tmp_path / RESULTS_FILE)
     np.savez(tmp_path / "double.npz", **run.arrays())
     assert (tmp_path / RESULTS_FILE).stat().st_size <= 0.5 * (tmp_path / "double.npz").stat().st_size
 
 
 @pytest.mark.parametrize("cut", [0, 1, 5000])
 def test_what_is_left_of_a_run_that_was_killed_is_read(tmp_path, cut):
-    streamed(tmp_path, hanging_chain())
+    stream_run(tmp_path, hanging_chain())
     path = tmp_path / FRAMES_FILE
     with path.open("rb+") as file:
         file.truncate(path.stat().st_size - min(cut, 872 * 2 + 3))
@@ -100,7 +84,7 @@ def test_what_is_left_of_a_run_that_was_killed_is_read(tmp_path, cut):
 
 
 def test_whole_results_come_before_what_was_left(tmp_path):
-    stream = streamed(tmp_path, hanging_chain(), 3)
+    stream = stream_run(tmp_path, hanging_chain(), 3)
     assert results_in(tmp_path).name == FRAMES_FILE
     hanging_chain().save(tmp_path / RESULTS_FILE)
     assert results_in(tmp_path).name == RESULTS_FILE and len(load_results(tmp_path).frames) == 5
@@ -110,9 +94,9 @@ def test_whole_results_come_before_what_was_left(tmp_path):
 
 
 def test_a_stream_in_the_place_of_another_leaves_its_results(tmp_path):
-    before = streamed(tmp_path, hanging_chain()).results()
+    before = stream_run(tmp_path, hanging_chain()).results()
     digest = result_digest(before)
-    after = streamed(tmp_path, replace(hanging_chain(), balls=BallHistory.unknown()), 2)
+    after = stream_run(tmp_path, replace(hanging_chain(), balls=BallHistory.unknown()), 2)
     assert result_digest(before) == digest
     assert len(load_results(tmp_path).frames) == 2 and not len(load_results(tmp_path).balls.times_s)
     after.remove()
@@ -120,10 +104,10 @@ def test_a_stream_in_the_place_of_another_leaves_its_results(tmp_path):
 
 @pytest.mark.parametrize("name", [RESULTS_FILE, FRAMES_FILE])
 def test_results_that_are_read_outlive_their_files(tmp_path, name):
-    stream = streamed(tmp_path, flying_shards(300, 30))
+    stream = stream_run(tmp_path, flying_shards(300, 30))
     stream.results().save(tmp_path / RESULTS_FILE)
     digest = result_digest(stream.results())
-    read = load_results(tmp_path / name, mapped=False)
+    read = load_results(tmp_path / name)
     for path in tmp_path.iterdir():
         if path.name in (name, BALLS_FILE, INVENTORY_FILE):
             path.write_bytes(b"")  # which would end a process that has mapped them
@@ -132,7 +116,7 @@ def test_results_that_are_read_outlive_their_files(tmp_path, name):
 
 @pytest.mark.parametrize("missing", [INVENTORY_FILE, FRAMES_FILE])
 def test_frames_that_cannot_be_read_are_named(tmp_path, missing):
-    streamed(tmp_path, hanging_chain())
+    stream_run(tmp_path, hanging_chain())
     (tmp_path / missing).unlink()
     with pytest.raises(OutputError, match="expected the results of a run"):
         load_results(tmp_path)
@@ -145,13 +129,13 @@ def test_a_run_that_was_killed_before_its_first_frame_has_no_results(tmp_path):
 
 
 def test_a_part_of_the_frames_is_a_list(tmp_path):
-    stream = streamed(tmp_path, hanging_chain())
+    stream = stream_run(tmp_path, hanging_chain())
     assert [frame.number for frame in stream[1:]] == [3, 4, 5, 6]
     assert [frame.number for frame in stream[-1:0:-2]] == [6, 4] and stream[5:] == []
 
 
 @pytest.mark.parametrize("row", [5, -6])
 def test_there_are_no_frames_beyond_the_last(tmp_path, row):
-    stream = streamed(tmp_path, hanging_chain())
+    stream = stream_run(tmp_path, hanging_chain())
     with pytest.raises(IndexError):
         stream[row]
