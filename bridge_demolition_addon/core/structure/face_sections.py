@@ -8,6 +8,7 @@ import numpy as np
 
 from ..geometry.mesh import TriangleMesh
 from ..geometry.plan_areas import signed_area
+from ..geometry.proximity import blocks, ranges
 from ..geometry.vectors import dot, outer, transformed_back
 from ..mechanics.section_forces import section_axes
 
@@ -41,32 +42,61 @@ def second_moments(
         About the section's y and z axes (`section_forces.section_axes`), m⁴: ∫ z² dA and ∫ y² dA on the
         diagonal, -∫ y z dA beside it.
     """
+    moments = np.square(areas[:, None, None]) / 12.0 * np.eye(2)
+    with_area = np.flatnonzero(areas > 0.0)
+    for part in blocks(np.array([len(shards[shard].triangles) for shard in first[with_area]], int)):
+        rows = with_area[part]
+        face, corners = _triangles_in_faces([shards[shard] for shard in first[rows]], centres[rows], normals[rows])
+        counts = np.bincount(face, minlength=len(rows))
+        # Faces of as many triangles together: each is summed as it would be alone, to the last bit.
+        for count in np.unique(counts[counts > 0]):
+            alike = np.flatnonzero(counts == count)
+            own = corners[counts[face] == count].reshape(len(alike), count, 3, 2)
+            found, is_alone = _about_own_centres(own, areas[rows[alike]])
+            moments[rows[alike[is_alone]]] = found[is_alone]
+    return moments
+
+
+def _triangles_in_faces(
+    shards: Sequence[TriangleMesh], centres: np.ndarray, normals: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Face (t,), in ascending order, and corners (t, 3, 2) of all triangles in the planes of k faces.
+
+    Corners are in the face's own y and z, about its centre.
+
+    Parameters
+    ----------
+    shards : k TriangleMesh
+        The first shard of each face.
+    centres, normals : (k, 3) float
+        Of the faces.
+    """
+    vertex_counts = np.array([len(shard.vertices) for shard in shards])
+    faces, _ = ranges(np.zeros(len(shards), int), vertex_counts)
+    arms = np.concatenate([shard.vertices for shard in shards]) - centres[faces]
+    is_near = abs(dot(arms, normals[faces])) <= _SAME_PLANE_M
+    face, _ = ranges(np.zeros(len(shards), int), np.array([len(shard.triangles) for shard in shards]))
+    first_vertices = np.cumsum(vertex_counts) - vertex_counts
+    triangles = np.concatenate([shard.triangles for shard in shards]) + first_vertices[face][:, None]
+    lies = is_near[triangles].all(axis=1)
     in_plane = section_axes(normals)[:, :, 1:]
-    squares = np.square(areas[:, None, None]) / 12.0 * np.eye(2)
-    found = [
-        _of_face(shards[shard], centre, normal, axes, area)
-        for shard, centre, normal, axes, area in zip(first, centres, normals, in_plane, areas, strict=True)
-    ]
-    return np.array([square if each is None else each for each, square in zip(found, squares, strict=True)]).reshape(
-        -1, 2, 2
-    )
+    return face[lies], transformed_back(in_plane[face[lies]][:, None], arms[triangles[lies]])
 
 
-def _of_face(
-    shard: TriangleMesh, centre: np.ndarray, normal: np.ndarray, axes: np.ndarray, area: float
-) -> np.ndarray | None:
-    """Second moments (2, 2) of the face of a shard, None where the mesh does not show it alone."""
-    if area == 0.0:
-        return None
-    is_near = abs(dot(shard.vertices - centre, normal)) <= _SAME_PLANE_M
-    triangles = shard.triangles[is_near[shard.triangles].all(axis=1)]
-    corners = transformed_back(axes, shard.vertices[triangles] - centre)
+def _about_own_centres(corners: np.ndarray, areas: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Second moments (k, 2, 2) of k faces of t triangles each, by corners (k, t, 3, 2), and whether each is alone (k,).
+
+    It is not where the triangles' area is not the face's own (k,).
+    """
     triangle_areas = signed_area(corners)
-    if abs(triangle_areas.sum() - area) > _SAME_AREA * area:
-        return None
-    corners = corners - (triangle_areas[:, None] * corners.mean(axis=1)).sum(axis=0) / triangle_areas.sum()
+    whole = triangle_areas.sum(axis=1)
+    is_alone = abs(whole - areas) <= _SAME_AREA * areas
+    moments = (triangle_areas[..., None] * corners.mean(axis=2)).sum(axis=1)
+    middles = np.divide(moments, whole[:, None], out=np.zeros_like(moments), where=is_alone[:, None])
+    corners = corners - middles[:, None, None]
     # ∫ u v dA over a triangle is A/12 (Σ u v + Σ u Σ v), sums over its corners.
-    sums = corners.sum(axis=1)
-    products = outer(corners, corners).sum(axis=1) + outer(sums, sums)
-    (yy, yz), (_, zz) = (triangle_areas[:, None, None] * products).sum(axis=0) / 12.0
-    return np.array(((zz, -yz), (-yz, yy)))
+    sums = corners.sum(axis=2)
+    products = outer(corners, corners).sum(axis=2) + outer(sums, sums)
+    integrals = (triangle_areas[..., None, None] * products).sum(axis=1) / 12.0
+    yy, yz, zz = integrals[:, 0, 0], integrals[:, 0, 1], integrals[:, 1, 1]
+    return np.stack((np.stack((zz, -yz), axis=-1), np.stack((-yz, yy), axis=-1)), axis=-2), is_alone
