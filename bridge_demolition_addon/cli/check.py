@@ -3,6 +3,8 @@
 import argparse
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from ..core.bridge import deck_top
 from ..core.bridge.member import Member, mean_density
 from ..core.bridge.preparation import prepared_members
@@ -19,6 +21,7 @@ from ..core.scenario import (
     Scenario,
     TimeSettings,
 )
+from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
 from ..core.structure.model import Model
@@ -127,14 +130,31 @@ def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, s
     yield "shards", f"{len(model.shards)}"
     kind = f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
     yield "connections", f"{len(model.connections.pairs)}, {kind}"
+    is_large = scenario.fracture.shards >= LARGE_MODEL
     if connections.material is not None:
-        yield "strength of", connections.material
+        is_usual = is_large and connections.material == MATERIAL_OF_LARGE_MODELS
+        usual = f", as in all models of {LARGE_MODEL} shards or more that give no strength" if is_usual else ""
+        yield "strength of", f"{connections.material}{usual}"
         yield from _strength_facts(MATERIALS[connections.material])
     else:
         force = connections.breaking_force_newton
         yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
         yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
+        if is_large:
+            yield from _stress_facts(force, scenario, model)
+            yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
+            yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
     yield from _rule_facts(connections)
+
+
+def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
+    """Yield the stress that one breaking force for all comes to, which grows with the number of shards."""
+    alike = np.array([joint.breaking_force_n == force_n for joint in scenario.connections.joints])
+    holds = alike[model.joint_of_connection]
+    if area_m2 := float(model.connections.areas[holds].sum()):
+        stress = force_n * int(holds.sum()) / area_m2 / NEWTON_PER_SQUARE_MILLIMETRE
+        torn = MATERIALS["concrete"].tension_pa / NEWTON_PER_SQUARE_MILLIMETRE
+        yield "of all, by their area", f"{stress:.3g} N/mm² in the mean; plain concrete is torn at {torn:g} N/mm²"
 
 
 def _rule_facts(connections: ConnectionSettings) -> Iterator[tuple[str, str]]:

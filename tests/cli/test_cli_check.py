@@ -12,7 +12,9 @@ from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionSettings, Geometry
+from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.core.structure.model import build_model
 
 
 def facts(scenario):
@@ -96,6 +98,20 @@ def test_very_many_shards_are_cut_but_not_compared():
     assert found["shards"] == f"{MOST_SHARDS_COMPARED + 1}"
     assert int(found["connections"].split(",")[0]) > MOST_SHARDS_COMPARED
     assert found["overlapping shards"].startswith("not compared")
+
+
+def test_a_large_model_is_told_what_one_force_for_all_comes_to():
+    one_force = ConnectionSettings(method="face", breaking_force_n=1e5)
+    large = replace(I235, fracture=replace(I235.fracture, shards=LARGE_MODEL), connections=one_force)
+    areas = build_model(large).connections.areas
+    stress = 1e5 * len(areas) / areas.sum() / 1e6
+    assert (
+        facts(large)["of all, by their area"] == f"{stress:.3g} N/mm² in the mean; plain concrete is torn at 3.5 N/mm²"
+    )
+    assert any("give none" in line for line in scenario_facts(large))
+    by_default = facts(replace(large, connections=ConnectionSettings(method="face")))
+    assert by_default["strength of"].startswith(f"{MATERIAL_OF_LARGE_MODELS}, as in all models of {LARGE_MODEL} shards")
+    assert by_default["in shear"] == "0.9 N/mm²"
 
 
 def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):

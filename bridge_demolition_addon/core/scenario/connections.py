@@ -1,7 +1,7 @@
 """Which shards are connected, how, and what breaks a connection: for all of them, and between certain members."""
 
-from dataclasses import dataclass, fields
-from typing import ClassVar
+from dataclasses import dataclass, fields, replace
+from typing import ClassVar, Self
 
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
@@ -88,6 +88,16 @@ class JointSettings(Table):
 
 GROUND_NAME = "ground"
 
+LARGE_MODEL = 1000
+"""Shards from which on a bridge is large. The report of 2019, whose models have hundreds (section 2.5.2), means its one
+breaking force for all connections of these: the finer a bridge is cut, the more of them hold a section."""
+
+MATERIAL_OF_LARGE_MODELS = "reinforced concrete slab"
+"""What connections of a large model break by where no strength is given: of the reinforced concretes the weakest."""
+
+STRENGTH_KEYS = ("breaking_force_n", "breaking_force_kgf", "material")
+"""Keys of which one says what breaks a connection."""
+
 _JOINT = tuple(item.name for item in fields(JointSettings))
 
 
@@ -122,9 +132,7 @@ class ConnectionBetween(JointSettings):
         return any(getattr(self, name) is not None for name in _JOINT)
 
     def _check_together(self) -> None:
-        breaking = [
-            name for name in ("breaking_force_n", "breaking_force_kgf", "material") if getattr(self, name) is not None
-        ]
+        breaking = [name for name in STRENGTH_KEYS if getattr(self, name) is not None]
         others = breaking + [name for name in _JOINT if getattr(self, name) is not None]
         if self.none and others:
             raise ScenarioError(f"{self.table}.none is true: expected nothing else but members, found {others[0]}")
@@ -169,17 +177,23 @@ class ConnectionSettings(JointSettings):
         "Most connections of one shard; the nearest are kept.", default=50, at_least=1, at_most=LARGEST_INTEGER
     )
     breaking_force_n: float | None = key(
-        "Force that breaks a connection. Give this or `breaking_force_kgf`.", default=None, unit="N", above=0
+        "Force that breaks a connection, the same for all however finely the bridge is cut. Give this, "
+        "`breaking_force_kgf` or `material`.",
+        default=None,
+        unit="N",
+        above=0,
     )
     breaking_force_kgf: float | None = key(
-        "Force that breaks a connection, 1 kgf = 9.80665 N. Give this or `breaking_force_n`.",
+        "Force that breaks a connection, 1 kgf = 9.80665 N. Give this, `breaking_force_n` or `material`.",
         default=None,
         unit="kgf",
         above=0,
     )
     material: str | None = key(
         "Material by whose strengths a connection breaks, under axial force, shear and bending together; with method "
-        "`face`, as it takes the area of the shared face. Give this, `breaking_force_n` or `breaking_force_kgf`.",
+        "`face`, as it takes the area of the shared face. Give this, `breaking_force_n` or `breaking_force_kgf`. "
+        f"With method `face` and `fracture.shards` of {LARGE_MODEL} or more none is needed: they then break by that of "
+        f"`{MATERIAL_OF_LARGE_MODELS}`.",
         default=None,
         choices=tuple(MATERIALS),
     )
@@ -219,8 +233,26 @@ class ConnectionSettings(JointSettings):
         own = Joint(self.type, self.free or (), self.springs, self.breaking_force_newton, MATERIALS.get(self.material))
         return (own, *(_joint_between(own, rule) for rule in self.between))
 
+    def with_strength(self, shards: int) -> Self:
+        """Return the settings of a bridge in so many shards: large ones need no strength.
+
+        Raises
+        ------
+        ScenarioError
+            None is given, and the model is not large, or its connections have no area that a strength could count for.
+        """
+        if not self._has_strength and shards >= LARGE_MODEL and self.method == "face":
+            return replace(self, material=MATERIAL_OF_LARGE_MODELS)
+        check_exactly_one(self, *STRENGTH_KEYS)
+        return self
+
+    @property
+    def _has_strength(self) -> bool:
+        return any(getattr(self, name) is not None for name in STRENGTH_KEYS)
+
     def _check_together(self) -> None:
-        check_exactly_one(self, "breaking_force_n", "breaking_force_kgf", "material")
+        if self._has_strength:
+            check_exactly_one(self, *STRENGTH_KEYS)
         for each in (self, *self.between):
             if each.material is not None and self.method != "face":
                 raise each.unexpected("material", f'method "face" with it, found "{self.method}"')

@@ -70,6 +70,7 @@ class Scenario(Table):
 
     def _check_together(self) -> None:
         self._check_charges()
+        object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         if self.bridge is None and not self.geometry:
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
         for ball in (self.ball, *self.ball.hits) if self.ball else ():

@@ -10,7 +10,8 @@ import bpy
 
 from ...core.scenario import Scenario
 from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
-from ..sidebar import SidebarPanel, letters_of
+from ..sidebar import SidebarPanel, draw_sentence, letters_of
+from .breaking_note import breaking_note
 from .prop import INDEX, USE, label_of, shown_tables, vector_length
 from .table_list import draw_list
 
@@ -106,6 +107,8 @@ class _TablePanel(SidebarPanel):
             return
         layout.enabled = not is_optional(self.item) or getattr(owner, USE + self.item.name)
         draw_keys(layout, context, getattr(owner, self.item.name), subtable_class(self.item))
+        if not self.names and self.item.name == "connections" and (note := breaking_note(owner)):
+            draw_sentence(layout, context, note, icon="INFO")
 
     def _owner(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
         group = context.scene.bda.scenario

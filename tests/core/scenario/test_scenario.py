@@ -23,6 +23,7 @@ from bridge_demolition_addon.core.scenario import (
     ShardSettings,
     TimeSettings,
 )
+from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.schema import key_fields, shown, subtable_class, subtable_fields
 
 DECK = Deck(width_m=8.5, thickness_m=0.25, overhang_m=0.5)
@@ -30,6 +31,7 @@ PIERS = Piers(columns=2, column_length_m=0.7, column_width_m=0.7, height_m=4.9)
 BRIDGE = Bridge(density_kg_m3=2400, span_lengths_m=[13, 10.5], deck=DECK, piers=PIERS)
 BALL = Ball(mass_kg=10_000, diameter_m=1.34, target_m=[6.5, 0], drop_height_m=5)
 CONNECTIONS = ConnectionSettings(search_radius_m=1, breaking_force_kgf=10_000)
+NO_STRENGTH = ConnectionSettings(search_radius_m=1)
 SCENARIO = Scenario(
     title="two spans",
     time=TimeSettings(duration_s=5),
@@ -38,6 +40,7 @@ SCENARIO = Scenario(
     connections=CONNECTIONS,
     ball=BALL,
 )
+LARGE = replace(SCENARIO, fracture=FractureSettings(shards=LARGE_MODEL))
 
 
 def all_tables(table_class):
@@ -113,6 +116,19 @@ def test_scenarios_cannot_be_changed_and_can_be_compared_hashed_copied_and_pickl
 def test_breaking_force_in_either_unit():
     assert CONNECTIONS.breaking_force_newton == pytest.approx(98_066.5, rel=1e-15)
     assert ConnectionSettings(method="face", breaking_force_n=7).breaking_force_newton == 7.0
+
+
+def test_large_model_without_a_strength_breaks_by_that_of_a_material():
+    by_face = ConnectionSettings(method="face", type="FIXED")
+    assert replace(LARGE, connections=by_face).connections == replace(by_face, material=MATERIAL_OF_LARGE_MODELS)
+    with pytest.raises(ScenarioError, match="are all missing"):
+        replace(LARGE, connections=by_face, fracture=FractureSettings(shards=LARGE_MODEL - 1))
+
+
+@pytest.mark.parametrize("given", [{"breaking_force_kgf": 10_000}, {"breaking_force_n": 1e5}, {"material": "steel"}])
+def test_large_model_keeps_the_strength_that_is_given(given):
+    connections = ConnectionSettings(method="face", **given)
+    assert replace(LARGE, connections=connections).connections == connections
 
 
 def test_lengths_of_the_bridge():
@@ -211,7 +227,8 @@ def test_values_outside_their_limits_are_refused(table, values, text):
             "bridge.density_kg_m3 and bridge.mass_kg are all missing: expected exactly one",
         ),
         (CONNECTIONS, {"breaking_force_n": 1}, "breaking_force_kgf are given together: expected exactly one of"),
-        (CONNECTIONS, {"breaking_force_kgf": None}, "material are all missing: expected exactly one of"),
+        (SCENARIO, {"connections": NO_STRENGTH}, "material are all missing: expected exactly one of"),
+        (LARGE, {"connections": NO_STRENGTH}, "material are all missing: expected exactly one of"),
         (
             CONNECTIONS,
             {"search_radius_m": None},

@@ -94,3 +94,10 @@ def test_i235_has_the_parameters_of_the_2019_report():
     connections = I235.connections
     assert (connections.type, connections.method, connections.limit_per_shard) == ("HINGE", "vertex", 50)
     assert (connections.search_radius_m, connections.breaking_force_kgf) == (1.0, 10_000)
+
+
+def test_a_default_strength_is_written_with_what_ran():
+    connections = ConnectionSettings(method="face")
+    large = replace(I235, connections=connections, fracture=FractureSettings(shards=1000))
+    assert 'material = "reinforced concrete slab"' in scenario_text(large)
+    assert scenario_from_text(scenario_text(large)) == large

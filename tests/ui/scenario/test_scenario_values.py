@@ -9,7 +9,9 @@ from random_scenarios import varied
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario import Charge
+from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.ui.scenario.breaking_note import breaking_note
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, shortest, show_scenario
 
@@ -122,3 +124,17 @@ def test_a_charge_with_a_wrong_property_is_refused(settings):
     settings.id_data.objects["East pier"]["bda_explosive"] = "jelly"
     with pytest.raises(ScenarioError, match="jelly"):
         scenario_of(settings)
+
+
+def test_the_panel_says_what_breaks_the_connections_of_a_large_model(settings):
+    scenario, connections = settings.scenario, settings.scenario.connections
+    assert breaking_note(scenario) == ""
+    scenario.fracture.shards = LARGE_MODEL
+    assert "One force for all" in breaking_note(scenario)
+    connections.use_breaking_force_kgf = connections.use_search_radius_m = False
+    assert breaking_note(scenario).startswith("Choose")
+    connections.method = "face"
+    assert MATERIAL_OF_LARGE_MODELS in breaking_note(scenario)
+    assert scenario_of(settings).connections.material == MATERIAL_OF_LARGE_MODELS
+    scenario.fracture.shards = LARGE_MODEL - 1
+    assert breaking_note(scenario).startswith("Choose")
