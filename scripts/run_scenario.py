@@ -29,7 +29,12 @@ sys.argv = ["bda", "run", *arguments]
 try:
     importlib.import_module(f"{package()}.cli.main").entry()
 except ModuleNotFoundError as error:
-    print(f"run_scenario: this Blender has no {error.name}: install the extension, which brings it", file=sys.stderr)
+    print(
+        f"run_scenario: the Python of this Blender has no {error.name}: install the extension's zip, again if it is "
+        "there already, by Edit, Preferences, Get Extensions, Install from Disk; or put the libraries of pyproject.toml "
+        "into a folder, name it in PYTHONPATH, and start Blender with --python-use-system-env",
+        file=sys.stderr,
+    )
 except Exception:
     traceback.print_exc()
 sys.stderr.flush()

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import NoReturn
 
-from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError
-from ..core.signals import Interrupted, interrupt
+from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
+from ..core.signals import Interrupted, interrupt_by_system
 from . import charge, charts, check, report, run
 from .console import StandardStream
 from .process_end import end_process
@@ -45,7 +45,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0 done, 1 the run failed, 2 the input is wrong, 130 interrupted; 143 where the system asked for the end.
+        0 done, 1 the run failed, 2 the input is wrong, 130 interrupted; 143 where the system asked for the end,
+        129 where the terminal was closed.
     """
     try:
         arguments = _parser().parse_args(argv)
@@ -65,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def entry() -> NoReturn:
     """Run the command line and end the process with its exit status."""
     sys.stdout, sys.stderr = StandardStream.of(sys.stdout), StandardStream.of(sys.stderr)
-    signal.signal(signal.SIGTERM, interrupt)
+    interrupt_by_system()
     try:
         status = main()
         sys.stdout.flush()
@@ -86,9 +87,7 @@ def _parser() -> Parser:
 
 
 def _failed(error: DemolitionError | OSError, status: int) -> int:
-    named = isinstance(error, OSError) and error.filename is not None
-    text = f"{error.filename}: {error.strerror}" if named else str(error)
-    _say(f"error: {' '.join(text.split())}")
+    _say(f"error: {' '.join(text_of(error).split())}")
     return status
 
 

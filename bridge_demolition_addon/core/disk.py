@@ -20,8 +20,8 @@ def whole_file(path: Path) -> Iterator[Path]:
         os.replace(part, path)
     except BaseException as error:
         part.unlink(missing_ok=True)
-        if isinstance(error, OSError) and error.filename in (None, part, str(part)):
-            error.filename, error.filename2 = str(path), None
+        if isinstance(error, OSError) and error.errno and error.filename in (None, part, str(part)):
+            raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 
 

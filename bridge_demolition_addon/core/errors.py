@@ -41,6 +41,12 @@ class ContourError(DemolitionError):
     """What contours are to show cannot be shown: a range without an extent, or results of another scene."""
 
 
+def text_of(error: Exception) -> str:
+    """Return what an error says: of the system's, which file and why, without its number."""
+    named = isinstance(error, OSError) and error.filename is not None and error.strerror
+    return f"{error.filename}: {error.strerror}" if named else str(error)
+
+
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
     """Say which path cannot be written, where what is done in the block fails for it.

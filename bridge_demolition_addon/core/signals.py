@@ -1,4 +1,4 @@
-"""Signals that ask the program to end: Ctrl-C, and SIGTERM, which systems send before they kill."""
+"""Signals that ask the program to end: Ctrl-C, and those of systems before they kill, and of a terminal that closes."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
+
+_BY_SYSTEM = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+"""Windows has no SIGHUP."""
 
 
 class Interrupted(KeyboardInterrupt):
@@ -24,9 +27,18 @@ class Interrupted(KeyboardInterrupt):
         self.signal_number = signal_number
 
 
-def interrupt(signal_number: int, _frame: FrameType | None) -> NoReturn:
-    """Raise what a signal asks for; to be set as its handler."""
+def interrupt_by_system() -> None:
+    """Have those of the system raise `Interrupted` from now on; none that is to be ignored, as `nohup` asks."""
+    for each in _heeded(_BY_SYSTEM):
+        signal.signal(each, _interrupt)
+
+
+def _interrupt(signal_number: int, _frame: FrameType | None) -> NoReturn:
     raise Interrupted(signal_number)
+
+
+def _heeded(signals: Sequence[int]) -> list[int]:
+    return [each for each in signals if signal.getsignal(each) is not signal.SIG_IGN]
 
 
 @contextmanager
@@ -45,7 +57,7 @@ def signals_noted() -> Iterator[Sequence[int]]:
     if threading.current_thread() is not threading.main_thread():
         yield numbers
         return
-    noted = (signal.SIGINT, signal.SIGTERM)
+    noted = _heeded([signal.SIGINT, *_BY_SYSTEM])
     before = {each: signal.signal(each, lambda number, _: numbers.append(number)) for each in noted}
     try:
         yield numbers

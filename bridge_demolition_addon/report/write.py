@@ -10,7 +10,7 @@ from typing import Protocol
 
 from ..core.debris.exclusion import ExclusionZone
 from ..core.debris.throws import debris_of
-from ..core.errors import OutputError
+from ..core.errors import OutputError, text_of
 from ..core.folder_lock import FolderLock
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..core.scenario.file import scenario_text
@@ -80,7 +80,7 @@ def write_report(
                 return _written(comparison(runs, add_on_version()), target, progress)
             return _write_one(runs[0], target, trajectories, progress)
     except OSError as error:
-        raise OutputError(f"{target}: the report cannot be written ({error.strerror or error})") from error
+        raise OutputError(f"{target}: the report cannot be written ({text_of(error)})") from error
 
 
 def add_on_version() -> str:

@@ -13,7 +13,7 @@ import bpy
 from ..core.disk import write_whole_text
 from ..core.display.camera_targets import points_to_see
 from ..core.display.contours import ContourSettings
-from ..core.errors import DemolitionError, SimulationError
+from ..core.errors import DemolitionError, SimulationError, text_of
 from ..core.results.files import BLEND_FILE, FRAMES_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_text
@@ -169,7 +169,7 @@ def _results_of_failure(error: Exception | None, folder: Path) -> Iterator[None]
         if error is None:
             raise
         left = f"the frames up to then are in {folder}, " if (folder / FRAMES_FILE).is_file() else ""
-        raise SimulationError(f"{error}; {left}the results could not be kept: {failure}") from failure
+        raise SimulationError(f"{error}; {left}the results could not be kept: {text_of(failure)}") from failure
 
 
 def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> None:

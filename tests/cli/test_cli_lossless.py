@@ -115,12 +115,13 @@ def test_a_killed_run_keeps_all_but_its_last_frame_and_is_reported_as_such(tmp_p
 
 
 @POSIX
-def test_a_run_that_is_asked_to_end_keeps_what_it_has(tmp_path):
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_a_run_that_is_asked_to_end_keeps_what_it_has(tmp_path, name):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
-    process = started(path, output)
-    process.terminate()
+    process, number = started(path, output), getattr(signal, name)
+    process.send_signal(number)
     status, _, complained = outcome(process)
-    assert (status, complained) == (128 + signal.SIGTERM, "bda: interrupted\n")
+    assert (status, complained) == (128 + number, "bda: interrupted\n")
     assert not whole_results(output)["completed"]
 
 
@@ -168,6 +169,7 @@ def test_a_full_disk_leaves_no_half_of_a_file(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     assert done.returncode == 1
     assert f"{output / FRAMES_FILE}: cannot be written" in done.stderr and "the frames up to then are in" in done.stderr
+    assert "Errno" not in done.stderr and "None" not in done.stderr
     assert len(done.stderr.splitlines()) == 1
     assert not (output / "results.npz").exists() and not list(output.glob("*.part*"))
     assert not (output / "summary.json").exists()

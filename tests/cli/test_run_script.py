@@ -58,3 +58,13 @@ def test_wrong_input_gives_its_status(run: Run) -> None:
 
 def test_no_arguments_are_a_wrong_input(run: Run) -> None:
     assert run().returncode == 2
+
+
+def test_a_python_without_the_libraries_is_told_what_to_do(tmp_path: Path) -> None:
+    command = [sys.executable, "-I", "-S", str(SCRIPT), "--", "short.toml", "--output", "results"]
+    outcome = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert outcome.returncode == 1
+    assert outcome.stderr.startswith(
+        "run_scenario: the Python of this Blender has no numpy: install the extension's zip"
+    )
+    assert len(outcome.stderr.splitlines()) == 1

@@ -62,7 +62,7 @@ def read_archive(path: Path) -> dict[str, np.ndarray]:
 
     Raises
     ------
-    OSError, OutputError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error
+    OSError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error
         It is none, is damaged, or holds something else than plain arrays.
     """
     with zipfile.ZipFile(path) as archive:

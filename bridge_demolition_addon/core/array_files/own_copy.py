@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import tempfile
-from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
-
-from ..errors import writing
 
 _BLOCK = 1 << 20
 
@@ -18,16 +16,21 @@ def mapped_copy(content: BinaryIO, dtype: np.dtype, shape: tuple[int, ...], *, i
     """Copy a file from where it stands to its end, and return the array that this is, mapped: it takes no memory.
 
     The copy has no name, and goes with the array. A mapped file that another program cuts short or empties would end
-    the process.
+    the process. Where there is no room for the copy on the disk, it is in memory.
 
     Raises
     ------
-    OutputError
-        The folder for temporary files has no room for the copy.
+    OSError
+        The file cannot be read.
     ValueError
         The content is less than the array.
     """
-    with writing(Path(tempfile.gettempdir())), tempfile.TemporaryFile() as copy:
-        shutil.copyfileobj(content, copy, _BLOCK)
-        copy.flush()
-        return np.asarray(np.memmap(copy, dtype, "r", 0, shape, "F" if is_fortran else "C"))
+    order, start = "F" if is_fortran else "C", content.tell()
+    try:
+        with tempfile.TemporaryFile() as copy:
+            shutil.copyfileobj(content, copy, _BLOCK)
+            copy.flush()
+            return np.asarray(np.memmap(copy, dtype, "r", 0, shape, order))
+    except OSError:
+        content.seek(start)
+        return np.frombuffer(content.read(), dtype, math.prod(shape)).reshape(shape, order=order)

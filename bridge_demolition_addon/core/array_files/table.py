@@ -133,7 +133,7 @@ def stored_rows(path: Path) -> np.ndarray:
 
     Raises
     ------
-    OSError, OutputError, ValueError
+    OSError, ValueError
         The file is no table, or cannot be read.
     """
     with path.open("rb") as file:

@@ -16,5 +16,5 @@ def rendered_to(path: Path) -> Iterator[str]:
         rendered = Path(folder) / path.name
         yield str(rendered)
         if rendered.exists():
-            with whole_file(path) as part:
-                shutil.copyfile(rendered, part)
+            with whole_file(path) as part, rendered.open("rb") as source, part.open("wb") as target:
+                shutil.copyfileobj(source, target)

@@ -1,6 +1,7 @@
 """Archives of arrays: as numpy's, with large arrays that are mapped, and checked for damage."""
 
 import struct
+import sys
 import zipfile
 import zlib
 
@@ -60,6 +61,19 @@ def test_large_arrays_are_mapped_and_aligned(path):
 def test_arrays_stay_when_another_program_empties_the_file(path):
     found = read_archive(path)
     path.write_bytes(b"")  # which ends a process that has mapped it
+    assert same(found)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows limits no files")
+def test_arrays_without_room_for_a_copy_are_read(path):
+    import resource
+
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
+    try:
+        found = read_archive(path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert same(found)
 
 

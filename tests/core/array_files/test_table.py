@@ -1,6 +1,7 @@
 """Tables that grow on the disk: numpy reads them at any time, and a kill takes no whole row."""
 
 import gc
+import sys
 import threading
 
 import numpy as np
@@ -20,12 +21,16 @@ def rows(first, count):
     return made
 
 
-@pytest.fixture
-def table(tmp_path):
-    table = GrowingTable(tmp_path / "table.npy", ROW)
+def filled(path):
+    table = GrowingTable(path, ROW)
     for first in range(12):
         table.append(rows(first, 1))
     return table
+
+
+@pytest.fixture
+def table(tmp_path):
+    return filled(tmp_path / "table.npy")
 
 
 def test_numpy_reads_it_after_every_row(tmp_path):
@@ -72,6 +77,7 @@ def test_a_row_that_the_header_does_not_count_yet_is_dropped(table):
     assert len(stored_rows(table.path)) == len(np.load(table.path)) == 12
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows replaces no open file")
 def test_a_new_table_in_its_place_leaves_what_was_mapped(table):
     mapped = table.rows()
     GrowingTable(table.path, ROW).append(rows(5, 1))
@@ -90,8 +96,9 @@ def test_a_removed_table_is_read_as_long_as_it_is_there(table):
     assert mapped.tobytes() == rows(0, 12).tobytes()
 
 
-def test_a_removed_table_is_gone(table):
-    path = table.path
+def test_a_removed_table_is_gone(tmp_path):
+    path = tmp_path / "table.npy"
+    table = filled(path)
     table.remove()
     del table
     gc.collect()
@@ -117,7 +124,7 @@ def test_rows_are_read_while_others_are_added(table):
 
 
 def test_a_file_that_cannot_be_written_is_named(tmp_path):
-    with pytest.raises(OutputError, match=r"absent/table\.npy: cannot be written \(No such file or directory\)"):
+    with pytest.raises(OutputError, match=r"absent.table\.npy: cannot be written \(No such file or directory\)"):
         GrowingTable(tmp_path / "absent" / "table.npy", ROW)
 
 

@@ -1,5 +1,6 @@
 """Frames that go to the disk as they come: what is in memory is what is in the files, whatever becomes of the run."""
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -89,10 +90,14 @@ def test_whole_results_come_before_what_was_left(tmp_path):
     hanging_chain().save(tmp_path / RESULTS_FILE)
     assert results_in(tmp_path).name == RESULTS_FILE and len(load_results(tmp_path).frames) == 5
     stream.remove()
-    assert [path.name for path in tmp_path.iterdir()] == [RESULTS_FILE]
+    if sys.platform != "win32":  # where open files go with the stream
+        assert [path.name for path in tmp_path.iterdir()] == [RESULTS_FILE]
     assert len(stream) == 3 and stream[-1].number == 4 and len(stream.results().frames) == 3
+    stream.discard()
+    assert [path.name for path in tmp_path.iterdir()] == [RESULTS_FILE]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows replaces no open file")
 def test_a_stream_in_the_place_of_another_leaves_its_results(tmp_path):
     before = stream_run(tmp_path, hanging_chain()).results()
     digest = result_digest(before)
