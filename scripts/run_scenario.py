@@ -31,7 +31,7 @@ try:
 except ModuleNotFoundError as error:
     print(
         f"run_scenario: the Python of this Blender has no {error.name}: install the extension's zip, again if it is "
-        "there already, by Edit, Preferences, Get Extensions, Install from Disk; or put the libraries of pyproject.toml "
+        "there already, by Edit, Preferences, Get Extensions, Install from Disk; or put what pyproject.toml names "
         "into a folder, name it in PYTHONPATH, and start Blender with --python-use-system-env",
         file=sys.stderr,
     )
