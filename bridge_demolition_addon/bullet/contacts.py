@@ -12,11 +12,10 @@ from ..core.errors import LayoutError
 from ..core.geometry.vectors import dot, length
 from .layout import Layout
 from .memory import (
+    Places,
     copy_pointers,
-    gather_doubles_at,
     gather_integers,
     gather_pointers,
-    gather_words,
     read,
     read_pointer,
     read_value,
@@ -44,7 +43,7 @@ _UNIT = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ContactCopies:
-    """Copies of k contact points as Bullet holds them after a sub-step.
+    """Copies of the k contact points that carry a load, as Bullet holds them after a sub-step.
 
     Attributes
     ----------
@@ -121,14 +120,16 @@ class ContactReader:
         self._sorted = bodies[self._order]
         self._is_checked = False
         point = layout.manifold.point
-        impulses = (point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8)
-        directions = (point.lateral_directions, point.lateral_directions + 32)
         starts = [place + 8 * np.arange(3) for place in (point.place_on_b, point.normal)]
-        ends = [place + 8 * np.arange(3) for place in directions]
-        self._offsets = np.concatenate([*starts, impulses, *ends]).astype(np.uint64)[:, None]
+        directions = [place + 8 * np.arange(3) for place in (point.lateral_directions, point.lateral_directions + 32)]
+        self._impulse_offsets = layout.manifold.points + np.array(
+            [point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8]
+        )
+        self._other_offsets = layout.manifold.points + np.concatenate([*starts, *directions])
+        self._find(np.zeros(0, np.uint64))
 
     def copy(self) -> ContactCopies:
-        """Copy all contact points as they are now.
+        """Copy the contact points that carry a load now.
 
         Raises
         ------
@@ -136,17 +137,23 @@ class ContactReader:
             Memory is not as expected.
         """
         manifolds = self._checked_manifolds()
-        layout = self._layout.manifold
-        counts = gather_integers(manifolds + np.uint64(layout.count))
+        if not np.array_equal(manifolds, self._manifolds_found):
+            self._find(manifolds)
+        counts = self._counts.copy()[0]
+        used = np.flatnonzero(counts)
+        counts = counts.take(used)
         if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
             raise LayoutError("a contact has more than four points")
-        used = np.flatnonzero(counts)
-        manifolds, counts = manifolds[used], counts[used]
-        rows = np.repeat(np.arange(len(used)), counts)
+        rows = np.repeat(used, counts)
         number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
-        points = manifolds[rows] + (layout.points + number * layout.point.size).astype(np.uint64)
-        values = gather_doubles_at(points + self._offsets)
-        return ContactCopies(values, gather_words(manifolds, layout.body_a, 2).take(rows, axis=1))
+        further = number * self._layout.manifold.point.size
+        impulses = self._impulses.copy_at(rows, further)
+        # Friction can be left where the push has gone to nothing within the iterations of the solver.
+        loaded = np.flatnonzero((impulses[0] != 0.0) | (impulses[1] != 0.0) | (impulses[2] != 0.0))
+        rows, further = rows.take(loaded), further.take(loaded)
+        others = self._others.copy_at(rows, further)
+        values = np.concatenate((others[:6], impulses.take(loaded, axis=1), others[6:]))
+        return ContactCopies(values, self._bodies.copy_at(rows))
 
     def contacts(self, copies: Sequence[ContactCopies]) -> Contacts:
         """Contact points that carry a load, also those of sleeping bodies, which keep their last one.
@@ -163,10 +170,7 @@ class ContactReader:
         """
         values = np.concatenate([each.values for each in copies], axis=1)
         bodies = np.concatenate([each.bodies for each in copies], axis=1)
-        # Friction can be left where the push has gone to nothing within the iterations of the solver.
-        loaded = np.flatnonzero(values[6:9].any(axis=0))
-        substeps = np.repeat(np.arange(len(copies)), [each.values.shape[1] for each in copies])[loaded]
-        values, bodies = values.take(loaded, axis=1), bodies.take(loaded, axis=1)
+        substeps = np.repeat(np.arange(len(copies)), [each.values.shape[1] for each in copies])
         _check_directions(values)
         first, second = values[7] * values[9:12], values[8] * values[12:15]
         # Bullet leaves the second direction unset where it solved only one.
@@ -187,6 +191,15 @@ class ContactReader:
         pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
         moved = np.isin(pairs, rows).any(axis=0)
         write_integers(manifolds[moved] + np.uint64(layout.count), 0)
+
+    def _find(self, manifolds: np.ndarray) -> None:
+        """Note where everything is in manifolds at these addresses."""
+        layout = self._layout.manifold
+        self._manifolds_found = manifolds
+        self._counts = Places(manifolds, [layout.count], np.int32)
+        self._bodies = Places(manifolds, [layout.body_a, layout.body_b], np.uint64)
+        self._impulses = Places(manifolds, self._impulse_offsets)
+        self._others = Places(manifolds, self._other_offsets)
 
     def _checked_manifolds(self) -> np.ndarray:
         """Addresses of all manifolds, checked when the first are there."""

@@ -11,7 +11,7 @@ import ctypes
 import os
 import struct
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -63,43 +63,39 @@ def gather_doubles(addresses: np.ndarray, count: int = 1, columns: np.ndarray | 
 
 
 class Places:
-    """The same c doubles at each of n checked addresses, to be copied again and again.
+    """The same c values at each of n checked addresses, to be copied again and again.
 
     Parameters
     ----------
     addresses
         (n,) where each structure begins.
     offsets
-        (c,) of the doubles in it, in bytes.
+        (c,) of the values in it, in bytes.
+    type_
+        What the values are.
     """
 
-    def __init__(self, addresses: np.ndarray, offsets: np.ndarray):
-        self._indices = _indices(np.asarray(offsets, np.uint64)[:, None] + addresses, 8)
+    def __init__(self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, type_: type = np.float64):
+        self._space = _SPACES[type_]
+        self._starts = _indices(addresses, self._space.itemsize)
+        self._offsets = np.asarray(offsets, np.int64)[:, None] // self._space.itemsize
+        self._indices: np.ndarray | None = None
 
     def copy(self) -> np.ndarray:
-        """Doubles (c, n) as they are now."""
-        return _DOUBLES.take(self._indices)
+        """Values (c, n) as they are now."""
+        if self._indices is None:
+            self._indices = self._starts + self._offsets
+        return self._space.take(self._indices)
+
+    def copy_at(self, rows: np.ndarray, further: np.ndarray | int = 0) -> np.ndarray:
+        """Values (c, k) in some of the structures (k,), each so many bytes (k,) behind the offsets."""
+        return self._space.take(self._starts.take(rows) + further // self._space.itemsize + self._offsets)
 
 
 def copy_pointers(address: int, count: int) -> np.ndarray:
     """So many pointers (count,) uint64 in a row, at a checked address."""
     first = (address - _LOWEST) // 8
     return _POINTERS[first : first + count].copy()
-
-
-def gather_doubles_at(addresses: np.ndarray) -> np.ndarray:
-    """Doubles (...) at checked addresses (...)."""
-    return _DOUBLES.take(_indices(addresses, 8))
-
-
-def gather_words(addresses: np.ndarray, offset: int, count: int) -> np.ndarray:
-    """Words of 8 bytes (count, n) uint64, `count` in a row behind an offset in bytes from checked addresses (n,)."""
-    return _POINTERS.take(_indices(addresses + np.uint64(offset), 8) + np.arange(count)[:, None])
-
-
-def gather_bytes(addresses: np.ndarray) -> np.ndarray:
-    """Bytes (n,) at the checked addresses (n,)."""
-    return _BYTES.take(_indices(addresses, 1))
 
 
 def gather_pointers(addresses: np.ndarray) -> np.ndarray:
@@ -125,6 +121,12 @@ def write_float(address: int, value: float) -> None:
 def write_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
     """Write vectors (n, 3) of doubles to checked addresses (n,)."""
     _DOUBLES[_indices(addresses, 8)[:, None] + np.arange(3)] = vectors
+
+
+def add_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
+    """Add vectors (n, 3) to those at checked addresses (n,), each of which is named once."""
+    indices = _indices(addresses, 8)[:, None] + np.arange(3)
+    _DOUBLES[indices] = _DOUBLES.take(indices) + vectors
 
 
 def write_bytes(addresses: np.ndarray, value: int) -> None:
@@ -155,6 +157,9 @@ _BYTES = np.asarray(_AddressSpace("|u1", 1))
 _FLOATS = np.asarray(_AddressSpace("<f4", 4))
 _POINTERS = np.asarray(_AddressSpace("<u8", 8))
 _INTEGERS = np.asarray(_AddressSpace("<i4", 4))
+
+
+_SPACES = {np.float64: _DOUBLES, np.uint64: _POINTERS, np.int32: _INTEGERS, np.uint8: _BYTES}
 
 
 def _indices(addresses: np.ndarray | int, item_size: int) -> np.ndarray:

@@ -14,7 +14,7 @@ import numpy as np
 
 from .contacts import ContactCopies, ContactReader, Contacts
 from .layout import Layout
-from .memory import Places, gather_bytes
+from .memory import Places
 
 _VECTOR = 8 * np.arange(3)
 _FEEDBACK_COLUMNS = np.array([0, 1, 2, 4, 5, 6])
@@ -144,7 +144,7 @@ class SnapshotTaker:
         """
         if not np.array_equal(self._exists, self._existed):
             self._find_existing()
-        applied_impulses, enabled = self._impulses.copy()[0], gather_bytes(self._enabled) != 0
+        applied_impulses, enabled = self._impulses.copy()[0], self._enabled.copy()[0] != 0
         return Snapshot(
             bodies=self._bodies.copy(),
             loads=self._feedback.take(self._loads),
@@ -173,8 +173,8 @@ class SnapshotTaker:
     def _find_existing(self) -> None:
         self._existed = self._exists.copy()
         addresses = self._connections[self._existed]
-        self._impulses = Places(addresses, np.array([self._constraint.applied_impulse]))
-        self._enabled = addresses + np.uint64(self._constraint.enabled)
+        self._impulses = Places(addresses, [self._constraint.applied_impulse])
+        self._enabled = Places(addresses, [self._constraint.enabled], np.uint8)
 
     def _of_all(self, values: np.ndarray) -> np.ndarray:
         """Values (m,), 0 for connections that do not exist, from those (e,) of the ones that do."""

@@ -24,6 +24,8 @@ from .collision_pairs import CollisionPairs
 from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout, platform_layout
 from .memory import (
+    Places,
+    add_vectors,
     gather_doubles,
     gather_integers,
     gather_pointers,
@@ -40,6 +42,12 @@ from .teardown import ConnectionSettings, Fingerprints, retire, take_out_constra
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
+
+_TRANSFORM = 8 * np.array([0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14])
+"""Rotation matrix and origin in bytes from the start of a btTransform: four vectors of four doubles each."""
+
+_CACHE_LINE = 64
+"""Bytes; also more than the 16 that Bullet asks for its vectors."""
 
 _tokens = itertools.count(0x42444100)
 
@@ -72,6 +80,8 @@ class _BoundWorld:
         Addresses; 0 for a connection that does not exist.
     exists : (m,) bool
         Whether each connection exists; kept up to date.
+    transforms : Places
+        Where each body's rotation matrix and, behind it, its position are.
     removed : (n,) bool
         Bodies that were taken out of the simulation; kept up to date.
     thresholds : (e,) float
@@ -94,6 +104,7 @@ class _BoundWorld:
     bodies: np.ndarray
     connections: np.ndarray
     exists: np.ndarray
+    transforms: Places
     removed: np.ndarray
     thresholds: np.ndarray
     forbids_collision: np.ndarray
@@ -197,8 +208,8 @@ class BulletWorld:
 
     def positions(self) -> tuple[np.ndarray, np.ndarray]:
         """Origins (n, 3) in m and rotation matrices (n, 3, 3) of all bodies."""
-        transforms = gather_doubles(self._body_fields(self._layout.body.transform), 15)
-        return transforms[:, 12:15], transforms[:, :12].reshape(-1, 3, 4)[:, :, :3]
+        transforms = np.ascontiguousarray(self._bound.transforms.copy().T)
+        return transforms[:, 9:], transforms[:, :9].reshape(-1, 3, 3)
 
     def velocities(self) -> np.ndarray:
         """Linear velocities (n, 3) of all bodies, m/s."""
@@ -222,6 +233,14 @@ class BulletWorld:
             sums = np.column_stack([np.bincount(bodies, column, count) for column in values.T])[named]
             fields = self._bound.bodies[named] + np.uint64(self._layout.body.total_force + offset)
             write_vectors(fields, gather_doubles(fields, 3) + sums)
+
+    def push(self, bodies: np.ndarray, forces_n: np.ndarray) -> None:
+        """Wake bodies (k,), each named once and in order, and add forces (k, 3) on them in the coming sub-step."""
+        addresses, body = self._bound.bodies[bodies], self._layout.body
+        states = gather_integers(addresses + np.uint64(body.activation))
+        if ((states == ASLEEP) | (states == WANTS_SLEEP)).any():
+            self.wake(bodies)
+        add_vectors(addresses + np.uint64(body.total_force), forces_n)
 
     def wake(self, bodies: np.ndarray) -> None:
         """Wake those of bodies (k,) that sleep or are about to, as Bullet does when something touches them.
@@ -477,6 +496,7 @@ class BulletWorld:
             bodies=bodies,
             connections=connections,
             exists=exists,
+            transforms=Places(bodies, layout.body.transform + _TRANSFORM),
             removed=np.zeros(len(bodies), bool),
             thresholds=gather_doubles(connections[exists] + np.uint64(layout.constraint.breaking_threshold))[:, 0],
             forbids_collision=forbids_collision,
@@ -569,8 +589,8 @@ def _callback(action: Callable[[float], None]) -> object:
 
 
 def _aligned_doubles(count: int) -> np.ndarray:
-    """Zeroed feedback blocks (count, 4, 4), 16-byte aligned as Bullet's vectors ask, never to be freed."""
-    raw = np.zeros(count * _FEEDBACK_DOUBLES + 1)
+    """Zeroed feedback blocks (count, 4, 4), aligned so that a body's load is in one cache line, never to be freed."""
+    raw = np.zeros(count * _FEEDBACK_DOUBLES + _CACHE_LINE // 8)
     _buffers_bullet_may_write.append(raw)
-    start = (-raw.ctypes.data % 16) // 8
+    start = (-raw.ctypes.data % _CACHE_LINE) // 8
     return raw[start : start + count * _FEEDBACK_DOUBLES].reshape(count, 4, 4)

@@ -81,7 +81,7 @@ class Explosion:
         shape = (len(hulls), len(charges))
         self._detonated = np.zeros(shape[1], bool)
         self._pulses = Pulses(np.full(shape, np.inf), np.zeros(shape), np.zeros(shape), np.zeros(shape))
-        self._stand_offs = np.zeros(shape)
+        self._stand_offs, self._scaled_distances = np.zeros(shape), np.zeros(shape)
         self._directions = np.zeros((*shape, 3))
         self._shares = np.ones(shape)
 
@@ -100,21 +100,22 @@ class Explosion:
         self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
         pulses = self._pulses
         during = pulses.load_between(start_s, end_s)
-        bodies, charges = np.nonzero(during)
-        if not len(bodies):
+        pairs = np.flatnonzero(during)
+        if not len(pairs):
             return no_loads()
+        bodies, charges = np.divmod(pairs, during.shape[1])
         active = np.flatnonzero(during.any(axis=0))
         shown = projected_areas(self._hulls, rotations, self._directions[:, active])
-        areas = shown[bodies, np.searchsorted(active, charges)] * self._shares[bodies, charges]
-        taken = pulses.take(bodies, charges)
+        areas = shown[bodies, np.searchsorted(active, charges)] * self._shares.take(pairs)
+        taken = pulses.take(pairs)
         pressure_impulses = impulse_between(taken, start_s, end_s)
         return StepLoads(
             bodies=bodies,
             charges=charges,
-            stand_offs_m=self._stand_offs[bodies, charges],
-            scaled_distances=scaled_distance(self._stand_offs[bodies, charges], self._tnt_kg[charges]),
+            stand_offs_m=self._stand_offs.take(pairs),
+            scaled_distances=self._scaled_distances.take(pairs),
             areas_m2=areas,
-            directions=self._directions[bodies, charges],
+            directions=self._directions.reshape(-1, 3).take(pairs, axis=0),
             peaks_pa=taken.peaks_pa,
             pressure_impulses_pa_s=pressure_impulses,
             impulses_ns=pressure_impulses * areas,
@@ -143,6 +144,7 @@ class Explosion:
         )
         self._pulses.put(columns, pulses)
         self._stand_offs[:, columns], self._directions[:, columns] = stand_offs, directions
+        self._scaled_distances[:, columns] = scaled_distance(stand_offs, self._tnt_kg[columns])
         if settings.shielding:
             self._shares[:, columns] = visible_shares(self._hulls, centres, rotations, sources)
         self._detonated[columns] = True

@@ -73,14 +73,17 @@ def projected_areas(hulls: ConvexHulls, rotations: np.ndarray, directions: np.nd
     """
     if not len(hulls):
         return np.zeros(directions.shape[:2])
-    in_body_axes = transformed_back(rotations[:, None], directions).transpose(1, 2, 0)
-    of_faces = np.repeat(in_body_axes, np.diff(hulls.starts), axis=2)
     # One axis after the other, in rows that lie together in memory: this is computed in every sub-step.
-    x, y, z = hulls.face_vectors
-    shown = x * of_faces[:, 0]
-    shown += y * of_faces[:, 1]
-    shown += z * of_faces[:, 2]
-    return np.add.reduceat(abs(shown) / 2.0, hulls.starts[:-1], axis=1).T
+    in_body_axes = _in_body_axes(rotations, directions)
+    shown, added = (np.empty((directions.shape[1], hulls.face_vectors.shape[1])) for _ in range(2))
+    for axis, vectors in enumerate(hulls.face_vectors):
+        in_body_axes[axis].take(hulls.bodies, axis=1, out=added, mode="clip")  # all are within; others are buffered
+        np.multiply(vectors, added, out=added if axis else shown)
+        if axis:
+            shown += added
+    np.abs(shown, out=shown)
+    shown /= 2.0
+    return np.add.reduceat(shown, hulls.starts[:-1], axis=1).T
 
 
 def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sources: np.ndarray) -> np.ndarray:
@@ -117,6 +120,16 @@ def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarra
             stopped[rays[passing]] = True
         shares[:, column] = np.bincount(owners, ~stopped, len(hulls)) / counts
     return shares
+
+
+def _in_body_axes(rotations: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """Return components (3, c, n) of directions (n, c, 3) in the axes of bodies with rotations (n, 3, 3)."""
+    matrices = np.ascontiguousarray(rotations.transpose(1, 2, 0))[:, :, None]
+    x, y, z = np.ascontiguousarray(directions.transpose(2, 1, 0))
+    turned = matrices[0] * x
+    turned += matrices[1] * y
+    turned += matrices[2] * z
+    return turned
 
 
 def _targets(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -17,6 +17,11 @@ _SERIES_BELOW = 0.5
 _SERIES_TERMS = 15
 """Enough for the last term to be below rounding where the series is used: 0.5^15 / 15! is 2e-17."""
 
+_SERIES = [
+    [1.0 / (factorial(term) * (term + order + 1)) for order in range(3)] for term in reversed(range(_SERIES_TERMS))
+]
+"""Coefficients of the series of three moments, the last term first."""
+
 _MOST_STEPS = 50
 
 
@@ -100,17 +105,32 @@ def _share(decay: np.ndarray) -> np.ndarray:
 
 def _moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
     """Return ∫₀¹ uⁿ e^(-y u) du for y ≥ 0 and n from 0 on; a series where the closed form would lose its digits."""
-    large, small = np.maximum(exponent, _SERIES_BELOW), np.minimum(exponent, _SERIES_BELOW)
-    left = exponential(-large)
-    closed = (1.0 - left) / large
-    moments = []
-    for order in range(count):
-        if order:
-            closed = (order * closed - left) / large
-        series = np.zeros_like(small)
-        for term in reversed(range(_SERIES_TERMS)):
-            series = 1.0 / (factorial(term) * (term + order + 1)) - small * series
-        moments.append(np.where(exponent < _SERIES_BELOW, series, closed))
+    is_small = exponent < _SERIES_BELOW
+    # Both are costly: most steps are so short, or so long, that one of them serves all pulses.
+    if is_small.all():
+        return list(_series_of_moments(exponent, count))
+    if not is_small.any():
+        return _closed_moments(exponent, count)
+    series = _series_of_moments(np.minimum(exponent, _SERIES_BELOW), count)
+    closed = _closed_moments(np.maximum(exponent, _SERIES_BELOW), count)
+    return [np.where(is_small, *each) for each in zip(series, closed, strict=True)]
+
+
+def _series_of_moments(exponent: np.ndarray, count: int) -> np.ndarray:
+    """Return the moments (count, ...) by their series, for small exponents."""
+    sums = np.zeros((count, *exponent.shape))
+    for coefficients in np.array(_SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
+        np.multiply(exponent, sums, out=sums)
+        np.subtract(coefficients, sums, out=sums)
+    return sums
+
+
+def _closed_moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
+    """Return the moments in closed form, for exponents that are not small."""
+    left = exponential(-exponent)
+    moments = [(1.0 - left) / exponent]
+    for order in range(1, count):
+        moments.append((order * moments[-1] - left) / exponent)
     return moments
 
 

@@ -55,10 +55,10 @@ class Pulses:
         """Return the impulse per area of each whole pulse, (n, c) Pa·s."""
         return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
-    def take(self, bodies: np.ndarray, charges: np.ndarray) -> "Pulses":
-        """Return the pulses (k,) of pairs of a body (k,) and a charge (k,)."""
-        pairs = bodies, charges
-        return Pulses(self.arrivals_s[pairs], self.peaks_pa[pairs], self.durations_s[pairs], self.decays[pairs])
+    def take(self, pairs: np.ndarray) -> "Pulses":
+        """Return the pulses (k,) of pairs (k,): c i + j is that of body i and charge j."""
+        every = (self.arrivals_s, self.peaks_pa, self.durations_s, self.decays)
+        return Pulses(*(values.take(pairs) for values in every))
 
     def put(self, columns: np.ndarray, other: "Pulses") -> None:
         """Replace the pulses of some charges (k,) by others (n, k)."""

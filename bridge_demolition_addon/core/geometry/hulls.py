@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -17,7 +18,7 @@ _SAME_PLANE_DIGITS = 9
 """Digits after the point (of m, and of unit normals) in which triangles of one face agree."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class ConvexHulls:
     """Convex hulls of n bodies with f faces and v vertices in all, structure of arrays, in the axes of their bodies.
 
@@ -50,7 +51,7 @@ class ConvexHulls:
     def __len__(self) -> int:
         return len(self.starts) - 1
 
-    @property
+    @cached_property
     def bodies(self) -> np.ndarray:
         """(f,) the body of every face."""
         return np.repeat(np.arange(len(self)), np.diff(self.starts))

@@ -61,9 +61,11 @@ def by_component(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
 def cross_by_component(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Cross products (..., 3) of vectors (..., 3), each component of which lies together in memory."""
     product = np.empty((3, *np.broadcast_shapes(first.shape, second.shape)[:-1]))
+    taken_off = np.empty(product.shape[1:])
     for axis, (one, other) in enumerate(((1, 2), (2, 0), (0, 1))):
         np.multiply(first[..., one], second[..., other], out=product[axis])
-        product[axis] -= first[..., other] * second[..., one]
+        np.multiply(first[..., other], second[..., one], out=taken_off)
+        product[axis] -= taken_off
     return np.moveaxis(product, 0, -1)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from .forces import PairSums
 from .stress import average_stress, average_stress_of_moments, von_mises
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class SubstepLoads:
     """Loads of s sub-steps that follow each other, on n bodies by m connections and k contact points.
 
@@ -50,6 +51,16 @@ class SubstepLoads:
     contact_points_m: np.ndarray
     centres_m: np.ndarray
     rotations: np.ndarray
+
+    @cached_property
+    def connection_impulses_ns(self) -> np.ndarray:
+        """Impulses (s, m, 3) of the connections in each sub-step."""
+        return self.substeps_s[:, None, None] * self.connection_forces_n
+
+    @cached_property
+    def connection_angular_impulses_nms(self) -> np.ndarray:
+        """Impulses (s, m, 3) of their moments in each sub-step."""
+        return self.substeps_s[:, None, None] * self.connection_moments_nm
 
     def contacts_of(self, substep: int) -> slice:
         """Return which contacts are in a sub-step."""
@@ -186,8 +197,7 @@ class LoadAccumulator:
             self._add_contacts(loads, by_contacts)
         self._note_peaks(loads, magnitudes, length(resultants_n), sums)
         signed = of_connections.differences(loads.signed_2019_ns)
-        impulses = substeps_s[:, None, None] * loads.connection_forces_n
-        angular_impulses = substeps_s[:, None, None] * loads.connection_moments_nm
+        impulses, angular_impulses = loads.connection_impulses_ns, loads.connection_angular_impulses_nms
         sum_impulses = substeps_s[:, None] * sums
         for substep, substep_s in enumerate(substeps_s.tolist()):
             self._connection_impulses += impulses[substep]

@@ -12,6 +12,7 @@ energy away, as impacts, friction and breaking do. One that speeds it up makes e
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -248,9 +249,9 @@ class WorkAccumulator:
         about_origin = cross_by_component(between.points_m, between.impulses_ns)
         if between.angular_impulses_nms is not None:
             about_origin += between.angular_impulses_nms
-        loads = _components(between.impulses_ns, about_origin)
+        loads = [*_rows(between.impulses_ns), *_rows(about_origin)]
         of_first, of_second = motion.take(first, axis=1), motion.take(second, axis=1)
-        total = _dot(loads, of_first - of_second)
+        total = _dot(loads, [one - other for one, other in zip(of_first, of_second, strict=True)])
         is_free = free.ravel()
         first_free, second_free = is_free[first], is_free[second]
         total[~(first_free | second_free)] = 0.0
@@ -305,7 +306,7 @@ class PairWork:
 
 
 def _of_tools(
-    sums: PairSums, loads: np.ndarray, motion: np.ndarray, free: np.ndarray, substeps: list[slice]
+    sums: PairSums, loads: Sequence[np.ndarray], motion: np.ndarray, free: np.ndarray, substeps: list[slice]
 ) -> list[list[float]]:
     """Return the work of bodies that move as animation says on those that move freely, from both sides."""
     led = ~free & motion.any(axis=0)
@@ -317,7 +318,7 @@ def _of_tools(
         each_j = []
         for substep in substeps:
             rows = substep.start + np.flatnonzero(acts[substep])
-            work = _dot(loads.take(rows, axis=1), motion.take(bodies[rows], axis=1))
+            work = _dot([each.take(rows) for each in loads], motion.take(bodies[rows], axis=1))
             each_j.append(sign * float(work.sum()))
         works.append(each_j)
     return works
@@ -325,12 +326,22 @@ def _of_tools(
 
 def _components(*vectors: np.ndarray) -> np.ndarray:
     """Components (c, k) of vectors (..., 3), one after the other."""
-    return np.concatenate([np.moveaxis(each, -1, 0).reshape(3, -1) for each in vectors])
+    return np.concatenate([_rows(each) for each in vectors])
 
 
-def _dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def _rows(vectors: np.ndarray) -> np.ndarray:
+    """Components (3, k) of vectors (..., 3)."""
+    return np.moveaxis(vectors, -1, 0).reshape(3, -1)
+
+
+def _dot(first: Sequence[np.ndarray], second: Sequence[np.ndarray]) -> np.ndarray:
     """Products (k,) of vectors given by components (c, k)."""
-    return dot(first.T, second.T)
+    total = first[0] * second[0]
+    added = np.empty_like(total)
+    for one, other in zip(first[1:], second[1:], strict=True):
+        np.multiply(one, other, out=added)
+        total += added
+    return total
 
 
 def _joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -149,8 +149,7 @@ class DirectBlast:
             return
         pushed = np.flatnonzero(np.bincount(loads.bodies, minlength=len(self._rows)))
         forces = loads.vectors(len(self._rows))[pushed] / substep_s
-        self._world.wake(self._rows[pushed])
-        self._world.add_forces(self._rows[pushed], forces)
+        self._world.push(self._rows[pushed], forces)
         self._loads.append(loads)
 
     def after_frame(self) -> StepLoads:

@@ -61,7 +61,9 @@ class BulletReader:
             np.array(scene.gravity, float),
             Motion(*(each[None] for each in (world.positions()[0], world.velocities(), world.angular_velocities()))),
         )
-        self._substeps = SubstepRecorder(world, inventory, breaking, self._events, blast, normal_substep_s, work)
+        self._substeps = SubstepRecorder(
+            world, inventory, breaking, self._events, blast, normal_substep_s, work, every_substep=every_substep
+        )
         after = self._substeps.after_substep if every_substep else None
         world.call_around_substeps(self._substeps.before_substep, after)
 

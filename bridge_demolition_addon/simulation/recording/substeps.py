@@ -103,6 +103,8 @@ class SubstepRecorder:
         Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
     work : WorkAccumulator
         Adds up the work in each frame.
+    every_substep : bool
+        Whether every sub-step is recorded: the work of a frame is known only then.
 
     Attributes
     ----------
@@ -123,6 +125,8 @@ class SubstepRecorder:
         blast: Blast | None,
         threshold_step_s: float,
         work: WorkAccumulator,
+        *,
+        every_substep: bool,
     ):
         self.elapsed_s = 0.0
         self.seconds = 0.0
@@ -148,7 +152,7 @@ class SubstepRecorder:
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._waiting: list[_Substep] = []
-        self._work_counts = not self._is_warming_up
+        self._work_counts, self._every_substep = not self._is_warming_up, every_substep
         self._breaks: list[Breaks] = []
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
@@ -233,7 +237,9 @@ class SubstepRecorder:
         if not waiting:
             return
         bodies, loads = self._loads(waiting)
-        self._add_work(bodies, loads, self._frame.add(loads))
+        resultants_n = self._frame.add(loads)
+        if self._every_substep:
+            self._add_work(bodies, loads, resultants_n)
         for substep, each in enumerate(waiting):
             if len(each.broken):
                 forces = self._section_forces(loads.moment(substep), each.broken)
@@ -259,9 +265,9 @@ class SubstepRecorder:
         substeps_s = loads.substeps_s[:, None, None]
         of_connections = PairImpulses(
             self._inventory.pairs,
-            substeps_s * loads.connection_forces_n,
+            loads.connection_impulses_ns,
             loads.connection_points_m,
-            substeps_s * loads.connection_moments_nm,
+            loads.connection_angular_impulses_nms,
         )
         of_contacts = PairImpulses(
             loads.contact_pairs,
