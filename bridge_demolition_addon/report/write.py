@@ -80,7 +80,11 @@ def write_report(
                 return _written(comparison(runs, add_on_version()), target, progress)
             return _write_one(runs[0], target, trajectories, progress)
     except OSError as error:
-        raise OutputError(f"{target}: the report cannot be written ({text_of(error)})") from error
+        read = isinstance(error, FileNotFoundError) and not Path(error.filename or target).is_relative_to(target)
+        cleared = ": a folder was cleared meanwhile, as by a run that has begun in it; make the report again"
+        raise OutputError(
+            f"{target}: the report cannot be written ({text_of(error)}){cleared if read else ''}"
+        ) from error
 
 
 def add_on_version() -> str:

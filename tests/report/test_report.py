@@ -241,6 +241,26 @@ def test_a_folder_that_is_locked_by_the_report_of_a_killed_run_is_of_no_run_at_w
         assert any("The run is still at work (process " in text for text in read_run(killed).shortcomings)
 
 
+class ClearedMeanwhile(Silence):
+    """A run that begins in the folder once all of it is read."""
+
+    def __init__(self, folder):
+        self._folder = folder
+
+    def stage(self, text):
+        if text.startswith("drawing"):
+            for name in ("after.png", "before.png"):
+                (self._folder / "frames" / name).unlink(missing_ok=True)
+
+
+def test_a_folder_that_is_cleared_meanwhile_ends_the_report_with_a_message(tmp_path):
+    folder = keep_run(tmp_path / "run", flying_shards(6, 13), I235)
+    (folder / "frames").mkdir()
+    imsave(folder / "frames" / "before.png", np.zeros((4, 4)))
+    with pytest.raises(OutputError, match=r"before\.png: No such file or directory\): a folder was cleared meanwhile"):
+        write_report([folder], tmp_path / "report", progress=ClearedMeanwhile(folder))
+
+
 def test_a_scene_that_was_built_by_hand_has_no_scenario(tmp_path):
     folder = keep_run(tmp_path / "run", flying_shards(6, 13), None)
     assert any("There is no scenario_as_run.toml" in text for text in told(folder).notices)
