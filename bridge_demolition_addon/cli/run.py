@@ -201,5 +201,7 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "energy made by solver", f"{made['J'] / 1000.0:.1f} kJ, {share}"
         if doubtful := energy["doubtful_throws"]:
             yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"
+    parts = (f"{name.replace('_', ' ')} {seconds:.1f}" for name, seconds in summary["wall_time_s"].items())
+    yield "wall time in s", ", ".join(parts)
     fingerprint = summary["fingerprint"]
     yield "fingerprint", f"built {fingerprint['built'][:SHORT]}, result {fingerprint['result'][:SHORT]}"

@@ -142,9 +142,14 @@ def checked_log(path: Path, *, overwrite: bool) -> Path:
 def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:
     """Write arrays, summary and force chart of a recording beside its logs."""
     results.save(folder / RESULTS_FILE)
-    write_whole_text(folder / SUMMARY_FILE, json.dumps(summary, indent=2) + "\n")
+    keep_summary(folder, summary)
     # Loading matplotlib takes a second, which neither other commands nor switching the add-on on wait for. Where it
     # is missing or broken, the results are written by now.
     from ..charts.force_chart import plot_forces
 
     plot_forces(results, folder / FORCE_CHART, summary["title"], first_hit_s(summary))
+
+
+def keep_summary(folder: Path, summary: dict[str, Any]) -> None:
+    """Write the summary, in place of one that is there."""
+    write_whole_text(folder / SUMMARY_FILE, json.dumps(summary, indent=2) + "\n")

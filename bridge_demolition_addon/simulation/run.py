@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, Protocol
@@ -27,7 +27,7 @@ from ..scene.world import START_FRAME, keep_played_frames
 from .display.film import FilmRendering, FilmSettings
 from .playback import Playing
 from .recording.recorder import Recording
-from .results_folder import check_folder, keep_results, lock_in_place, prepare_folder
+from .results_folder import check_folder, keep_results, keep_summary, lock_in_place, prepare_folder
 from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
@@ -94,7 +94,7 @@ def run_scenario(
         By Ctrl-C, or by a request to end; the results so far are kept.
     """
     check_folder(output, overwrite=overwrite)
-    began = time.perf_counter()
+    lap_s = _laps()
     progress.stage("building the bridge and its shards")
     model = model or checked_model(scenario)
     with ExitStack() as locks:
@@ -103,24 +103,27 @@ def run_scenario(
         scene = _empty_scene(scenario.title)
         build_demolition(scene, scenario, model)
         _prepare_view(scene, scenario, model)
-        built_s = time.perf_counter() - began
+        times = {"building": lap_s()}
         progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
         context = RunContext.of(scene, scenario.title, scenario)
         with signals_noted() as signals:
             playing = _simulate(scene, lock.folder, scenario, progress, signals)
             recording = playing.recording
+            times |= {"blender": playing.seconds - recording.seconds, "recording": recording.seconds}
+            times["starting_and_ending"] = lap_s() - playing.seconds
             if recording.distrust:
                 distrust = f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}"
                 progress.stage(distrust)
             summary = run_summary(recording, recording.results(), context, completed=not (signals or recording.error))
             summary["density_kg_m3"] = model.density_kg_m3
             summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
-            blender_s = playing.seconds - recording.seconds
-            summary["wall_time_s"] = {"building": built_s, "blender": blender_s, "recording": recording.seconds}
+            times["summary"] = lap_s()
+            summary["wall_time_s"] = times
             progress.stage("writing the results")
             with _results_of_failure(recording.error, lock.folder):
                 kept = locks.enter_context(lock_in_place(lock))
                 _keep_all(kept.folder, scene, scenario, recording, summary)
+                times["results"] = lap_s()
                 locks.callback(recording.forget)  # its files are gone when the folder is free, on Windows too
         if recording.error:
             raise SimulationError(f"{recording.error}; the results up to then are in {kept.folder}")
@@ -132,12 +135,28 @@ def run_scenario(
         if pictures:
             progress.stage("rendering pictures")
             _render(scene, lock.folder, summary["key_frame"]["frame"])
+            times["pictures"] = lap_s()
         if film:
             progress.stage("rendering the film")
             _render_film(scene, lock.folder, progress)
+            times["film"] = lap_s()
         if not lock.in_place:
             raise SimulationError(f"{lock.folder}: was moved or deleted before all pictures were in it")
+        keep_summary(lock.folder, summary)  # once more, with all times
     return summary
+
+
+def _laps() -> Callable[[], float]:
+    """Return a function that returns the wall time since it was last called, s."""
+    last_s = time.perf_counter()
+
+    def lap_s() -> float:
+        nonlocal last_s
+        passed_s = time.perf_counter() - last_s
+        last_s += passed_s
+        return passed_s
+
+    return lap_s
 
 
 def _keep_scenario(folder: Path, scenario: Scenario) -> None:
