@@ -102,7 +102,7 @@ class RecordedScene:
         if self._is_recorded:
             self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
         with suppress(ReferenceError):  # the scene was deleted before
-            self._guard.release()
+            self._guard.forget()
 
     def before_render(self) -> None:
         """Let the world rest, where Blender would simulate it in the render."""

@@ -245,6 +245,29 @@ class FallingRow:
         assert self.height() < 4.0
         blender_events.unregister()
 
+    def watch_from_an_undo_step_on(self) -> None:
+        for body in self.row:
+            body["bda_kind"] = "shard"
+        blender_events.register()
+        bpy.ops.ed.undo_push(message="built")
+        self.play(2, 11)
+
+    def undo(self) -> None:
+        bpy.ops.ed.undo_push(message="edited")
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+        assert self.scene.frame_current == 1
+        self.row, self.links = (
+            [bpy.data.objects[f"{kind} {number}"] for number in numbers]
+            for kind, numbers in (("Block", range(1, 9)), ("Connection", range(7)))
+        )
+        self.doomed, self.held_by = self.row[3], self.links[2:4]
+
+    def add_view_layer(self) -> None:
+        bpy.context.window.view_layer = self.scene.view_layers.new("Layer")
+
+    def play_on_from_the_start(self) -> None:
+        self.play(2, 11)
+
     def undo_without_a_world(self) -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         blender_events.register()

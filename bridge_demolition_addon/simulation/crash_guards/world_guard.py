@@ -47,6 +47,11 @@ class WorldGuard:
         self._objects = self._world = None
         self._was_edited = False
 
+    def forget(self) -> None:
+        """Leave a world that Blender frees now: the next one does not stand still for what this one went through."""
+        self.stands_still = False
+        self.release()
+
     def check_objects(self, scene: bpy.types.Scene) -> str:
         """Return that something was added to the world or taken out, in a sentence; empty where nothing was.
 

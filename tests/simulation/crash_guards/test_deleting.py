@@ -119,6 +119,13 @@ def test_undo_and_redo_while_watched(tmp_path):
     do(tmp_path, "watch", "undo_and_redo")
 
 
+@pytest.mark.parametrize("layers", [(), ("add_view_layer",)])
+def test_deleting_after_another_deletion_was_undone(tmp_path, layers):
+    # The world that stood still is gone with the undo; the next one is guarded as any other.
+    undone = ("watch_from_an_undo_step_on", "remove_everything", "update", "undo")
+    do(tmp_path, *undone, *layers, "play_on_from_the_start", "remove_body", "update", "stand_still_until_the_start")
+
+
 def test_undo_without_a_world_goes_as_ever(tmp_path):
     do(tmp_path, "undo_without_a_world")
 
