@@ -85,6 +85,11 @@ class FallingRow:
 
         addon_utils.disable("bridge_demolition_addon", handle_error=_raise)
 
+    def bake(self) -> None:
+        self.scene.frame_end = self.scene.rigidbody_world.point_cache.frame_end = 20
+        bpy.ops.ptcache.bake_all(bake=True)
+        assert self.scene.rigidbody_world.point_cache.is_baked
+
     # What is edited.
 
     def give_connection_one_body(self) -> None:
@@ -177,6 +182,11 @@ class FallingRow:
     def fall_from_the_start(self) -> None:
         self.play(1, 20)
         assert not blender_events.recorded_scene(self.scene).stands_still
+
+    def play_the_bake_and_simulate_again(self) -> None:
+        self.play(1, 20)
+        bpy.ops.ptcache.free_bake_all()
+        self.play(1, 20)
 
     def record_again(self) -> None:
         assert "removed: go to the start frame" in str(self.recording.error), self.recording.error

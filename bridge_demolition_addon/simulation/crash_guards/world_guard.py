@@ -89,7 +89,7 @@ class WorldGuard:
 
     def look(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         """Know the world that Blender has after a frame that is not recorded."""
-        if not _has_world(scene) or scene.rigidbody_world.point_cache.is_baked:
+        if not _has_world(scene):
             self.release()
             return
         self.check_update(depsgraph)

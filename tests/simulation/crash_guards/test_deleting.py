@@ -72,6 +72,12 @@ def test_deleting_before_the_first_frame_after_the_add_on_was_switched_on(tmp_pa
     do(tmp_path, "play_unwatched", *switched, deletion, "update", "stand_still_until_the_start", "switch_off")
 
 
+@pytest.mark.parametrize("deletion", DELETIONS)
+def test_deleting_in_a_baked_scene(tmp_path, deletion):
+    # At the start frame Blender sees that a body is missing, and frees the world that was simulated for the bake.
+    do(tmp_path, "watch", "bake", deletion, "update", "play_the_bake_and_simulate_again")
+
+
 EDITS = (
     "give_connection_one_body",
     "edit_threshold",
