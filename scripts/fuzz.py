@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-from fuzzing.batches import Ending, Outcome, alone, is_ours, minimised, outcomes
+from fuzzing.batches import Ending, Outcome, alone, fewest_before, is_ours, minimised, outcomes
 from fuzzing.players import PLAYERS
 from fuzzing.sequences import Drawn
 
@@ -25,15 +25,17 @@ def main() -> int:
     """Play what is asked for; the exit status is 1 where anything went wrong."""
     options = arguments()
     if options.only:
-        return show(options, Drawn(options.seed, options.length, options.only))
+        return show(options)
     seeds = range(options.seed, options.seed + options.count)
     drawn = [Drawn(seed, options.length) for seed in seeds]
     began, findings = time.monotonic(), 0
     for first in range(0, len(drawn), options.batch):
         batch = drawn[first : first + options.batch]
+        before: list[Drawn] = []
         for each, outcome in zip(batch, outcomes(options.player, batch, bare=options.bare), strict=True):
             if outcome.ending != Ending.WELL:
-                findings += report(options, each, outcome)
+                findings += report(options, before, each, outcome)
+            before = [] if outcome.ending in (Ending.CRASH, Ending.HANG) else [*before, each]
         print(f"{first + len(batch)} sequences, {findings} findings, {time.monotonic() - began:.0f} s", flush=True)
     return 1 if findings else 0
 
@@ -49,6 +51,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--only", type=rows, metavar="N,N", help="play only these steps of one sequence, and print them"
     )
+    parser.add_argument(
+        "--after", type=rows, default=(), metavar="N,N", help="with --only: play these seeds first, in the same process"
+    )
     parser.add_argument("--bare", action="store_true", help="leave out the add-on")
     parser.add_argument("--whole", action="store_true", help="do not look for the fewest steps")
     return parser.parse_args()
@@ -59,30 +64,38 @@ def rows(text: str) -> tuple[int, ...]:
     return tuple(int(each) for each in text.split(","))
 
 
-def show(options: argparse.Namespace, drawn: Drawn) -> int:
+def show(options: argparse.Namespace) -> int:
     """Play steps by themselves, and print what they do."""
-    outcome = alone(options.player, drawn, bare=options.bare, tries=1)
+    before = [Drawn(seed, options.length) for seed in options.after]
+    drawn = Drawn(options.seed, options.length, options.only)
+    outcome = alone(options.player, drawn, before=before, bare=options.bare, tries=1)
     print_outcome(outcome)
     return 0 if outcome.ending == Ending.WELL else 1
 
 
-def report(options: argparse.Namespace, drawn: Drawn, outcome: Outcome) -> bool:
+def report(options: argparse.Namespace, before: list[Drawn], drawn: Drawn, outcome: Outcome) -> bool:
     """Print what went wrong in a sequence, unless bare Blender crashes as well; whether it is a finding."""
-    print(f"\n{options.player}, seed {drawn.seed}: {outcome.ending} in {outcome.done[-1:]}", flush=True)
-    again = alone(options.player, drawn, bare=options.bare)
+    player, bare = options.player, options.bare
+    print(f"\n{player}, seed {drawn.seed}: {outcome.ending} in {outcome.done[-1:]}", flush=True)
+    needed: list[Drawn] = []
+    again = alone(player, drawn, bare=bare)
+    if again.ending == Ending.WELL and before:
+        needed, again = before, alone(player, drawn, before=before, bare=bare)
     if again.ending == Ending.WELL:
-        print("only after the sequences before it in its process, or not every time")
+        print(f"not again, alone or after {[each.seed for each in before]}")
         print_outcome(outcome)
         return True
-    if not options.bare and not is_ours(options.player, drawn, again):
+    if not bare and not is_ours(player, drawn, again, before=needed):
         print("so it is in bare Blender")
         return False
     fewest = drawn._replace(rows=tuple(range(len(again.done))))
     if not options.whole:
-        fewest = minimised(options.player, drawn, again)
-    only = ",".join(map(str, fewest.rows))
-    print(f"again: scripts/fuzz {options.player} --seed {drawn.seed} --length {drawn.length} --only {only}")
-    last = again if options.whole else alone(options.player, fewest)
+        needed = fewest_before(player, needed, drawn, again, bare=bare)
+        fewest = minimised(player, drawn, again, before=needed, bare=bare)
+    only, after = (",".join(map(str, each)) for each in (fewest.rows, [each.seed for each in needed]))
+    after = f" --after {after}" if after else ""
+    print(f"again: scripts/fuzz {player} --seed {drawn.seed} --length {drawn.length} --only {only}{after}")
+    last = again if options.whole else alone(player, fewest, before=needed, bare=bare)
     print_outcome(last if last.ending != Ending.WELL else again)
     return True
 

@@ -21,7 +21,7 @@ from places import ROOT, TESTS
 from .players import BLENDER
 from .sequences import Drawn
 
-HANG_S = 900.0
+HANG_S = 120.0
 """A step that takes longer hangs: a report takes some seconds, and minutes where others use the processors."""
 
 _LAST_WORDS = 3000
@@ -74,19 +74,24 @@ def outcomes(player: str, sequences: Sequence[Drawn], *, bare: bool = False) -> 
                     break
 
 
-def alone(player: str, drawn: Drawn, *, bare: bool = False, tries: int = 2) -> Outcome:
-    """Play a sequence in a process of its own, and again in another where it ends well: memory is not always alike."""
+def alone(player: str, drawn: Drawn, *, before: Sequence[Drawn] = (), bare: bool = False, tries: int = 2) -> Outcome:
+    """Play a sequence in a process of its own, and again in another where it ends well: memory is not always alike.
+
+    With `before`, other sequences are played first in each process; where one of them crashes, that is the outcome.
+    """
     for _ in range(tries):
-        (outcome,) = outcomes(player, [drawn], bare=bare)
+        found = list(outcomes(player, [*before, drawn], bare=bare))
+        outcome = next((each for each in found if each.ending in (Ending.CRASH, Ending.HANG)), found[-1])
         if outcome.ending != Ending.WELL:
             break
     return outcome
 
 
-def is_ours(player: str, drawn: Drawn, outcome: Outcome) -> bool:
+def is_ours(player: str, drawn: Drawn, outcome: Outcome, *, before: Sequence[Drawn] = ()) -> bool:
     """Return whether an outcome is the project's doing: bare Blender crashes over some sequences, too."""
     if player == BLENDER and outcome.ending in (Ending.CRASH, Ending.HANG):
-        return alone(player, drawn, bare=True, tries=3).ending == Ending.WELL
+        part = drawn._replace(most=len(outcome.done))
+        return alone(player, part, before=before, bare=True, tries=3).ending == Ending.WELL
     return outcome.ending != Ending.WELL
 
 
@@ -111,15 +116,28 @@ def fewest(rows: Sequence[int], fails: Callable[[Sequence[int]], bool]) -> list[
     return rows
 
 
-def minimised(player: str, drawn: Drawn, outcome: Outcome) -> Drawn:
+def minimised(
+    player: str, drawn: Drawn, outcome: Outcome, *, before: Sequence[Drawn] = (), bare: bool = False
+) -> Drawn:
     """Return the fewest steps that go wrong as the whole sequence did."""
 
     def fails(rows: Sequence[int]) -> bool:
         part = drawn._replace(rows=tuple(rows))
-        found = alone(player, part)
-        return _same(found, outcome) and is_ours(player, part, found)
+        found = alone(player, part, before=before, bare=bare)
+        return _same(found, outcome) and (bare or is_ours(player, part, found, before=before))
 
     return drawn._replace(rows=tuple(fewest(range(len(outcome.done)), fails)))
+
+
+def fewest_before(
+    player: str, before: Sequence[Drawn], drawn: Drawn, outcome: Outcome, *, bare: bool = False
+) -> list[Drawn]:
+    """Return the fewest of the sequences played before one in its process, without which it does not go wrong."""
+
+    def fails(rows: Sequence[int]) -> bool:
+        return _same(alone(player, drawn, before=[before[row] for row in rows], bare=bare), outcome)
+
+    return [before[row] for row in fewest(range(len(before)), fails)]
 
 
 def _same(found: Outcome, outcome: Outcome) -> bool:

@@ -109,6 +109,7 @@ class BlenderPlayer(Player):
         "render": 1,
     }
     first = ("use_standard_settings", "press_build")
+    last = ("begin_another_file",)
 
     def __init__(self, folder: Path, *, bare: bool = False):
         super().__init__(folder, bare=bare)
@@ -455,6 +456,11 @@ class BlenderPlayer(Player):
         way = random.choices(list(ways), (4, 1, 3, 2, 1))[0]
         ways[way]()
         return f"{way} {path}"
+
+    def begin_another_file(self, _random: Random) -> None:
+        """Blender frees all that there is: some of what was wrong before ends in a crash here."""
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        _play(bpy.context.scene, 2)
 
     def link_scene(self, random: Random) -> str:
         path = self.folder / "linked.blend"

@@ -36,18 +36,24 @@ class Drawn(NamedTuple):
         How many steps are drawn, besides the first and last ones that every sequence has.
     rows
         Which of all steps are done; None for all.
+    most
+        After how many of them only the last steps that every sequence has are done; None for all.
     """
 
     seed: int
     length: int
     rows: tuple[int, ...] | None = None
+    most: int | None = None
 
     def steps(self, player: type[Player]) -> list[tuple[str, int]]:
         """Return names of the player's methods, each with the seed of what it chooses."""
         random = Random(self.seed)
         names = random.choices(list(player.weights), list(player.weights.values()), k=self.length)
         steps = [(name, random.getrandbits(32)) for name in (*player.first, *names, *player.last)]
-        return steps if self.rows is None else [steps[row] for row in self.rows]
+        rows = list(range(len(steps)) if self.rows is None else self.rows)
+        if self.most is not None:
+            rows = rows[: self.most] + [row for row in rows[self.most :] if row >= len(steps) - len(player.last)]
+        return [steps[row] for row in rows]
 
 
 class WrongError(Exception):
