@@ -21,7 +21,7 @@ from places import ROOT, TESTS
 from .players import BLENDER
 from .sequences import Drawn
 
-HANG_S = 120.0
+HANG_S = 900.0
 """A step that takes longer hangs: a report takes some seconds, and minutes where others use the processors."""
 
 _LAST_WORDS = 3000
