@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from manifold3d import CrossSection, OpType
@@ -11,6 +12,9 @@ from ..errors import OutputError
 from ..geometry.plan_areas import united
 from ..geometry.vectors import transformed
 from ..results.arrays import Results
+
+_STRAIGHT_M = 0.01
+"""How far corners may stray from a place, or from a straight way, whose hull is then too large by no more."""
 
 
 def corners_at(results: Results, step: int, bodies: Sequence[int]) -> list[np.ndarray]:
@@ -55,14 +59,52 @@ def swept_footprint(results: Results, bodies: Sequence[int]) -> CrossSection:
     and a little more of one that turns.
     """
     own = results.inventory.vertices_by_body()
+    at_first = footprint(results, bodies, 0)
     # Body by body first: thousands of areas that all overlap take a hundred times as long at once.
-    return united(CrossSection.batch_boolean(_sweeps(results, body, own[body]), OpType.Add) for body in bodies)
+    areas = [at_first]
+    for body in bodies:
+        plans = _plans(results, body, own[body])
+        if not _covers_box(at_first, plans):  # most debris falls down within what the bridge covered
+            areas.append(CrossSection.batch_boolean(_sweeps(plans), OpType.Add))
+    return united(areas)
 
 
-def _sweeps(results: Results, body: int, corners: np.ndarray) -> list[CrossSection]:
+def _plans(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
+    """Corners (k, v, 2) of a body in plan at all recorded steps."""
     places, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
-    moved = (np.diff(places, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))
-    steps = np.flatnonzero(moved) if moved.any() else np.zeros(1, int)
-    plans = transformed(rotations[:, None], corners) + places[:, None]
-    following = plans[np.minimum(steps + 1, len(plans) - 1)]
-    return [CrossSection.hull_points(both) for both in np.concatenate([plans[steps], following], axis=1)]
+    return transformed(rotations[:, None], corners) + places[:, None]
+
+
+def _covers_box(area: CrossSection, points: np.ndarray) -> bool:
+    """Whether an area covers the box around points (..., 2)."""
+    lowest, highest = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    box = CrossSection.square((highest - lowest).tolist()).translate(lowest.tolist())
+    return (box - area).is_empty()
+
+
+def _sweeps(plans: np.ndarray) -> list[CrossSection]:
+    """What plans (k, v, 2) cover on each straight part of a way, and where it rests."""
+    steps = _ends_of_parts(plans)
+    return [CrossSection.hull_points(np.concatenate(plans[start : end + 1])) for start, end in pairwise(steps)]
+
+
+def _ends_of_parts(plans: np.ndarray) -> list[int]:
+    """Steps at which parts of a way (k, v, 2) meet, and the first and last."""
+    last = len(plans) - 1
+    bends = np.zeros(last + 1)
+    bends[1:-1] = np.abs(np.diff(plans, 2, axis=0)).max(axis=(1, 2), initial=0.0)
+    bent = np.cumsum(bends)
+    ends = [0]
+    while ends[-1] < last:
+        start = ends[-1]
+        away = np.abs(plans[start + 1 :] - plans[start]).max(axis=(1, 2))
+        # A way of n steps strays from its chord by n / 4 times the sum of its second differences at most.
+        strays = np.arange(1, last - start + 1) / 4.0 * np.append(0.0, bent[start + 1 : last] - bent[start])
+        ends.append(start + max(1, _first_above(away), _first_above(strays)))
+    return ends if last else [0, 0]
+
+
+def _first_above(distances_m: np.ndarray) -> int:
+    """How many distances (k,) come before the first that counts."""
+    counts = distances_m > _STRAIGHT_M
+    return int(counts.argmax()) if counts.any() else len(counts)

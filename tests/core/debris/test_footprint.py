@@ -5,7 +5,7 @@ import pytest
 from moving_boxes import moving_boxes, turned_about_z
 
 from bridge_demolition_addon.core.debris.footprint import footprint, swept_footprint
-from bridge_demolition_addon.core.geometry.plan_areas import distances_outside, outlines
+from bridge_demolition_addon.core.geometry.plan_areas import distances_outside, outlines, united
 
 # Areas are cut to a hundred-millionth of a metre.
 ROUNDING = 1e-6
@@ -81,3 +81,27 @@ def test_nothing_covers_nothing():
     assert footprint(results, [], 0).area() == swept_footprint(results, []).area() == 0.0
     with pytest.raises(ValueError, match="empty area"):
         distances_outside(footprint(results, [], 0), np.zeros((1, 2)))
+
+
+def test_a_way_that_bends_and_trembles_is_covered_and_little_more():
+    """Along a circle and back with a tremor: each step is covered, and no more than a centimetre around the steps."""
+    steps = np.arange(0.0, 3.0, 0.02)
+    way = np.column_stack((4.0 * np.sin(steps), 4.0 * np.cos(steps), np.zeros(len(steps))))
+    way += np.random.default_rng(1).uniform(-1e-3, 1e-3, way.shape)
+    places = np.concatenate((np.repeat(way[:1], 50, axis=0), way))
+    results = moving_boxes(np.arange(len(places)), [(1, 1, 1)], places[:, None])
+    swept = swept_footprint(results, [0])
+    of_steps = united(
+        swept_footprint(moving_boxes([0, 1], [(1, 1, 1)], places[step : step + 2, None]), [0])
+        for step in range(len(places) - 1)
+    )
+    assert (of_steps - swept).area() == pytest.approx(0.0, abs=ROUNDING)
+    corners = np.concatenate(outlines(swept))
+    assert distances_outside(of_steps, corners).max() <= 0.01
+
+
+def test_what_falls_within_what_was_covered_adds_nothing():
+    places = [[(0, 0, 0), (0, 0, 5)], [(0.5, 0.5, 0), (0.5, 0.0, 1)]]
+    results = moving_boxes([0, 1], [(4, 4, 1), (1, 1, 1)], np.array(places))
+    alone = moving_boxes([0, 1], [(4, 4, 1)], np.array(places)[:, :1])
+    assert swept_footprint(results, [0, 1]).area() == pytest.approx(swept_footprint(alone, [0]).area(), abs=ROUNDING)
