@@ -167,7 +167,8 @@ def draw(rows: list[Growth], path: Path) -> None:
     memory.legend(frameon=False, fontsize=8)
     for axes in (times, memory):
         axes.set_xlabel("shards")
-        axes.set_xticks(shards, [f"{each:,.0f}" for each in shards])
+        ticks = shards if axes is times else range(0, int(max(shards)) + 1, 2000)
+        axes.set_xticks(ticks, [f"{each:,.0f}" for each in ticks])
         axes.minorticks_off()
         axes.grid(color="0.9")
         axes.spines[["top", "right"]].set_visible(False)
