@@ -67,6 +67,10 @@ class BulletReader:
         after = self._substeps.after_substep if every_substep else None
         world.call_around_substeps(self._substeps.before_substep, after)
 
+    def close(self) -> None:
+        """Read nothing any more; what is still worked out is waited for."""
+        self._substeps.close()
+
     @property
     def applied_events(self) -> Sequence[AppliedEvent]:
         """Removals, saw cuts and weakenings so far."""

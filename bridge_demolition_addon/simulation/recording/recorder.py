@@ -138,6 +138,8 @@ class Recording:
         if self._blast:
             self._blast.rest()
         self.world.release()
+        if self._reader:
+            self._reader.close()
         logs, self._logs = self._logs, None
         if logs:
             try:
@@ -352,6 +354,8 @@ class Recording:
 
     def _begin(self) -> None:
         """Begin with the first frame of a new world."""
+        if self._reader:  # of an earlier world
+            self._reader.close()
         self.inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self.world)
         self._reader = BulletReader(

@@ -2,7 +2,7 @@
 
 While Bullet waits, no more is done than copying what it holds and breaking what is overloaded. The loads of many
 sub-steps are then worked out at once, which takes a fraction of the time: all those of a frame, or as many as fit into
-`_BATCH_BYTES`.
+`_BATCH_BYTES`. In larger models that is done beside Bullet, in a thread of its own.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -31,6 +32,7 @@ from ...core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumula
 from ...core.results.frames import BallHistory
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
+from .background import BackgroundWork
 from .blast import Blast
 from .events import Events
 from .load_reader import LoadReader
@@ -38,8 +40,12 @@ from .reinforcement import Reinforcement
 
 _SINGLE_PRECISION = 1e-6
 
-_BATCH_BYTES = 2_000_000
-"""Copies of sub-steps that are kept until they are worked out; more do not fit into the cache of a processor's core."""
+_BATCH_BYTES = 1_000_000
+"""Copies of sub-steps that are kept until they are worked out; fewer take longer each, more leave more to wait for at
+the end of a frame."""
+
+_WORTH_HANDING_OVER_BYTES = 200_000
+"""Copies of fewer bytes are worked out sooner than they are handed over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +158,8 @@ class SubstepRecorder:
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._intact = world.intact()
         self._waiting: list[_Substep] = []
+        self._background = BackgroundWork()
+        self._substeps, self._substeps_before = 0, 0
         self._work_counts, self._every_substep = not self._is_warming_up, every_substep
         self._breaks: list[Breaks] = []
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
@@ -187,6 +195,8 @@ class SubstepRecorder:
         began = time.perf_counter()
         try:
             self._record(substep_s)
+            if self._is_worth_handing_over():
+                self._hand_over()
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
         self.seconds += time.perf_counter() - began
@@ -203,11 +213,18 @@ class SubstepRecorder:
         LayoutError
             Bullet's memory was not as expected.
         """
-        self._work_out()
+        self._background.finish()
+        waiting, self._waiting = self._waiting, []
+        self._work_out(waiting, work_counts=self._work_counts)
+        self._substeps, self._substeps_before = 0, self._substeps
         loads, work, breaks = self._frame.finish(), self._work.finish(), self._breaks
         self._frame.begin()
         self._breaks = []
         return loads, work, breaks
+
+    def close(self) -> None:
+        """Record nothing any more, and leave nothing that still works on what was recorded."""
+        self._background.close()
 
     def take_ball_history(self) -> BallHistory:
         """Return the hits of the balls in every sub-step since this was asked last."""
@@ -219,8 +236,9 @@ class SubstepRecorder:
 
     def _record(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
-        if self._work_counts == self._is_warming_up or sum(each.snapshot.size for each in self._waiting) > _BATCH_BYTES:
-            self._work_out()
+        self._substeps += 1
+        if self._work_counts == self._is_warming_up:
+            self._hand_over()
             self._work_counts = not self._is_warming_up
         snapshot = self._reader.snapshot()
         ties_n = self._reinforcement.forces_n.copy() if self._reinforcement else None
@@ -231,16 +249,30 @@ class SubstepRecorder:
         self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken))
         self._world.let_broken_collide(intact)
 
-    def _work_out(self) -> None:
-        """Add up loads and work of all sub-steps that wait for it, and note what broke and what hit the ball."""
+    def _is_worth_handing_over(self) -> bool:
+        """Whether enough sub-steps wait, or as many as the frame probably has: Blender now moves its objects."""
+        size = sum(each.snapshot.size for each in self._waiting)
+        ends_frame = self._substeps == self._substeps_before
+        return self._every_substep and size > (_WORTH_HANDING_OVER_BYTES if ends_frame else _BATCH_BYTES)
+
+    def _hand_over(self) -> None:
+        """Have the sub-steps that wait worked out beside what Blender does next."""
         waiting, self._waiting = self._waiting, []
-        if not waiting:
+        if waiting:
+            self._background.begin(partial(self._work_out, waiting, work_counts=self._work_counts))
+
+    def _work_out(self, substeps: Sequence[_Substep], *, work_counts: bool) -> None:
+        """Add up loads and work of sub-steps, and note what broke and what hit the ball.
+
+        Only one thread at a time does this, and it reads nothing but copies.
+        """
+        if not substeps:
             return
-        bodies, loads = self._loads(waiting)
+        bodies, loads = self._loads(substeps)
         resultants_n = self._frame.add(loads)
         if self._every_substep:
-            self._add_work(bodies, loads, resultants_n)
-        for substep, each in enumerate(waiting):
+            self._add_work(bodies, loads, resultants_n, work_counts=work_counts)
+        for substep, each in enumerate(substeps):
             if len(each.broken):
                 forces = self._section_forces(loads.moment(substep), each.broken)
                 self._breaks.append(Breaks(each.end_s, each.broken, forces))
@@ -257,9 +289,11 @@ class SubstepRecorder:
                 loads.connection_forces_n[substep] += each.ties_n
         return bodies, loads
 
-    def _add_work(self, bodies: BodyStates, loads: SubstepLoads, resultants_n: np.ndarray) -> None:
+    def _add_work(
+        self, bodies: BodyStates, loads: SubstepLoads, resultants_n: np.ndarray, *, work_counts: bool
+    ) -> None:
         motion = Motion(bodies.positions, bodies.velocities, bodies.angular_velocities)
-        if not self._work_counts:
+        if not work_counts:
             self._work.pass_over(motion)
             return
         substeps_s = loads.substeps_s[:, None, None]
