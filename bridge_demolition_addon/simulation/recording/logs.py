@@ -212,11 +212,17 @@ class CsvLog:
         File to write; one that is there is replaced.
     columns
         Header.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written, as where it is a folder by now.
     """
 
     def __init__(self, path: Path, columns: Sequence[str]):
         self._path = path
-        self._file = path.open("w", encoding="utf-8", newline="")
+        with writing(path):
+            self._file = path.open("w", encoding="utf-8", newline="")
         self.add(",".join(columns) + "\n")
 
     @property

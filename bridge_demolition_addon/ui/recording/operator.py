@@ -110,6 +110,8 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     if forces is not None and forces == debris:
         raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
     folder = absolute(settings.output_directory)
+    if taken := {forces, debris} & {folder, *folder.parents}:
+        raise OutputError(f"{taken.pop()}: expected a file for the log, found the folder of the results")
     recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
     check_folder(folder, overwrite=settings.overwrite)
     _let_go_of(folder, scene)

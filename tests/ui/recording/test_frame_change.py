@@ -91,11 +91,17 @@ def test_a_log_that_cannot_be_written_is_refused_before_anything_is_made(built, 
         setattr(settings, setting, str(path))
         with pytest.raises(RuntimeError, match=message):
             built.ops.bda.register_handler()
+    for path in (tmp_path / "made", tmp_path / "made" / "results"):  # is no folder before the run makes it
+        setattr(settings, setting, str(tmp_path / "made"))
+        settings.output_directory = str(path)
+        with pytest.raises(RuntimeError, match="found the folder of the results"):
+            built.ops.bda.register_handler()
+    settings.output_directory = str(tmp_path / "results")
     settings.force_log_path = settings.debris_log_path = str(tmp_path / "one.csv")
     with pytest.raises(RuntimeError, match="both logs"):
         built.ops.bda.register_handler()
     assert there.read_text() == "mine"
-    assert not (tmp_path / "results").exists() and not (tmp_path / "one.csv").exists()
+    assert not any((tmp_path / name).exists() for name in ("results", "one.csv", "made"))
     assert running_recording() is None
 
 
