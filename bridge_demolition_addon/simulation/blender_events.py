@@ -27,9 +27,7 @@ def register() -> None:
     global _is_registered
     _is_registered = True
     _attach()
-    # While Blender switches the add-on on, it shows no scenes but these.
-    for window in bpy.context.window_manager.windows:
-        recorded_scene(window.scene).look()
+    _look_at_all()
 
 
 def unregister() -> None:
@@ -38,8 +36,7 @@ def unregister() -> None:
     _is_registered = False
     stop_recording()
     _after_render()
-    for owner in list(_scenes.values()):
-        owner.before_undo_or_load()
+    _let_go()
     _scenes.clear()
     safe_undo.restore_preferences()
     _detach()
@@ -71,6 +68,7 @@ def stop_recording() -> Recording | None:
     owner = next((each for each in list(_scenes.values()) if each.recording), None)
     recording = owner.stop() if owner else None
     if not _is_registered and not any(each.is_at_work for each in list(_scenes.values())):
+        _let_go()
         _detach()
     return recording
 
@@ -78,6 +76,18 @@ def stop_recording() -> Recording | None:
 def running_recording() -> Recording | None:
     """Return the recording that runs, or ended early and was not stopped yet."""
     return next((each.recording for each in list(_scenes.values()) if each.recording), None)
+
+
+def _let_go() -> None:
+    """Let go of the worlds of all scenes, before Blender frees them or does it unseen."""
+    for owner in list(_scenes.values()):
+        owner.before_undo_or_load()
+
+
+def _look_at_all() -> None:
+    """Know the worlds of all scenes that are shown: while Blender switches the add-on on, it shows no others."""
+    for window in bpy.context.window_manager.windows:
+        recorded_scene(window.scene).look()
 
 
 @persistent
@@ -113,8 +123,7 @@ def _after_render(*_: object) -> None:
 
 @persistent
 def _before_undo(*_: object) -> None:
-    for owner in list(_scenes.values()):
-        owner.before_undo_or_load()
+    _let_go()
     safe_undo.before_undo()
 
 
@@ -132,6 +141,11 @@ def _before_load(*_: object) -> None:
             del _scenes[uid]
 
 
+@persistent
+def _after_failed_load(*_: object) -> None:
+    _look_at_all()
+
+
 _HANDLERS = {
     "frame_change_pre": _before_frame,
     "frame_change_post": _after_frame,
@@ -145,6 +159,7 @@ _HANDLERS = {
     "undo_post": _after_undo,
     "redo_post": _after_undo,
     "load_pre": _before_load,
+    "load_post_fail": _after_failed_load,
 }
 
 

@@ -83,6 +83,7 @@ class RecordedScene:
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Record the frame, and colour it."""
+        self._guard.hand_over(self.scene)
         self._with_recording(lambda recording: recording.after_frame(depsgraph))
         if not self._is_recorded:
             self._guard.look(self.scene, depsgraph)

@@ -58,6 +58,10 @@ class FallingRow:
         self.play(1, 11)
         assert self.recording.error is None
 
+    def begin_to_record(self) -> None:
+        self.recording = Recording(self.scene, self.folder)
+        start_recording(self.recording)
+
     def watch(self) -> None:
         for body in self.row:
             body["bda_kind"] = "shard"
@@ -89,6 +93,15 @@ class FallingRow:
         self.scene.frame_end = self.scene.rigidbody_world.point_cache.frame_end = 20
         bpy.ops.ptcache.bake_all(bake=True)
         assert self.scene.rigidbody_world.point_cache.is_baked
+
+    def fail_to_open_a_file(self) -> None:
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(self.folder / "missing.blend"))
+        except RuntimeError as error:
+            assert "No such file" in str(error)
+
+    def add_another_block(self) -> None:
+        self.blocks.block((0, 5, 3), 10.0)
 
     # What is edited.
 

@@ -33,18 +33,29 @@ class WorldGuard:
         self.stands_still = False
         self._objects: WorldObjects | None = None
         self._world: BulletWorld | None = None  # none as well where the world cannot be known up to the start frame
+        self._recorded: BulletWorld | None = None
         self._was_edited = False
 
     def share(self, scene: bpy.types.Scene, world: BulletWorld) -> None:
-        """Guard a world that a recording knows, until `release`."""
-        self.release()
-        self._objects, self._world = WorldObjects(scene), world
+        """Guard a world that a recording will know, and until `hand_over` the one that Blender still has."""
+        self.check_objects(scene)
+        if self._world is None:
+            self._objects = WorldObjects(scene)
+        self._recorded = world
+
+    def hand_over(self, scene: bpy.types.Scene) -> None:
+        """Leave the world of a frame after the start frame to the recording, and guard it as the recording knows it."""
+        world = scene.rigidbody_world
+        if self._recorded and world and scene.frame_current > world.point_cache.frame_start:
+            recorded = self._recorded
+            self.release()
+            self._objects, self._world = WorldObjects(scene), recorded
 
     def release(self) -> None:
         """Leave the world to whoever wants it."""
         if self._world:
             self._world.release()
-        self._objects = self._world = None
+        self._objects = self._world = self._recorded = None
         self._was_edited = False
 
     def forget(self) -> None:
@@ -65,9 +76,12 @@ class WorldGuard:
         if self._objects.are_the_same():
             return self._taken_out(BulletWorld.take_out_edited)
         changes = self._objects.changes()
-        if self._world and self._objects.any_is_gone():
-            self._stand_still(scene)
-        self.release()
+        if self._objects.any_is_gone():
+            if self._world:
+                self._stand_still(scene)
+            self.release()
+        else:  # Blender takes what was added into the world with the next frame: until then the world is as before
+            self._objects, self._was_edited = WorldObjects(scene), True
         return f"rigid-body world changed, {changes}: go to the start frame and record again"
 
     def check_update(self, depsgraph: bpy.types.Depsgraph) -> str:
@@ -88,19 +102,16 @@ class WorldGuard:
                 pass  # a new world, and none of ours
 
     def look(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        """Know the world that Blender has after a frame that is not recorded."""
+        """Know the world that Blender has after a frame that is not recorded; at the start frame still the last one."""
         if not _has_world(scene):
             self.release()
             return
         self.check_update(depsgraph)
-        unchanged = self._objects is not None and not self._was_edited and self._objects.are_the_same()
-        if scene.frame_current <= scene.rigidbody_world.point_cache.frame_start:
-            if not (unchanged and self._world):
-                self.release()
-            return
         if self.stands_still or bpy.app.is_job_running("RENDER"):
             return
-        if not unchanged:
+        at_start = scene.frame_current <= scene.rigidbody_world.point_cache.frame_start
+        is_known = self._world is not None if at_start else not self._was_edited
+        if self._objects is None or not is_known or not self._objects.are_the_same():
             self.release()
             self._objects, self._world = WorldObjects(scene), _world_of(scene)
         if self._world:

@@ -61,6 +61,25 @@ def test_deleting_at_the_start_frame_what_was_simulated(tmp_path, deletion):
     do(tmp_path, "watch", "go_to_start", deletion, "update", "fall_from_the_start")
 
 
+@pytest.mark.parametrize("frame", [(), ("go_to_start",)])
+@pytest.mark.parametrize("deletion", ["remove_body", "remove_connection"])
+def test_deleting_before_the_first_frame_of_a_recording(tmp_path, frame, deletion):
+    begun = ("watch", *frame, "begin_to_record", deletion, "update")
+    do(tmp_path, *begun, "go_to_start", "fall_from_the_start", "record_again")
+
+
+@pytest.mark.parametrize("frame", [(), ("go_to_start",)])
+@pytest.mark.parametrize("before", [("fail_to_open_a_file",), ("add_another_block", "update")])
+@pytest.mark.parametrize("deletion", ["remove_body", "delete_body"])
+def test_deleting_after_another_file_could_not_be_opened_or_a_body_was_added(tmp_path, frame, before, deletion):
+    do(tmp_path, "watch", *frame, *before, deletion, "update", "go_to_start", "fall_from_the_start")
+
+
+@pytest.mark.parametrize("deletion", ["remove_body", "remove_connection"])
+def test_deleting_at_the_start_frame_after_the_add_on_was_switched_on(tmp_path, deletion):
+    do(tmp_path, "play_unwatched", "go_to_start", "switch_on", deletion, "update", "fall_from_the_start", "switch_off")
+
+
 @pytest.mark.parametrize("deletion", ["remove_body", "delete_body", "remove_connection"])
 def test_deleting_after_a_recording_has_ended(tmp_path, deletion):
     do(tmp_path, "record", "stop", deletion, "update", "stand_still_until_the_start")
