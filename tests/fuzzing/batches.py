@@ -24,6 +24,9 @@ from .sequences import Drawn
 HANG_S = 900.0
 """A step that takes longer hangs: a report takes some seconds, and minutes where others use the processors."""
 
+_BARE_TRIES = 10
+"""What crashes one time in three survives three tries as often, and ten hardly ever."""
+
 _LAST_WORDS = 3000
 _PROGRAM = TESTS / "programs" / "fuzz_batch.py"
 
@@ -91,7 +94,7 @@ def is_ours(player: str, drawn: Drawn, outcome: Outcome, *, before: Sequence[Dra
     """Return whether an outcome is the project's doing: bare Blender crashes over some sequences, too."""
     if player == BLENDER and outcome.ending in (Ending.CRASH, Ending.HANG):
         part = drawn._replace(most=len(outcome.done))
-        return alone(player, part, before=before, bare=True, tries=3).ending == Ending.WELL
+        return alone(player, part, before=before, bare=True, tries=_BARE_TRIES).ending == Ending.WELL
     return outcome.ending != Ending.WELL
 
 

@@ -115,6 +115,7 @@ class BlenderPlayer(Player):
         super().__init__(folder, bare=bare)
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.scenarios = [_short(path, folder) for path in SCENARIOS]
+        self.scenario = self.scenarios[0]
         self.is_on = False
         self._switch(on=True)
 
@@ -131,7 +132,10 @@ class BlenderPlayer(Player):
 
     def _press(self, button: str, random: Random) -> str:
         if self.bare:
-            return self._do_without(button, random)
+            bpy.context.view_layer.update()  # as Blender does before and after an operator that a script calls
+            done = self._do_without(button)
+            bpy.context.view_layer.update()
+            return done
         if not self.is_on:
             return "off"
         if button in ("run", "render_contours"):
@@ -184,12 +188,11 @@ class BlenderPlayer(Player):
     def _path(self, random: Random) -> str:
         return random.choice(("", "//made", "made", str(self.folder / "made"), str(self.folder / "no" / "made.x"), "/"))
 
-    def _do_without(self, button: str, random: Random) -> str:
-        """Do what is left of a button in bare Blender, which brings the scene up to date before any operator."""
-        bpy.context.view_layer.update()
+    def _do_without(self, button: str) -> str:
+        """Do what is left of a button in bare Blender."""
         scene = bpy.context.scene
         if button == "build_scenario" and not scene.rigidbody_world and bpy.context.mode == "OBJECT":
-            scenario = read_scenario(random.choice(self.scenarios))
+            scenario = read_scenario(self.scenario)
             build_demolition(scene, scenario, checked_model(scenario))
         elif button == "add_source_point":
             create_charges(scene, [replace(read_scenario(self.scenarios[1]).charges[0], name="Charge")])
@@ -212,9 +215,10 @@ class BlenderPlayer(Player):
         return f"without {button}"
 
     def use_standard_settings(self, random: Random) -> str:
+        self.scenario = random.choice(self.scenarios)
         if not self.is_on:
             return "off"
-        settings, path = bpy.context.scene.bda, str(random.choice(self.scenarios))
+        settings, path = bpy.context.scene.bda, str(self.scenario)
         settings.scenario_path = path
         settings.output_directory = str(self.folder / "results")
         settings.film_directory = str(self.folder / "film")
