@@ -138,7 +138,7 @@ class RecordedScene:
 
     def _fail(self, error: Exception) -> None:
         self.recording.fail(error)
-        self._guard.release()
+        self._guard.end_sharing()
 
 
 def _refuse_unplayed_frame(recording: Recording) -> None:

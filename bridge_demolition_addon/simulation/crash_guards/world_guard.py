@@ -51,6 +51,13 @@ class WorldGuard:
             self.release()
             self._objects, self._world = WorldObjects(scene), recorded
 
+    def end_sharing(self) -> None:
+        """Leave the world of a recording that has failed; before its first frame, go on guarding the one before."""
+        if self._recorded:
+            self._recorded = None
+        else:
+            self.release()
+
     def release(self) -> None:
         """Leave the world to whoever wants it."""
         if self._world:

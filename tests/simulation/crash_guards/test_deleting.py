@@ -68,6 +68,12 @@ def test_deleting_before_the_first_frame_of_a_recording(tmp_path, frame, deletio
     do(tmp_path, *begun, "go_to_start", "fall_from_the_start", "record_again")
 
 
+@pytest.mark.parametrize("deletion", ["remove_body", "delete_body"])
+def test_deleting_after_an_added_body_ended_a_recording_before_its_first_frame(tmp_path, deletion):
+    ended = ("watch", "go_to_start", "begin_to_record", "add_another_block", "update")
+    do(tmp_path, *ended, deletion, "update", "fall_from_the_start")
+
+
 @pytest.mark.parametrize("frame", [(), ("go_to_start",)])
 @pytest.mark.parametrize("before", [("fail_to_open_a_file",), ("add_another_block", "update")])
 @pytest.mark.parametrize("deletion", ["remove_body", "delete_body"])
