@@ -68,6 +68,11 @@ class BodyLayout:
         return self.inverse_mass - 32
 
     @property
+    def inverse_inertia(self) -> int:
+        """Inverse tensor of inertia in the axes of the world, three rows just before the linear velocity."""
+        return self.inverse_mass - 160
+
+    @property
     def total_force(self) -> int:
         """Sum of the forces of the coming step, three vectors after the body's weight; the torque follows."""
         return self.gravity + 96
@@ -130,6 +135,47 @@ class ConstraintLayout:
     def joint_feedback(self) -> int:
         """Where Bullet writes the constraint's loads, when set."""
         return self.body_a + 32
+
+
+@dataclass(frozen=True, slots=True)
+class SpringLayout:
+    """btGeneric6DofSpring2Constraint: what Blender makes of FIXED, and of springs of the second kind.
+
+    Frames are three rows of four doubles and an origin. Limits of the three shifts lie beside one another; those of
+    each turn lie in a block of their own.
+    """
+
+    linear: int
+    angular: int
+    flags: int
+    frame_a: int = 80
+    frame_b: int = 208
+    angular_size: int = 176
+
+    @property
+    def lower(self) -> tuple[int, ...]:
+        """Lower limits of the six rows."""
+        return self._rows(0, 0)
+
+    @property
+    def upper(self) -> tuple[int, ...]:
+        """Upper limits."""
+        return self._rows(32, 8)
+
+    @property
+    def correction(self) -> tuple[int, ...]:
+        """Shares of an error that are corrected in a sub-step (ERP)."""
+        return self._rows(96, 24)
+
+    @property
+    def softness(self) -> tuple[int, ...]:
+        """How much the rows give way (CFM)."""
+        return self._rows(128, 32)
+
+    def _rows(self, linear: int, angular: int) -> tuple[int, ...]:
+        shifts = (self.linear + linear + 8 * row for row in range(3))
+        turns = (self.angular + angular + self.angular_size * row for row in range(3))
+        return (*shifts, *turns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,6 +332,7 @@ class Layout:
     name: str
     body: BodyLayout
     manifold: ManifoldLayout
+    spring: SpringLayout
     dispatcher: DispatcherLayout = DispatcherLayout()
     blender: BlenderLayout = BlenderLayout()
     constraint: ConstraintLayout = ConstraintLayout()
@@ -305,6 +352,7 @@ SYSTEM_V = Layout(
         linear_damping=984,
     ),
     manifold=ManifoldLayout(points=8, point=ContactPointLayout(size=376)),
+    spring=SpringLayout(linear=1344, angular=1904, flags=2876),
 )
 
 MICROSOFT = replace(
@@ -320,7 +368,17 @@ MICROSOFT = replace(
         linear_damping=1008,
     ),
     manifold=ManifoldLayout(points=16, point=ContactPointLayout(size=384)),
+    spring=SpringLayout(linear=1392, angular=1968, flags=2948),
 )
+
+SPRING_TYPE = 12
+"""Bullet's number of a btGeneric6DofSpring2Constraint."""
+
+SPRING_CORRECTION = 0.2
+"""Bullet's default share of an error that is corrected: a mark to know the rows of a constraint by."""
+
+ALL_ROWS_SET = sum(3 << (4 * row) for row in range(6))
+"""Flags which say that correction and softness of all six rows count."""
 
 RIGID_BODY = 2
 """Bullet's internal type of a rigid body (btCollisionObject::CO_RIGID_BODY)."""

@@ -20,7 +20,9 @@ from ..core.errors import LayoutError, SimulationError
 from ..core.results.removed_shards import OUT_OF_REACH_M
 from ..scene.world import scene_time_step
 from . import checks
+from .body_motion import BodyMotionReader
 from .collision_pairs import CollisionPairs
+from .constraint_rows import ConstraintRows
 from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout, platform_layout
 from .memory import (
@@ -284,6 +286,25 @@ class BulletWorld:
             self._feedback,
             sides,
         )
+
+    def body_motion(self) -> BodyMotionReader:
+        """What reads and moves the bodies of this world, as long as it is bound."""
+        return BodyMotionReader(self._layout, self._bound.bodies)
+
+    def constraint_rows(self) -> ConstraintRows:
+        """What writes to the rows of the connections of this world, as long as it is bound; all have to exist.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected.
+        SimulationError
+            A connection is switched off.
+        """
+        if not self._bound.exists.all():
+            name = self.connections[int(np.argmin(self._bound.exists))].name
+            raise SimulationError(f"elastic connection {name!r} is switched off: enable it, or delete it")
+        return ConstraintRows(self._layout, self._bound.connections, [each.name for each in self.connections])
 
     def break_connections(self, rows: np.ndarray) -> None:
         """Break connections (k,), as Bullet does at their breaking thresholds."""

@@ -9,6 +9,7 @@ import bpy
 
 from ..core.blast.settings import Apply
 from ..core.bridge.extent import ground_half_size, surface_height
+from ..core.elasticity.section_stiffness import DAMPING_RATIO
 from ..core.mechanics.strength import MATERIALS, Ductility
 from ..core.scenario import ConnectionSettings, Scenario
 from ..core.structure.model import Model
@@ -18,6 +19,7 @@ from .blast.settings import keep_blast
 from .bodies import bodies_of, create_ground, create_shards, mark_member
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
+from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
 from .structural_changes import keep_changes
 from .time_scale import animate_time_scale, stop_animation
@@ -72,6 +74,11 @@ def _build(
             shards[row].rigid_body.type = "PASSIVE"
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
+        if model.stiffness is None:
+            forget_elasticity(scene)
+        else:
+            ratio = scenario.connections.damping_ratio
+            keep_elasticity(scene, made, model.stiffness, DAMPING_RATIO if ratio is None else ratio)
     if not charge_objects(scene):  # those that the user has placed stay the objects that they are
         create_charges(scene, scenario.charges)
     keep_blast(scene, scenario.blast)

@@ -42,6 +42,8 @@ class FracturedMembers:
         Mass of each shard.
     centres_m : (n, 3) float
         Centre of mass of each shard.
+    points_m : (n, 3) float
+        The point whose Voronoi cell each shard is.
     faces : SharedFaces
         What neighbouring shards have in common.
     """
@@ -50,6 +52,7 @@ class FracturedMembers:
     member_of_shard: np.ndarray
     masses_kg: np.ndarray
     centres_m: np.ndarray
+    points_m: np.ndarray
     faces: SharedFaces
 
 
@@ -93,6 +96,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         member_of_shard=member_of_shard,
         masses_kg=np.concatenate([_masses(*each, settings.mass) for each in zip(members, parts, strict=True)]),
         centres_m=np.concatenate([part.centres for part in parts]),
+        points_m=np.concatenate([part.points for part in parts]),
         faces=_all_faces([part.faces for part in parts], shards, member_of_shard),
     )
 

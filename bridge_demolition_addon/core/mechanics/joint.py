@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..elasticity.section_stiffness import ElasticModuli
 from .strength import Strength
 
 TYPES = ("FIXED", "POINT", "HINGE", "GENERIC", "GENERIC_SPRING")
@@ -72,6 +73,8 @@ class Joint:
         Force that breaks the connection; None where no single force does.
     strength : Strength, optional
         Stresses that break it; None where no stress does.
+    moduli : ElasticModuli, optional
+        How it gives way; None where it is rigid.
     """
 
     type: str
@@ -79,3 +82,4 @@ class Joint:
     springs: Springs = Springs()
     breaking_force_n: float | None = None
     strength: Strength | None = None
+    moduli: ElasticModuli | None = None

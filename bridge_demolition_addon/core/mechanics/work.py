@@ -65,6 +65,8 @@ class PairImpulses:
         Impulse of the moment about that point on the first body; None for contacts, which have none.
     substeps : (k,) int or None
         Sub-step of each contact, in ascending order; None for connections.
+    stored_j : (s, k) float or None
+        Energy that elastic connections can have stored at the end of each sub-step; None for what stores none.
     """
 
     pairs: np.ndarray
@@ -72,6 +74,7 @@ class PairImpulses:
     points_m: np.ndarray
     angular_impulses_nms: np.ndarray | None = None
     substeps: np.ndarray | None = None
+    stored_j: np.ndarray | None = None
 
     def of_substeps(self, count: int) -> list[slice]:
         """Return which impulses are in each of so many sub-steps, all of them in a row."""
@@ -146,6 +149,7 @@ class WorkAccumulator:
         self._left_per_second = 1.0 - np.stack((linear_damping, angular_damping))
         self._left: dict[float, np.ndarray] = {}
         self._before = start
+        self._stored_j: np.ndarray | None = None
         self._begin()
 
     def _begin(self) -> None:
@@ -252,6 +256,8 @@ class WorkAccumulator:
         loads = [*_rows(between.impulses_ns), *_rows(about_origin)]
         of_first, of_second = motion.take(first, axis=1), motion.take(second, axis=1)
         total = _dot(loads, [one - other for one, other in zip(of_first, of_second, strict=True)])
+        if between.stored_j is not None:
+            total = self._after_storing(total, between.stored_j)
         is_free = free.ravel()
         first_free, second_free = is_free[first], is_free[second]
         total[~(first_free | second_free)] = 0.0
@@ -272,6 +278,21 @@ class WorkAccumulator:
             ],
             tools_j=_of_tools(sums, loads, motion, is_free, substeps),
         )
+
+    def _after_storing(self, work_j: np.ndarray, stored_j: np.ndarray) -> np.ndarray:
+        """Return what is left of the work (s k,) of elastic connections when they have stored and given back theirs.
+
+        Each has an account: of what it takes from its bodies it keeps as much as it can have stored (s, k), and what it
+        gives back comes from there. More than that is made; what it cannot keep is dissipated.
+        """
+        if self._stored_j is None:
+            self._stored_j = stored_j[0]
+        left_over = np.empty_like(stored_j)
+        for substep, work in enumerate(work_j.reshape(stored_j.shape)):
+            offered = self._stored_j - work
+            self._stored_j = np.clip(offered, 0.0, stored_j[substep])
+            left_over[substep] = self._stored_j - offered
+        return left_over.ravel()
 
     def _of_lifting(self, whole: Motion, masses: np.ndarray, steps: np.ndarray) -> np.ndarray:
         """Return the energy (s, n) of bodies that Bullet moved up without a velocity: so it parts overlapping hulls."""

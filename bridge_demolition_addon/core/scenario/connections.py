@@ -3,6 +3,7 @@
 from dataclasses import dataclass, fields, replace
 from typing import ClassVar, Self
 
+from ..elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
 from ..mechanics.strength import MATERIALS
@@ -98,6 +99,12 @@ MATERIAL_OF_LARGE_MODELS = "reinforced concrete slab"
 STRENGTH_KEYS = ("breaking_force_n", "breaking_force_kgf", "material")
 """Keys of which one says what breaks a connection."""
 
+ELASTIC_TYPES = ("FIXED", "GENERIC", "GENERIC_SPRING")
+"""Kinds of connections that can be elastic: those whose rows Bullet lets be told what to expect."""
+
+_PA = 1e6
+"""1 N/mm² in Pa."""
+
 _JOINT = tuple(item.name for item in fields(JointSettings))
 
 
@@ -124,6 +131,19 @@ class ConnectionBetween(JointSettings):
         "`breaking_force_kgf`.",
         default=None,
         choices=tuple(MATERIALS),
+    )
+    elastic_modulus_n_mm2: float | None = key(
+        "Modulus of elasticity, where connections are elastic, if it is not the material's.",
+        default=None,
+        unit="N/mm²",
+        above=0,
+        at_most=1e7,
+    )
+    poisson_ratio: float | None = key(
+        "Poisson's ratio, where connections are elastic, if it is not the material's.",
+        default=None,
+        at_least=0,
+        at_most=0.49,
     )
 
     @property
@@ -197,6 +217,33 @@ class ConnectionSettings(JointSettings):
         default=None,
         choices=tuple(MATERIALS),
     )
+    stiffness: str = key(
+        "Whether connections hold bodies rigidly, so that redundant ones share a load as the solver leaves it "
+        "(`rigid`), or give way by their material, so that loads go where stiffness sends them (`elastic`). "
+        "`elastic` needs method `face`, a material and `type` `FIXED` or `GENERIC`.",
+        default="rigid",
+        choices=("rigid", "elastic"),
+    )
+    elastic_modulus_n_mm2: float | None = key(
+        "Modulus of elasticity, with `stiffness` `elastic`, if it is not the material's.",
+        default=None,
+        unit="N/mm²",
+        above=0,
+        at_most=1e7,
+    )
+    poisson_ratio: float | None = key(
+        "Poisson's ratio, with `stiffness` `elastic`, if it is not the material's.",
+        default=None,
+        at_least=0,
+        at_most=0.49,
+    )
+    damping_ratio: float | None = key(
+        "Damping of the first frequency as a share of the critical one, with `stiffness` `elastic`; 0.05 where it is "
+        "left out. Steps in time damp by π × frequency × sub-step at least.",
+        default=None,
+        at_least=0,
+        at_most=1,
+    )
     ductile_share: float = key(
         "Part of a material's tensile strength that a connection keeps when it breaks, as reinforcement across the "
         "crack; 0 for none.",
@@ -228,9 +275,21 @@ class ConnectionSettings(JointSettings):
     between: tuple[ConnectionBetween, ...] = ()
 
     @property
+    def is_elastic(self) -> bool:
+        """Return whether connections give way."""
+        return self.stiffness == "elastic"
+
+    @property
     def joints(self) -> tuple[Joint, ...]:
         """Return the joint of connections that follow no rule, then that of each rule."""
-        own = Joint(self.type, self.free or (), self.springs, self.breaking_force_newton, MATERIALS.get(self.material))
+        own = Joint(
+            self.type,
+            self.free or (),
+            self.springs,
+            self.breaking_force_newton,
+            MATERIALS.get(self.material),
+            _moduli(self, self.material) if self.is_elastic else None,
+        )
         return (own, *(_joint_between(own, rule) for rule in self.between))
 
     def with_strength(self, shards: int) -> Self:
@@ -267,8 +326,35 @@ class ConnectionSettings(JointSettings):
             raise self.unexpected("ductile_elongation_m", wanted)
         if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
             raise self.unexpected("warm_up_damping", "0 where connections.warm_up_s is 0")
+        self._check_elastic()
         self._check_method("search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
+
+    def _check_elastic(self) -> None:
+        """Check that what only elastic connections have goes with them, and that these have all that they need."""
+        names = ("elastic_modulus_n_mm2", "poisson_ratio", "damping_ratio")
+        for each in (self, *self.between):
+            for name in names:
+                if not self.is_elastic and getattr(each, name, None) is not None:
+                    raise each.unexpected(name, 'none where connections.stiffness is "rigid"')
+        if not self.is_elastic:
+            return
+        if self.method != "face":
+            raise self.unexpected("method", '"face" with stiffness "elastic", which takes the area of shared faces')
+        if self.material is None and self._has_strength:
+            raise ScenarioError(
+                'connections.material is missing: expected it with stiffness "elastic"; elastic connections break by '
+                "stress, not by one force"
+            )
+        for each in (self, *self.between):
+            kind = each.type or self.type
+            if kind not in ELASTIC_TYPES and not getattr(each, "none", False):
+                raise each.unexpected("type", f'one of {", ".join(ELASTIC_TYPES)} with stiffness "elastic"')
+            if each is not self and each.breaking_force_newton is not None:
+                raise ScenarioError(
+                    f'{each.table} has a breaking force: expected a material with stiffness "elastic"; elastic '
+                    "connections break by stress, not by one force"
+                )
 
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
         """Check that a key is given for the methods that need it, and for no others."""
@@ -283,4 +369,16 @@ def _joint_between(own: Joint, rule: ConnectionBetween) -> Joint:
     force, strength = rule.breaking_force_newton, MATERIALS.get(rule.material)
     if force is None and strength is None:
         force, strength = own.breaking_force_n, own.strength
-    return Joint(kind, free, springs, force, strength)
+    moduli = _moduli(rule, rule.material, own.moduli) if own.moduli else None
+    return Joint(kind, free, springs, force, strength, moduli)
+
+
+def _moduli(
+    settings: ConnectionSettings | ConnectionBetween, material: str | None, others: ElasticModuli | None = None
+) -> ElasticModuli:
+    """Moduli that are given, or those of a material, or of the other connections where it is not given."""
+    known = ELASTIC_MODULI[material] if material else others
+    young, poisson = settings.elastic_modulus_n_mm2, settings.poisson_ratio
+    return ElasticModuli(
+        known.young_pa if young is None else young * _PA, known.poisson if poisson is None else poisson
+    )

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
+from ..elasticity.section_stiffness import SectionStiffness
 from ..fracture.members import fractured_members, shards_with_gaps
 from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh
@@ -18,6 +19,7 @@ from . import connections as connecting
 from .connection_rules import rules_of_pairs
 from .connections import Connections
 from .face_sections import second_moments
+from .stiffness import connection_stiffness
 from .supports import fixed_shards
 
 
@@ -45,6 +47,8 @@ class Model:
         Second moments of area of the connections' faces; 0 for one without a face.
     fixed : (n,) bool
         Whether each shard never moves, as supports hold it; no connection lies between two of these.
+    stiffness : SectionStiffness or None
+        Of the connections; None where they are rigid.
     """
 
     members: tuple[Member, ...]
@@ -56,6 +60,7 @@ class Model:
     joint_of_connection: np.ndarray
     second_moments_m4: np.ndarray
     fixed: np.ndarray
+    stiffness: SectionStiffness | None = None
 
     @property
     def density_kg_m3(self) -> float:
@@ -89,6 +94,23 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     # The ground, at index -1, is fixed as well.
     moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
     connections = connections.only(moves)
+    joint_of_connection = rules_of(connections.pairs)
+    moments = second_moments(
+        shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
+    )
+    stiffness = None
+    if scenario.connections.is_elastic:
+        stiffness = connection_stiffness(
+            connections,
+            moments,
+            scenario.connections.joints,
+            joint_of_connection,
+            shards,
+            fractured.points_m,
+            members,
+            fractured.member_of_shard,
+            fixed,
+        )
     return Model(
         members=members,
         shards=shards_with_gaps(fractured, members, scenario.fracture.margin_m),
@@ -96,11 +118,10 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         masses_kg=fractured.masses_kg,
         centres_m=centres,
         connections=connections,
-        joint_of_connection=rules_of(connections.pairs),
-        second_moments_m4=second_moments(
-            shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
-        ),
+        joint_of_connection=joint_of_connection,
+        second_moments_m4=moments,
         fixed=fixed,
+        stiffness=stiffness,
     )
 
 

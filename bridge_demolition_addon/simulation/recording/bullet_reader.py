@@ -13,9 +13,11 @@ from ...core.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...core.results.frames import BallHistory, Frame
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
+from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of
 from ...scene.structural_changes import events_of
 from ...scene.time_scale import time_step_at
 from .blast import Blast
+from .elastic_connections import ElasticConnections
 from .events import AppliedEvent, Events
 from .substeps import Breaks, SubstepRecorder
 
@@ -51,6 +53,11 @@ class BulletReader:
     ):
         self._scene, self._world, self._every_substep = scene, world, every_substep
         self._inventory = inventory
+        elastic = None
+        if is_elastic(scene) and connections:
+            elastic = ElasticConnections(
+                scene, world, inventory, bodies, stiffness_of(connections), damping_ratio_of(scene)
+            )
         self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
         normal_substep_s = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start).substep_s
         breaking = breaking_of(scene, connections)
@@ -62,9 +69,19 @@ class BulletReader:
             Motion(*(each[None] for each in (world.positions()[0], world.velocities(), world.angular_velocities()))),
         )
         self._substeps = SubstepRecorder(
-            world, inventory, breaking, self._events, blast, normal_substep_s, work, every_substep=every_substep
+            world,
+            inventory,
+            breaking,
+            self._events,
+            blast,
+            normal_substep_s,
+            work,
+            elastic,
+            every_substep=every_substep,
         )
         after = self._substeps.after_substep if every_substep else None
+        if elastic and not every_substep:
+            after = self._substeps.note_contacts
         world.call_around_substeps(self._substeps.before_substep, after)
 
     def close(self) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
@@ -30,6 +31,8 @@ class LoadReader:
 
     Attributes
     ----------
+    sides : (m,) int
+        Whether loads are read on Bullet's body A, 0, or on its body B, 1, of each connection.
     lever_arms_m : (m,) float
         From the centres of the bodies on which loads are read to the connections, which stay where they are on these.
     """
@@ -40,7 +43,8 @@ class LoadReader:
         # Of a hinge on a fixed body, Bullet leaves out a part of the torque on that body: loads are read on the other.
         side = np.where(can_move[pairs[:, 0]], 0, 1)
         rows = np.arange(len(pairs))
-        self._snapshots = world.snapshots(2 * rows + np.where(world.first_is_body_a(), side, 1 - side))
+        self.sides = np.where(world.first_is_body_a(), side, 1 - side)
+        self._snapshots = world.snapshots(2 * rows + self.sides)
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
         centres, rotations = world.positions()
@@ -60,6 +64,16 @@ class LoadReader:
     def snapshot(self) -> Snapshot:
         """Return what Bullet holds after the last sub-step."""
         return self._snapshots.take()
+
+    def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
+        """Return the contacts in snapshots.
+
+        Raises
+        ------
+        LayoutError
+            They are not as expected.
+        """
+        return self._snapshots.contacts(snapshots)
 
     def loads(self, snapshots: Sequence[Snapshot], bodies: BodyStates, substeps_s: np.ndarray) -> SubstepLoads:
         """Return the loads of sub-steps.
@@ -84,7 +98,7 @@ class LoadReader:
         rotations = taken(bodies.rotations.reshape(*bodies.positions.shape[:2], 9), self._bodies)
         points = carried_points(self._local_points, centres, rotations.reshape(*centres.shape, 3))
         moment = forces.moments_at(points, force, torque, centres)
-        contacts = self._snapshots.contacts(snapshots)
+        contacts = self.contacts(snapshots)
         return SubstepLoads(
             substeps_s=substeps_s,
             connection_forces_n=self._sign * force,

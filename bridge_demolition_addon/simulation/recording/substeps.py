@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -34,11 +34,15 @@ from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
 from .background import BackgroundWork
 from .blast import Blast
+from .elastic_connections import ElasticConnections
 from .events import Events
 from .load_reader import LoadReader
 from .reinforcement import Reinforcement
 
 _SINGLE_PRECISION = 1e-6
+
+_MOST_ROUNDS = 20
+"""How often connections break one after another in one sub-step, before the rest waits for the next."""
 
 _BATCH_BYTES = 1_000_000
 """Copies of sub-steps that are kept until they are worked out; fewer take longer each, more leave more to wait for at
@@ -81,6 +85,10 @@ class _Substep:
         Forces of reinforcement in it, where there is any.
     broken : (b,) int
         Connections that broke in it.
+    stored_j : (m,) float or None
+        Energy in elastic connections at its end.
+    foreseen : sequence of Breaks
+        What broke before it.
     """
 
     snapshot: Snapshot
@@ -88,6 +96,8 @@ class _Substep:
     end_s: float
     ties_n: np.ndarray | None
     broken: np.ndarray
+    stored_j: np.ndarray | None = None
+    foreseen: Sequence[Breaks] = ()
 
 
 class SubstepRecorder:
@@ -109,6 +119,8 @@ class SubstepRecorder:
         Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
     work : WorkAccumulator
         Adds up the work in each frame.
+    elastic : ElasticConnections or None
+        The connections, where they are elastic.
     every_substep : bool
         Whether every sub-step is recorded: the work of a frame is known only then.
 
@@ -131,6 +143,7 @@ class SubstepRecorder:
         blast: Blast | None,
         threshold_step_s: float,
         work: WorkAccumulator,
+        elastic: ElasticConnections | None = None,
         *,
         every_substep: bool,
     ):
@@ -138,7 +151,7 @@ class SubstepRecorder:
         self.seconds = 0.0
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
-        self._events, self._work = events, work
+        self._events, self._work, self._elastic = events, work, elastic
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
         if breaking.strength:
@@ -162,6 +175,7 @@ class SubstepRecorder:
         self._substeps, self._substeps_before = 0, 0
         self._work_counts, self._every_substep = not self._is_warming_up, every_substep
         self._breaks: list[Breaks] = []
+        self._foreseen: list[Breaks] = []
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
@@ -180,8 +194,45 @@ class SubstepRecorder:
                 self._reinforcement.before_substep(substep_s)
             if self._blast:
                 self._blast.before_substep(substep_s)
+            if self._elastic:
+                self._predict(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
+
+    def _predict(self, substep_s: float) -> None:
+        """Put elastic connections into the coming sub-step, without those that would break in it.
+
+        Once a connection has borne more than its strength in a sub-step, it has given its bodies more than a real one.
+        """
+        for _ in range(_MOST_ROUNDS):
+            loads = self._elastic.predict(substep_s)
+            if not len(self._break_predicted(loads, substep_s)):
+                break
+        self._elastic.apply(substep_s)
+
+    def _break_predicted(self, both_sides: np.ndarray, substep_s: float) -> np.ndarray:
+        """Break what would not bear predicted loads (2, 6, m) on the bodies of connections, and return it (b,)."""
+        if self._is_warming_up or not self._breaking.strength:
+            return _NONE
+        loads = np.where(self._reader.sides == 0, both_sides[0], both_sides[1])
+        rows = self._perhaps_overloaded(loads)
+        if not len(rows):
+            return _NONE
+        snapshot = replace(self._reader.snapshot(), loads=loads)
+        moment = self._loads([_Substep(snapshot, substep_s, self.elapsed_s, None, _NONE)])[1].moment(0)
+        rows = self._overloaded(rows, moment)
+        if len(rows):
+            self._foreseen.append(Breaks(self.elapsed_s, rows, self._section_forces(moment, rows)))
+            self._let_go(rows, moment)
+            self._intact[rows] = False
+            self._world.let_broken_collide(self._intact)
+        return rows
+
+    def _let_go(self, rows: np.ndarray, loads: Moment) -> None:
+        """Break connections (b,) under loads; their reinforcement holds on."""
+        self._world.break_connections(rows)
+        if self._reinforcement and len(rows):
+            self._reinforcement.add(rows, loads.connection_points_m[rows])
 
     def _threshold_factor(self, substep_s: float) -> float:
         """Impulse of a steady force in this sub-step over that in the one that thresholds were made for."""
@@ -200,6 +251,15 @@ class SubstepRecorder:
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
         self.seconds += time.perf_counter() - began
+
+    def note_contacts(self, substep_s: float) -> None:
+        """Note what contacts did in a sub-step that is not recorded. Called by Bullet: keeps an error."""
+        if self.error:
+            return
+        try:
+            self._elastic.after_substep(self._reader.contacts([self._reader.snapshot()]), substep_s)
+        except Exception as error:  # whoever follows the frames raises it there
+            self.error = error
 
     def skip(self, duration_s: float) -> None:
         """Let time pass of which nothing is known."""
@@ -240,14 +300,24 @@ class SubstepRecorder:
         if self._work_counts == self._is_warming_up:
             self._hand_over()
             self._work_counts = not self._is_warming_up
-        snapshot = self._reader.snapshot()
+        snapshot = self._snapshot(substep_s)
         ties_n = self._reinforcement.forces_n.copy() if self._reinforcement else None
         intact = snapshot.intact.copy()
         intact[self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, _NONE))] = False
         broken = np.flatnonzero(self._intact & ~intact)
         self._intact = intact
-        self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken))
+        stored_j = self._elastic.stored_j(intact) if self._elastic else None
+        foreseen, self._foreseen = self._foreseen, []
+        self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken, stored_j, foreseen))
         self._world.let_broken_collide(intact)
+
+    def _snapshot(self, substep_s: float) -> Snapshot:
+        """What Bullet holds, with the loads of elastic connections, of which it knows only what contacts change."""
+        snapshot = self._reader.snapshot()
+        if not self._elastic:
+            return snapshot
+        self._elastic.after_substep(self._reader.contacts([snapshot]), substep_s)
+        return replace(snapshot, loads=snapshot.loads + self._elastic.loads_on(self._reader.sides))
 
     def _is_worth_handing_over(self) -> bool:
         """Whether enough sub-steps wait, or as many as the frame probably has: Blender now moves its objects."""
@@ -271,8 +341,10 @@ class SubstepRecorder:
         bodies, loads = self._loads(substeps)
         resultants_n = self._frame.add(loads)
         if self._every_substep:
-            self._add_work(bodies, loads, resultants_n, work_counts=work_counts)
+            stored_j = np.stack([each.stored_j for each in substeps]) if self._elastic else None
+            self._add_work(bodies, loads, resultants_n, stored_j, work_counts=work_counts)
         for substep, each in enumerate(substeps):
+            self._breaks += each.foreseen
             if len(each.broken):
                 forces = self._section_forces(loads.moment(substep), each.broken)
                 self._breaks.append(Breaks(each.end_s, each.broken, forces))
@@ -284,13 +356,19 @@ class SubstepRecorder:
         snapshots = [each.snapshot for each in substeps]
         bodies = BodyStates.of(snapshots)
         loads = self._reader.loads(snapshots, bodies, np.array([each.substep_s for each in substeps]))
-        if self._reinforcement:
-            for substep, each in enumerate(substeps):
+        for substep, each in enumerate(substeps):
+            if each.ties_n is not None:
                 loads.connection_forces_n[substep] += each.ties_n
         return bodies, loads
 
     def _add_work(
-        self, bodies: BodyStates, loads: SubstepLoads, resultants_n: np.ndarray, *, work_counts: bool
+        self,
+        bodies: BodyStates,
+        loads: SubstepLoads,
+        resultants_n: np.ndarray,
+        stored_j: np.ndarray | None,
+        *,
+        work_counts: bool,
     ) -> None:
         motion = Motion(bodies.positions, bodies.velocities, bodies.angular_velocities)
         if not work_counts:
@@ -302,6 +380,7 @@ class SubstepRecorder:
             loads.connection_impulses_ns,
             loads.connection_points_m,
             loads.connection_angular_impulses_nms,
+            stored_j=stored_j,
         )
         of_contacts = PairImpulses(
             loads.contact_pairs,
@@ -321,23 +400,22 @@ class SubstepRecorder:
             if self.elapsed_s < self._breaking.warm_up_s:
                 return _NONE
             self._is_warming_up = False
-            self._world.release_connections()
+            if not self._elastic:
+                self._world.release_connections()
         if not self._breaking.strength:
             return _NONE
-        rows = self._perhaps_overloaded(substep.snapshot)
+        rows = self._perhaps_overloaded(substep.snapshot.loads)
         if not len(rows):
             return _NONE
         loads = self._loads([substep])[1].moment(0)
         rows = self._overloaded(rows, loads)
-        self._world.break_connections(rows)
-        if self._reinforcement and len(rows):
-            self._reinforcement.add(rows, loads.connection_points_m[rows])
+        self._let_go(rows, loads)
         return rows
 
-    def _perhaps_overloaded(self, snapshot: Snapshot) -> np.ndarray:
-        """Return the intact connections (k,) whose forces and moments are large enough for it, whatever they act on."""
+    def _perhaps_overloaded(self, loads: np.ndarray) -> np.ndarray:
+        """Return the intact connections (k,) whose loads (6, m) are large enough for it, whatever they act on."""
         by_force, by_moment = self._largest_utilisations
-        force, torque = length(snapshot.forces_n), length(snapshot.torques_nm)
+        force, torque = length(loads[:3].T), length(loads[3:].T)
         most = (by_force + by_moment * self._reader.lever_arms_m) * force + by_moment * torque
         return np.flatnonzero((most * (1.0 + _SINGLE_PRECISION) > self._events.remaining_strength) & self._intact)
 

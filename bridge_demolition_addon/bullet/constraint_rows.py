@@ -1,0 +1,135 @@
+"""The rows of constraints: frames in which they are written, and the relative motion that the solver is to expect.
+
+A row of a btGeneric6DofSpring2Constraint whose two limits are equal holds a shift or a turn at that limit. With all of
+an error corrected in one sub-step, the limit says how fast the bodies part in it. Where that is how they move without
+the solver, its rows do nothing; they answer to what contacts change, as softly as they are told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..core.errors import LayoutError
+from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout
+from .memory import gather_doubles, read, read_value, write_doubles, write_integers
+
+_ROTATION = 1e-4
+"""How far elements of two rotation matrices in single precision may differ."""
+
+_PLACE = 1e-6
+"""Relative spacing of places in single precision, with room for one rounding more."""
+
+_SAME_VALUE = 1e-6
+
+_TURNS_THE_OTHER_WAY = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])[:, None]
+"""Bullet takes limits of turns with the opposite sign."""
+
+
+class ConstraintRows:
+    """Rows of constraints of a world that was bound just now, before any time passes.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    addresses
+        (k,) of the constraints.
+    names
+        What the connections are called.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+
+    def __init__(self, layout: Layout, addresses: np.ndarray, names: Sequence[str]):
+        self._layout, self._addresses = layout, addresses
+        for address, name in zip(addresses.tolist(), names, strict=True):
+            self._check(address, name)
+
+    def frames(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return axes (3, 3, k) and places (3, k) of the frames in Bullet's body A, and those in its body B."""
+        found = []
+        for offset in (self._layout.spring.frame_a, self._layout.spring.frame_b):
+            values = gather_doubles(self._addresses + np.uint64(offset), 15).T
+            found += [values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()]
+        return tuple(found)
+
+    def held(self) -> np.ndarray:
+        """Return which rows (6, k) hold a shift or a turn; the others leave it free."""
+        return self._doubles(self._layout.spring.lower) == self._doubles(self._layout.spring.upper)
+
+    def soften(self, softness: np.ndarray) -> None:
+        """Have all of an error corrected in a sub-step, as softly as given.
+
+        Parameters
+        ----------
+        softness
+            (6, k) the rows' effective masses by their stiffness against impulses, below 1.
+        """
+        spring = self._layout.spring
+        write_doubles(self._fields(spring.correction), 1.0)
+        write_doubles(self._fields(spring.softness), softness)
+        write_integers(self._addresses + np.uint64(spring.flags), ALL_ROWS_SET)
+
+    def expect(self, rows: np.ndarray, deformations: np.ndarray, held: np.ndarray) -> None:
+        """Say how constraints (r,) will be deformed (6, r) at the end of the coming sub-step, if nothing else acts.
+
+        Only in those rows (6, r) that are held.
+        """
+        limits = (deformations * _TURNS_THE_OTHER_WAY)[held]
+        for offsets in (self._layout.spring.lower, self._layout.spring.upper):
+            write_doubles(self._fields(offsets, rows)[held], limits)
+
+    def _fields(self, offsets: Sequence[int], rows: np.ndarray | slice = slice(None)) -> np.ndarray:
+        return np.array(offsets, np.uint64)[:, None] + self._addresses[rows]
+
+    def _doubles(self, offsets: Sequence[int]) -> np.ndarray:
+        return gather_doubles(self._fields(offsets).ravel())[:, 0].reshape(6, -1)
+
+    def _check(self, address: int, name: str) -> None:
+        """Rows are as Blender makes them."""
+        layout = self._layout
+        if read_value(address + layout.constraint.type, "i") != SPRING_TYPE:
+            raise LayoutError(f"connection {name!r} is of another type than elastic connections have")
+        if read(address, layout.spring.flags + 4) is None:
+            raise LayoutError(f"connection {name!r} cannot be read")
+        if read_value(address + layout.spring.flags, "i") != 0:
+            raise LayoutError(f"flags of connection {name!r} are set")
+        for what, offsets, expected in (
+            ("correction", layout.spring.correction, SPRING_CORRECTION),
+            ("softness", layout.spring.softness, 0.0),
+        ):
+            for offset in offsets:
+                found = read_value(address + offset, "d")
+                if not abs(found - expected) <= _SAME_VALUE:
+                    raise LayoutError(f"{what} of connection {name!r} is {found:g}, not {expected:g}")
+
+
+def check_frames(
+    axes: np.ndarray, points_m: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, names: Sequence[str]
+) -> None:
+    """Check that the frames of connections are where they are said to be.
+
+    Parameters
+    ----------
+    axes, points_m
+        (3, 3, k) and (3, k) frames in the world, by Bullet's memory.
+    positions_m, rotations
+        (3, k) and (3, 3, k) as Blender shows them.
+    names
+        What the connections are called.
+
+    Raises
+    ------
+    LayoutError
+        They are somewhere else.
+    """
+    size = 1.0 + abs(positions_m).max(axis=0)
+    off = abs(points_m - positions_m).max(axis=0) > _PLACE * size
+    off |= ~(abs(axes - rotations).max(axis=(0, 1)) <= _ROTATION)
+    if off.any():
+        raise LayoutError(f"the frame of connection {names[int(off.argmax())]!r} is not where the connection is")

@@ -1,0 +1,132 @@
+"""The elastic structure at rest: how far it gives way under its own weight, and how fast it swings about that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry.rotations import rotated
+from .joint_rows import JointFrames, joint_places
+from .sparse_system import BlockSystem
+from .structure import connected_parts, mass_matrices, stiffness_blocks, stressed
+
+_SLOWEST_S = 60.0
+"""What would swing slower than in this period is not held: a mechanism, or a part without a support."""
+
+_LARGEST_M = 0.5
+"""What gives way further has no equilibrium near the shape in which it was built."""
+
+_SOLUTIONS = 8
+"""Linear solutions, one after another, of which each takes off what turning has left: two or three are enough."""
+
+_AT_REST = 1e-9
+"""Unbalanced load, as a share of the largest weight, at which the structure rests."""
+
+_ITERATIONS = 60
+_SAME_FREQUENCY = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equilibrium:
+    """n bodies at rest.
+
+    Attributes
+    ----------
+    positions_m, rotations : (3, n) and (3, 3, n) float
+        Where they are then; as before for those that nothing holds.
+    held : (n,) bool
+        Bodies that connections to a support hold.
+    frequency_hz : float
+        First frequency of what is held; 0 where nothing is.
+    """
+
+    positions_m: np.ndarray
+    rotations: np.ndarray
+    held: np.ndarray
+    frequency_hz: float
+
+
+def equilibrium(
+    frames: JointFrames,
+    stiffness: np.ndarray,
+    masses_kg: np.ndarray,
+    inertias_kg_m2: np.ndarray,
+    positions_m: np.ndarray,
+    rotations: np.ndarray,
+    gravity_m_s2: np.ndarray,
+) -> Equilibrium:
+    """Return where bodies rest that hang together by elastic connections, which bear no load where they are now.
+
+    Parameters
+    ----------
+    frames : JointFrames
+        Of m connections.
+    stiffness : (2, 3, 3, m) float
+        As in `ElasticStructure`.
+    masses_kg, inertias_kg_m2 : (n,) and (3, 3, n) float
+        Of the bodies; 0 for those that never move.
+    positions_m, rotations : (3, n) and (3, 3, n) float
+        Where they are now.
+    gravity_m_s2 : (3,) float
+    """
+    moves, count = masses_kg > 0.0, len(masses_kg)
+    label = connected_parts(moves, frames.first, frames.second)
+    ends = np.stack((frames.first, frames.second))
+    held = moves & np.isin(label, np.unique(label[ends][:, ~moves[ends].all(axis=0)]))
+    held &= label >= 0
+    bodies = np.flatnonzero(held)
+    if not len(bodies):
+        return Equilibrium(positions_m, rotations, held, 0.0)
+    frames, stiffness = _of_held(frames, stiffness, held)
+    unknown = np.full(count, -1)
+    unknown[bodies] = np.arange(len(bodies))
+    system = BlockSystem(len(bodies), unknown[frames.first], unknown[frames.second])
+    weights = np.zeros((6, count))
+    weights[:3] = masses_kg * gravity_m_s2[:, None]
+    unloaded = joint_places(frames, positions_m, rotations).deformations()
+    start, slack = (positions_m, rotations), 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
+    for _ in range(_SOLUTIONS):
+        places = joint_places(frames, positions_m, rotations)
+        rows = places.rows()
+        own = mass_matrices(masses_kg, inertias_kg_m2, rotations, bodies)
+        system.factor(slack * own, *stiffness_blocks(rows, stiffness))
+        holding = rows.loads(stressed(stiffness, places.deformations() - unloaded))
+        left = (weights + _summed(frames, holding, count))[:, bodies]
+        if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
+            break
+        moved = np.zeros((6, count))
+        moved[:, bodies] = system.solve(left)
+        if not abs(moved[:3]).max() <= _LARGEST_M:
+            return Equilibrium(*start, np.zeros(count, bool), 0.0)
+        positions_m = positions_m + moved[:3]
+        rotations = np.moveaxis(rotated(np.moveaxis(rotations, 2, 0), moved[3:].T), 0, 2)
+    return Equilibrium(positions_m, rotations, held, _first_frequency(system, own, slack))
+
+
+def _of_held(frames: JointFrames, stiffness: np.ndarray, held: np.ndarray) -> tuple[JointFrames, np.ndarray]:
+    """The connections of bodies (n,) that are held."""
+    rows = np.flatnonzero(held[frames.first] | held[frames.second])
+    return frames.only(rows), stiffness[..., rows]
+
+
+def _summed(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+    bodies = np.concatenate((frames.first, frames.second))
+    return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+
+
+def _first_frequency(system: BlockSystem, own: np.ndarray, slack: float) -> float:
+    """First frequency in Hz, by inverse iteration from an even motion in all directions."""
+    shape = np.ones((6, own.shape[2]))
+    shape[3:] = 0.0
+    square = 0.0
+    for _ in range(_ITERATIONS):
+        inert = own[:, 0] * shape[0]
+        for column in range(1, 6):
+            inert = inert + own[:, column] * shape[column]
+        answer = system.solve(inert)
+        before, square = square, float((shape * inert).sum() / (answer * inert).sum()) - slack
+        shape = answer / abs(answer).max()
+        if abs(square - before) <= _SAME_FREQUENCY * abs(square):
+            break
+    return float(np.sqrt(max(square, 0.0)) / (2.0 * np.pi))

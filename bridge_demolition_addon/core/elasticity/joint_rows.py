@@ -1,0 +1,232 @@
+"""How connections are deformed, and how the motion of their bodies deforms them further.
+
+Each connection has six rows, as Bullet's own constraint between two frames: three shifts of the second frame against
+the first, along the axes of the first, and three turns, the angles of Euler in the order x, y, z. Only these rows make
+it possible to tell Bullet which relative motion to expect.
+
+All arrays have their components first and the connections last, so that numpy works on long stretches of memory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..arithmetic import arctangent
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointFrames:
+    """Frames of m connections, fixed in their two bodies.
+
+    Attributes
+    ----------
+    first, second : (m,) int
+        The bodies.
+    first_axes, second_axes : (3, 3, m) float
+        Axes of the frames, the columns of each matrix, in the axes of the body.
+    first_points_m, second_points_m : (3, m) float
+        Where the frames are, from the centre of the body, in its axes.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    first_axes: np.ndarray
+    second_axes: np.ndarray
+    first_points_m: np.ndarray
+    second_points_m: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    def only(self, rows: np.ndarray) -> JointFrames:
+        """Return the frames of some connections (r,)."""
+        return JointFrames(*(getattr(self, item.name)[..., rows] for item in fields(self)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointPlaces:
+    """Where the frames of m connections are in the world.
+
+    Attributes
+    ----------
+    first_axes, second_axes : (3, 3, m) float
+        Their axes, the columns of each matrix.
+    first_levers_m, second_levers_m : (3, m) float
+        From the centres of the bodies to the frames.
+    shifts_m : (3, m) float
+        From the first frame to the second.
+    """
+
+    first_axes: np.ndarray
+    second_axes: np.ndarray
+    first_levers_m: np.ndarray
+    second_levers_m: np.ndarray
+    shifts_m: np.ndarray
+
+    def only(self, rows: np.ndarray) -> JointPlaces:
+        """Return the places of some connections (r,)."""
+        return JointPlaces(*(getattr(self, item.name)[..., rows] for item in fields(self)))
+
+    def deformations(self) -> np.ndarray:
+        """Return the shifts in m and turns in rad (6, m) of the second frames against the first."""
+        one, other = self.first_axes, self.second_axes
+        sines = np.stack((-_dot(one[:, 1], other[:, 2]), _dot(one[:, 0], other[:, 2]), -_dot(one[:, 0], other[:, 1])))
+        upright = np.sqrt(np.maximum(1.0 - sines[1] * sines[1], 0.0))
+        cosines = np.stack((_dot(one[:, 2], other[:, 2]), upright, _dot(one[:, 0], other[:, 0])))
+        return np.concatenate((_turned_back(one, self.shifts_m), arctangent(sines, cosines)))
+
+    def rows(self) -> JointRows:
+        """Return the rows at these places."""
+        first_z, second_x = self.first_axes[:, 2], self.second_axes[:, 0]
+        y = _cross(first_z, second_x)
+        turning = np.stack([_unit(each) for each in (_cross(y, first_z), y, _cross(second_x, y))])
+        along = np.swapaxes(self.first_axes, 0, 1)
+        return JointRows(
+            along,
+            np.stack([_cross(self.first_levers_m, axis) for axis in along]),
+            np.stack([_cross(axis, self.second_levers_m) for axis in along]),
+            turning,
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointRows:
+    """How fast the deformations of m connections shrink when bodies move: velocities of the first against the second.
+
+    Attributes
+    ----------
+    along : (3, 3, m) float
+        Unit vectors along which velocities count; the first index is the row.
+    first_turning, second_turning : (3, 3, m) float
+        What the angular velocities of both bodies add to these rows.
+    turning : (3, 3, m) float
+        Unit vectors about which relative angular velocities count.
+    """
+
+    along: np.ndarray
+    first_turning: np.ndarray
+    second_turning: np.ndarray
+    turning: np.ndarray
+
+    @classmethod
+    def empty(cls, count: int) -> JointRows:
+        """Return rows of so many connections, all 0."""
+        return cls(*(np.zeros((3, 3, count)) for _ in fields(cls)))
+
+    def set(self, connections: np.ndarray, rows: JointRows) -> None:
+        """Write the rows of some connections (r,)."""
+        for item in fields(self):
+            getattr(self, item.name)[..., connections] = getattr(rows, item.name)
+
+    def only(self, connections: np.ndarray) -> JointRows:
+        """Return the rows of some connections (r,)."""
+        return JointRows(*(getattr(self, item.name)[..., connections] for item in fields(self)))
+
+    def rates(self, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        """Return how fast deformations shrink (6, m).
+
+        Parameters
+        ----------
+        first, second : (6, m) float
+            Velocities, then angular velocities, of the bodies.
+        """
+        velocity, spin = first[:3] - second[:3], first[3:] - second[3:]
+        shifting = _along_second(self.along, velocity)
+        shifting += _along_second(self.first_turning, first[3:])
+        shifting += _along_second(self.second_turning, second[3:])
+        return np.concatenate((shifting, _along_second(self.turning, spin)))
+
+    def loads(self, amounts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return what amounts (6, m) in the rows do to the first and to the second bodies.
+
+        Returns
+        -------
+        first, second : (6, m) float
+            Forces, or impulses, then torques about the centres of the bodies.
+        """
+        force = _along_first(self.along, amounts[:3])
+        torque = _along_first(self.turning, amounts[3:])
+        first = _along_first(self.first_turning, amounts[:3]) + torque
+        second = _along_first(self.second_turning, amounts[:3]) - torque
+        return np.concatenate((force, first)), np.concatenate((-force, second))
+
+    def matrices(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the rows as matrices (6, 6, m) for the first and for the second bodies; the first index is the row."""
+        zeros = np.zeros_like(self.along)
+        first = np.concatenate((_beside(self.along, self.first_turning), _beside(zeros, self.turning)))
+        second = np.concatenate((_beside(-self.along, self.second_turning), _beside(zeros, -self.turning)))
+        return first, second
+
+
+def joint_places(frames: JointFrames, positions_m: np.ndarray, rotations: np.ndarray) -> JointPlaces:
+    """Return where the frames of m connections are.
+
+    Parameters
+    ----------
+    frames : JointFrames
+        Of the m connections.
+    positions_m, rotations : (3, n) and (3, 3, n) float
+        Of all n bodies.
+    """
+    first, second = rotations.take(frames.first, axis=2), rotations.take(frames.second, axis=2)
+    first_levers = _turned(first, frames.first_points_m)
+    second_levers = _turned(second, frames.second_points_m)
+    between = positions_m.take(frames.second, axis=1) - positions_m.take(frames.first, axis=1)
+    return JointPlaces(
+        matrix_products(first, frames.first_axes),
+        matrix_products(second, frames.second_axes),
+        first_levers,
+        second_levers,
+        between + second_levers - first_levers,
+    )
+
+
+def matrix_products(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the products (i, k, m) of matrices (i, j, m) and (j, k, m), summed in a fixed order."""
+    total = first[:, 0, None] * second[0]
+    for index in range(1, first.shape[1]):
+        total += first[:, index, None] * second[index]
+    return total
+
+
+def transposed(matrices: np.ndarray) -> np.ndarray:
+    """Return the transposes (j, i, m) of matrices (i, j, m)."""
+    return np.swapaxes(matrices, 0, 1)
+
+
+def _turned(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Products (3, m) of matrices (3, 3, m) with vectors (3, m)."""
+    return _along_second(matrices, vectors)
+
+
+def _turned_back(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Products (3, m) of transposed matrices (3, 3, m) with vectors (3, m)."""
+    return _along_first(matrices, vectors)
+
+
+def _along_second(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    return matrices[:, 0] * vectors[0] + matrices[:, 1] * vectors[1] + matrices[:, 2] * vectors[2]
+
+
+def _along_first(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    return matrices[0] * vectors[0] + matrices[1] * vectors[1] + matrices[2] * vectors[2]
+
+
+def _beside(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    return np.concatenate((left, right), axis=1)
+
+
+def _dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
+
+
+def _cross(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    (x, y, z), (a, b, c) = first, second
+    return np.stack((y * c - z * b, z * a - x * c, x * b - y * a))
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    lengths = np.sqrt(_dot(vectors, vectors))
+    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)

@@ -1,0 +1,334 @@
+"""The elastic structure: bodies of known mass, held together by elastic connections, and how they share loads.
+
+A sub-step is solved implicitly (backward Euler): the forces of connections are those at its end, so that no stiffness
+is too large for it. With the velocities v that bodies would have without connections, stiffness K, damping C, rows J and
+deformations e at its beginning, the velocities v' at its end follow from
+
+    (M + Jᵀ dt (dt K + C) J) (v' - v) = Jᵀ g,    g = dt K e - dt (dt K + C) J v,
+
+and the impulses of the connections are g - dt (dt K + C) J (v' - v). D. Baraff and A. Witkin (1998), Large steps in cloth
+simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places, matrix_products, transposed
+from .sparse_system import BlockSystem
+
+TURNED_RAD = 1e-4
+"""How far bodies may turn before rows and equations are made anew: loads are then off by as much, relative."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyStates:
+    """States of n bodies before a sub-step.
+
+    Attributes
+    ----------
+    positions_m, rotations : (3, n) and (3, 3, n) float
+        Centres of mass, and axes of the bodies.
+    velocities : (6, n) float
+        Velocities in m/s and angular velocities in rad/s that they would have at its end without connections.
+    asleep : (n,) bool
+        Whether each is at rest and not simulated.
+    """
+
+    positions_m: np.ndarray
+    rotations: np.ndarray
+    velocities: np.ndarray
+    asleep: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ElasticStep:
+    """What elastic connections do in a sub-step.
+
+    Attributes
+    ----------
+    impulses : (6, m) float
+        Impulses in the rows of the connections, N·s and N·m·s.
+    deformations : (6, m) float
+        Before the sub-step, m and rad, as Bullet measures them.
+    rates : (6, m) float
+        How fast they shrink in it, m/s and rad/s.
+    of_first, of_second : (6, m) float
+        Impulses on the two bodies, and about their centres.
+    of_bodies : (6, n) float
+        The sum on every body.
+    acting : (m,) bool
+        Connections for which all this was worked out; the others are broken, or asleep.
+    """
+
+    impulses: np.ndarray
+    deformations: np.ndarray
+    rates: np.ndarray
+    of_first: np.ndarray
+    of_second: np.ndarray
+    of_bodies: np.ndarray
+    acting: np.ndarray
+
+
+class _Part:
+    """Bodies that hang together by connections, and their equations."""
+
+    def __init__(self, bodies: np.ndarray, connections: np.ndarray, first: np.ndarray, second: np.ndarray):
+        self.bodies, self.connections = bodies, connections
+        self.first, self.second = first, second
+        self._system: BlockSystem | None = None
+
+    @property
+    def system(self) -> BlockSystem:
+        """The equations, laid out when they are first needed."""
+        if self._system is None:
+            self._system = BlockSystem(len(self.bodies), self.first, self.second)
+        return self._system
+
+
+class ElasticStructure:
+    """Bodies with elastic connections between them.
+
+    Parameters
+    ----------
+    frames : JointFrames
+        Of the m connections.
+    stiffness : (2, 3, 3, m) float
+        Against shifts, N/m, and against turns, N·m/rad, in the axes of the first frames.
+    masses_kg : (n,) float
+        Masses; 0 for bodies that never move.
+    inertias_kg_m2 : (3, 3, n) float
+        Tensors of inertia in the axes of the bodies.
+    damping_s : float
+        Damping over stiffness, β.
+    start : BodyStates
+        Without deformation; what rounding leaves of the frames then counts as none.
+    """
+
+    def __init__(
+        self,
+        frames: JointFrames,
+        stiffness: np.ndarray,
+        masses_kg: np.ndarray,
+        inertias_kg_m2: np.ndarray,
+        damping_s: float,
+        positions_m: np.ndarray,
+        rotations: np.ndarray,
+    ):
+        self._frames, self._stiffness = frames, stiffness
+        self._masses, self._inertias, self._damping_s = masses_kg, inertias_kg_m2, damping_s
+        self._count = len(masses_kg)
+        places = joint_places(frames, positions_m, rotations)
+        self._offsets = places.deformations()
+        self._rows = JointRows.empty(len(frames))
+        self._intact = np.ones(len(frames), bool)
+        self._moves = masses_kg > 0.0
+        self._substep_s = 0.0
+        self._partition()
+
+    @property
+    def parts(self) -> int:
+        """How many parts hang together by connections."""
+        return len(self._parts)
+
+    def step(self, states: BodyStates, intact: np.ndarray, substep_s: float) -> ElasticStep:
+        """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
+        self._follow_breaks(intact)
+        if substep_s != self._substep_s:
+            self._substep_s = substep_s
+            self._stale[:] = True
+        awake = self._awake_parts(states)
+        acting = self._acting(awake)
+        frames = self._frames.only(acting)
+        places = joint_places(frames, states.positions_m, states.rotations)
+        self._refresh(states, awake, acting, places)
+        rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
+        deformations = places.deformations()
+        first, second = (states.velocities.take(each, axis=1) for each in (frames.first, frames.second))
+        rates = rows.rates(first, second)
+        implicit = substep_s * (substep_s + self._damping_s)
+        strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
+        amounts = stressed(stiffness, strains)
+        changes = self._solved(awake, self._on_bodies(frames, rows.loads(amounts)))
+        first, second = (changes.take(each, axis=1) for each in (frames.first, frames.second))
+        slowing = rows.rates(first, second)
+        amounts -= stressed(stiffness, implicit * slowing)
+        of_first, of_second = rows.loads(amounts)
+        return ElasticStep(
+            impulses=amounts,
+            deformations=deformations,
+            rates=rates + slowing,
+            of_first=of_first,
+            of_second=of_second,
+            of_bodies=self._on_bodies(frames, (of_first, of_second)),
+            acting=acting,
+        )
+
+    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Return the energy (m,) that connections have stored with bodies at positions (3, n) in rotations (3, 3, n)."""
+        rows = np.flatnonzero(self._intact)
+        deformations = joint_places(self._frames.only(rows), positions_m, rotations).deformations()
+        deformations -= self._offsets[:, rows]
+        amounts = stressed(self._stiffness[..., rows], deformations)
+        stored = np.zeros(len(self._frames))
+        for amount, deformation in zip(amounts, deformations, strict=True):
+            stored[rows] += 0.5 * amount * deformation
+        return stored
+
+    def end_substep(self) -> None:
+        """Look anew which bodies hang together, if any connection broke since this was done last."""
+        if self._has_broken:
+            self._partition()
+
+    def _partition(self) -> None:
+        """Find the parts, and leave out bodies that never move."""
+        kept = np.flatnonzero(self._intact)
+        first, second = self._frames.first[kept], self._frames.second[kept]
+        label = connected_parts(self._moves, first, second)
+        part_of_connection = np.where(self._moves[first], label[first], label[second])
+        numbers = np.unique(part_of_connection)
+        self._part_of_body = np.full(self._count, -1)
+        self._part_of_connection = np.full(len(self._frames), -1)
+        self._parts: list[_Part] = []
+        within = np.full(self._count, -1)
+        for number, which in enumerate(numbers.tolist()):
+            bodies = np.flatnonzero(label == which)
+            connections = kept[part_of_connection == which]
+            within[bodies] = np.arange(len(bodies))
+            self._part_of_body[bodies] = number
+            self._part_of_connection[connections] = number
+            self._parts.append(
+                _Part(
+                    bodies,
+                    connections,
+                    within[self._frames.first[connections]],
+                    within[self._frames.second[connections]],
+                )
+            )
+            within[bodies] = -1
+        self._stale = np.ones(len(self._parts), bool)
+        self._rotations = np.full((3, 3, self._count), np.inf)
+        self._has_broken = False
+
+    def _follow_breaks(self, intact: np.ndarray) -> None:
+        broken = self._intact & ~intact
+        if broken.any():
+            self._intact = intact.copy()
+            parts = self._part_of_connection[broken]
+            self._stale[parts[parts >= 0]] = True
+            self._has_broken = True
+
+    def _awake_parts(self, states: BodyStates) -> np.ndarray:
+        """Parts (p,) of which a body is awake."""
+        mine = self._part_of_body >= 0
+        awake = np.zeros(len(self._parts), bool)
+        awake[self._part_of_body[mine & ~states.asleep]] = True
+        return awake
+
+    def _acting(self, awake: np.ndarray) -> np.ndarray:
+        """Connections (k,) that are intact, and in awake parts (p,)."""
+        part = self._part_of_connection
+        return np.flatnonzero(self._intact & (part >= 0) & awake[part])
+
+    def _refresh(self, states: BodyStates, awake: np.ndarray, acting: np.ndarray, places: JointPlaces) -> None:
+        """Make rows and equations of parts anew that have turned or lost a connection."""
+        turned = abs(states.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
+        turned &= self._part_of_body >= 0
+        self._stale[self._part_of_body[turned]] = True
+        stale = self._stale & awake
+        if not stale.any():
+            return
+        bodies = stale[self._part_of_body] & (self._part_of_body >= 0)
+        self._rotations[..., bodies] = states.rotations[..., bodies]
+        chosen = np.flatnonzero(stale[self._part_of_connection[acting]])
+        connections = acting[chosen]
+        rows = places.only(chosen).rows()
+        self._rows.set(connections, rows)
+        implicit = self._substep_s * (self._substep_s + self._damping_s)
+        blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
+        own = mass_matrices(self._masses, self._inertias, states.rotations, np.flatnonzero(bodies))
+        row_of_body = np.cumsum(bodies) - 1
+        place_of = np.full(len(self._frames), len(connections))
+        place_of[connections] = np.arange(len(connections))
+        blocks = [np.concatenate((each, np.zeros((6, 6, 1))), axis=2) for each in blocks]  # what broke since has none
+        for number in np.flatnonzero(stale).tolist():
+            part = self._parts[number]
+            which = place_of[part.connections]
+            part.system.factor(own[..., row_of_body[part.bodies]], *(each[..., which] for each in blocks))
+        self._stale[stale] = False
+
+    def _solved(self, awake: np.ndarray, right: np.ndarray) -> np.ndarray:
+        """Changes of velocities (6, n) by impulses (6, n), with the connections of awake parts (p,)."""
+        changes = np.zeros((6, self._count))
+        for number in np.flatnonzero(awake).tolist():
+            part = self._parts[number]
+            changes[:, part.bodies] = part.system.solve(right[:, part.bodies])
+        return changes
+
+    def _on_bodies(self, frames: JointFrames, loads: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+        """Sums (6, n) on all bodies."""
+        bodies = np.concatenate((frames.first, frames.second))
+        columns = np.concatenate(loads, axis=1)
+        return np.stack([np.bincount(bodies, each, self._count) for each in columns])
+
+
+def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the part (n,) to which each body belongs, -1 for those that do not move.
+
+    Parameters
+    ----------
+    moves : (n,) bool
+        Which bodies can move.
+    first, second : (m,) int
+        Bodies of each connection.
+    """
+    free = moves[first] & moves[second]
+    links = coo_matrix((np.ones(free.sum()), (first[free], second[free])), shape=(len(moves),) * 2)
+    return np.where(moves, connected_components(links, directed=False)[1], -1)
+
+
+def mass_matrices(
+    masses_kg: np.ndarray, inertias_kg_m2: np.ndarray, rotations: np.ndarray, bodies: np.ndarray
+) -> np.ndarray:
+    """Return mass and inertia (6, 6, b) of some bodies (b,) in the axes of the world.
+
+    Parameters
+    ----------
+    masses_kg, inertias_kg_m2, rotations : (n,), (3, 3, n), (3, 3, n) float
+        Of all bodies, with tensors of inertia in the axes of each.
+    bodies : (b,) int
+    """
+    turned = rotations[..., bodies]
+    matrices = np.zeros((6, 6, len(bodies)))
+    matrices[[0, 1, 2], [0, 1, 2]] = masses_kg[bodies]
+    matrices[3:, 3:] = matrix_products(matrix_products(turned, inertias_kg_m2[..., bodies]), transposed(turned))
+    return matrices
+
+
+def stressed(stiffness: np.ndarray, strains: np.ndarray) -> np.ndarray:
+    """Return the amounts (6, m) in rows, by stiffness (2, 3, 3, m), of deformations (6, m)."""
+    shifts, turns = stiffness
+    return np.concatenate(
+        (
+            shifts[:, 0] * strains[0] + shifts[:, 1] * strains[1] + shifts[:, 2] * strains[2],
+            turns[:, 0] * strains[3] + turns[:, 1] * strains[4] + turns[:, 2] * strains[5],
+        )
+    )
+
+
+def stiffness_blocks(rows: JointRows, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return what connections add to the equations of their first and second bodies, and between them: (6, 6, m) each."""
+    first, second = rows.matrices()
+    first_stressed, second_stressed = (
+        np.concatenate((matrix_products(stiffness[0], each[:3]), matrix_products(stiffness[1], each[3:])))
+        for each in (first, second)
+    )
+    return (
+        matrix_products(transposed(first), first_stressed),
+        matrix_products(transposed(second), second_stressed),
+        matrix_products(transposed(first), second_stressed),
+    )

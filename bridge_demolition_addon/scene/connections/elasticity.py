@@ -1,0 +1,74 @@
+"""How stiff connections are, kept with them and with the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ...core.elasticity.section_stiffness import SectionStiffness
+from ...core.errors import SimulationError
+from ..custom_properties import kept_number, kept_numbers
+
+_STIFFNESS = "bda_stiffness"
+_DAMPING_RATIO = "bda_damping_ratio"
+_COUNT = 7
+"""Axial, shear along y and z, torsion, and the three numbers of bending about y and z."""
+
+
+def keep_elasticity(
+    scene: bpy.types.Scene, connections: Sequence[bpy.types.Object], stiffness: SectionStiffness, damping_ratio: float
+) -> None:
+    """Make all connections (m,) of a scene elastic."""
+    scene[_DAMPING_RATIO] = damping_ratio
+    bending = stiffness.bending_nm
+    columns = np.column_stack(
+        (
+            stiffness.axial_n_m,
+            stiffness.shear_n_m,
+            stiffness.torsion_nm,
+            bending[:, 0, 0],
+            bending[:, 0, 1],
+            bending[:, 1, 1],
+        )
+    )
+    for connection, numbers in zip(connections, columns.tolist(), strict=True):
+        connection[_STIFFNESS] = numbers
+
+
+def forget_elasticity(scene: bpy.types.Scene) -> None:
+    """Let the connections of a scene be rigid."""
+    if _DAMPING_RATIO in scene:
+        del scene[_DAMPING_RATIO]
+
+
+def is_elastic(scene: bpy.types.Scene) -> bool:
+    """Whether the connections of a scene are elastic."""
+    return _DAMPING_RATIO in scene
+
+
+def damping_ratio_of(scene: bpy.types.Scene) -> float:
+    """Return the damping of the first frequency, as a share of the critical one."""
+    return kept_number(scene, _DAMPING_RATIO, 0.0)
+
+
+def stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
+    """Return the stiffness of connections.
+
+    Raises
+    ------
+    SimulationError
+        One has none, as it was not built with the others.
+    """
+    for each in connections:
+        if _STIFFNESS not in each:
+            raise SimulationError(
+                f"connection {each.name!r} has no stiffness as the others have: delete it, or build the scenario anew"
+            )
+    numbers = np.array([kept_numbers(each, _STIFFNESS, (0.0,) * _COUNT) for each in connections]).reshape(-1, _COUNT)
+    if not ((numbers[:, [0, 1, 2, 3, 4, 6]] >= 0.0).all() and np.isfinite(numbers).all()):
+        raise SimulationError("the stiffness of a connection was edited to a negative number: undo that")
+    axial, first, second, torsion, *bending = numbers.T
+    matrices = np.stack((bending[0], bending[1], bending[1], bending[2]), axis=1).reshape(-1, 2, 2)
+    return SectionStiffness(axial, np.column_stack((first, second)), torsion, matrices)

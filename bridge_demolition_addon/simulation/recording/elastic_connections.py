@@ -1,0 +1,251 @@
+"""Elastic connections of a world: worked out before each sub-step, put into Bullet as forces, and read with its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ...bullet.body_motion import BodyMotion
+from ...bullet.constraint_rows import check_frames
+from ...bullet.contacts import Contacts
+from ...bullet.world import BulletWorld
+from ...core.arithmetic import power
+from ...core.elasticity.equilibrium import Equilibrium, equilibrium
+from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
+from ...core.elasticity.section_stiffness import SectionStiffness
+from ...core.elasticity.structure import BodyStates, ElasticStructure
+from ...core.geometry.vectors import cross
+from ...core.mechanics.section_forces import section_axes
+from ...core.results.inventory import Inventory
+
+_SOFTEST = 0.5
+"""Largest softness of a row: Bullet's solver diverges from 1 on."""
+
+
+class ElasticConnections:
+    """All connections of a world that was bound just now, before any time passes.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    world : BulletWorld
+    inventory : Inventory
+        Its bodies and connections.
+    bodies : sequence of bpy.types.Object
+    stiffness : SectionStiffness
+        Of the connections.
+    damping_ratio : float
+        Damping of the first frequency, as a share of the critical one.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    SimulationError
+        A connection is not of a kind that can be elastic.
+    """
+
+    def __init__(
+        self,
+        scene: bpy.types.Scene,
+        world: BulletWorld,
+        inventory: Inventory,
+        bodies: Sequence[bpy.types.Object],
+        stiffness: SectionStiffness,
+        damping_ratio: float,
+    ):
+        self._world, self._rows, self._motion = world, world.constraint_rows(), world.body_motion()
+        self._damping_ratio = damping_ratio
+        self._left_per_second = 1.0 - np.array(
+            [(each.rigid_body.linear_damping, each.rigid_body.angular_damping) for each in bodies]
+        ).T.repeat(3, axis=0)
+        is_first = world.first_is_body_a()
+        pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
+        self._side = np.where(is_first, 0, 1)
+        axes_a, points_a, axes_b, points_b = self._rows.frames()
+        self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
+        motion = self._motion.read()
+        self._check_frames(motion)
+        self._held = self._rows.held()
+        places = joint_places(self._frames, motion.positions_m, motion.rotations)
+        sections = np.moveaxis(section_axes(inventory.normals), 0, 2)
+        self._stiffness = _in_frames(stiffness, matrix_products(transposed(places.first_axes), sections), self._held)
+        self._masses = inventory.masses_kg
+        self._inertias = _inertias(self._motion.inverse_inertias(), motion.rotations, self._masses)
+        self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
+        self.at_rest = self._settle(motion)
+        self._structure: ElasticStructure | None = None
+        self._built = motion
+        self._contact_loads = np.zeros((6, len(self._masses)))
+        self._substep_s = 0.0
+        count = len(self._frames)
+        self._loads = np.zeros((2, 6, count))
+        world.hold_connections()
+
+    def predict(self, substep_s: float) -> np.ndarray:
+        """Work out the coming sub-step, after all other loads on bodies, as if nothing else acted than did in the last.
+
+        Returns
+        -------
+        (2, 6, m) float
+            Forces and torques on Bullet's bodies A and B of each connection.
+        """
+        motion = self._motion.read()
+        if substep_s != self._substep_s:
+            self._prepare(motion, substep_s)
+        left = power(self._left_per_second, substep_s)
+        pushed = motion.loads + self._contact_loads
+        velocities = left * motion.velocities + substep_s * self._accelerations(motion, pushed)
+        states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
+        intact = self._world.intact()
+        self._coming = motion, self._structure.step(states, intact, substep_s)
+        step = self._coming[1]
+        self._loads[:, :, ~intact] = 0.0
+        self._loads[0][:, step.acting] = step.of_first / substep_s
+        self._loads[1][:, step.acting] = step.of_second / substep_s
+        return self._loads
+
+    def apply(self, substep_s: float) -> None:
+        """Put into Bullet what was predicted."""
+        motion, step = self._coming
+        moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
+        self._motion.set_loads(moved, motion.loads[:, moved] + step.of_bodies[:, moved] / substep_s)
+        self._rows.expect(step.acting, step.deformations - substep_s * step.rates, self._held[:, step.acting])
+        self._structure.end_substep()
+
+    def after_substep(self, contacts: Contacts, substep_s: float) -> None:
+        """Note what contacts did in a sub-step: connections expect as much of them in the next."""
+        centres = self._motion.read().positions_m.T
+        impulses, count = contacts.impulses_ns, len(self._masses)
+        loads = np.zeros((6, count))
+        for side, sign in ((0, 1.0), (1, -1.0)):
+            bodies = contacts.pairs[:, side]
+            each = sign * impulses
+            turning = cross(contacts.places_m - centres[bodies], each)
+            loads += np.stack([np.bincount(bodies, column, count) for column in (*each.T, *turning.T)])
+        self._contact_loads = loads / substep_s
+
+    def stored_j(self, intact: np.ndarray) -> np.ndarray:
+        """Return the energy that is now in connections (m,) that are intact."""
+        motion = self._motion.read()
+        return self._structure.stored_j(motion.positions_m, motion.rotations) * intact
+
+    def loads_on(self, sides: np.ndarray) -> np.ndarray:
+        """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
+        return np.where(sides == 0, self._loads[0], self._loads[1])
+
+    def _settle(self, motion: BodyMotion) -> Equilibrium:
+        """Put the bodies where they rest under their own weight."""
+        masses = np.where(motion.inverse_masses > 0.0, self._masses, 0.0)
+        found = equilibrium(
+            self._frames,
+            self._stiffness,
+            masses,
+            self._inertias,
+            motion.positions_m,
+            motion.rotations,
+            self._gravity,
+        )
+        rows = np.flatnonzero(found.held)
+        self._motion.put(rows, found.positions_m[:, rows], found.rotations[..., rows])
+        return found
+
+    def _prepare(self, motion: BodyMotion, substep_s: float) -> None:
+        """Take over the length of sub-steps."""
+        self._substep_s = substep_s
+        if self._structure is None:
+            frequency = self.at_rest.frequency_hz
+            # Stiffness-proportional damping has the ratio π f β, to which implicit steps add π f dt.
+            damping_s = max(self._damping_ratio / (np.pi * frequency) - substep_s, 0.0) if frequency > 0.0 else 0.0
+            self._structure = ElasticStructure(
+                self._frames,
+                self._stiffness,
+                self._masses,
+                self._inertias,
+                damping_s,
+                self._built.positions_m,
+                self._built.rotations,
+            )
+            self._damping_s = damping_s
+        rows = joint_places(self._frames, motion.positions_m, motion.rotations).rows()
+        inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._motion.inverse_inertias())
+        diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
+        hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
+        self._rows.soften(np.minimum(1.0 / np.maximum(hardness, 1.0 / _SOFTEST), _SOFTEST))
+
+    def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
+        """Accelerations (6, n) by forces and torques (6, n)."""
+        inverse = self._motion.inverse_inertias()
+        turning = inverse[:, 0] * loads[3] + inverse[:, 1] * loads[4] + inverse[:, 2] * loads[5]
+        return np.concatenate((motion.inverse_masses * loads[:3], turning * (motion.inverse_masses > 0.0)))
+
+    def _check_frames(self, motion: BodyMotion) -> None:
+        places = joint_places(self._frames, motion.positions_m, motion.rotations)
+        matrices = np.array([np.array(each.matrix_world) for each in self._world.connections]).reshape(-1, 4, 4)
+        names = [each.name for each in self._world.connections]
+        turned = np.array([each.matrix_world.decompose()[1].to_matrix() for each in self._world.connections], float)
+        for axes, bodies, levers in (
+            (places.first_axes, self._frames.first, places.first_levers_m),
+            (places.second_axes, self._frames.second, places.second_levers_m),
+        ):
+            points = motion.positions_m[:, bodies] + levers
+            check_frames(axes, points, matrices[:, :3, 3].T, np.moveaxis(turned.reshape(-1, 3, 3), 0, 2), names)
+
+
+def _in_frames(stiffness: SectionStiffness, sections: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """Stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
+
+    Rows that are not held (6, m) bear nothing: what they would, the others do not bear in their place.
+    """
+    matrices = np.stack((stiffness.against_shifts(), stiffness.against_turns()))
+    turned = [matrix_products(matrix_products(sections, each), transposed(sections)) for each in matrices]
+    for matrix, rows in zip(turned, (held[:3], held[3:]), strict=True):
+        for row in range(3):
+            _let_go(matrix, row, ~rows[row])
+    return np.stack(turned)
+
+
+def _let_go(matrix: np.ndarray, row: int, free: np.ndarray) -> None:
+    """Take the stiffness of one row out of matrices (3, 3, m), where it is free (m,): a static condensation."""
+    column = matrix[:, row].copy()
+    pivot = np.where(column[row] > 0.0, column[row], 1.0)
+    taken = column[:, None] * column[None] / pivot
+    matrix -= np.where(free, taken, 0.0)
+    matrix[row] = np.where(free, 0.0, matrix[row])
+    matrix[:, row] = np.where(free, 0.0, matrix[:, row])
+
+
+def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:
+    """Tensors of inertia (3, 3, n) in the axes of the bodies, from inverse ones in those of the world."""
+    local = matrix_products(matrix_products(transposed(rotations), inverse), rotations)
+    (a, b, c), (_, d, e), (_, _, f) = local
+    minors = np.stack(
+        (
+            np.stack((d * f - e * e, c * e - b * f, b * e - c * d)),
+            np.stack((c * e - b * f, a * f - c * c, b * c - a * e)),
+            np.stack((b * e - c * d, b * c - a * e, a * d - b * b)),
+        )
+    )
+    determinants = a * minors[0, 0] + b * minors[0, 1] + c * minors[0, 2]
+    moves = (masses_kg > 0.0) & (determinants > 0.0)
+    return np.divide(minors, determinants, out=np.zeros_like(minors), where=moves)
+
+
+def _effective_inverse_masses(
+    rows: JointRows, frames: JointFrames, inverse_masses: np.ndarray, inverse_inertias: np.ndarray
+) -> np.ndarray:
+    """By how much a unit impulse in each row (6, m) changes the velocity in it."""
+    found = []
+    for body, turning in ((frames.first, rows.first_turning), (frames.second, rows.second_turning)):
+        inertia = inverse_inertias[..., body]
+        shifts = inverse_masses[body] + _squares(turning, inertia)
+        found.append(np.concatenate((shifts, _squares(rows.turning, inertia))))
+    return found[0] + found[1]
+
+
+def _squares(vectors: np.ndarray, matrices: np.ndarray) -> np.ndarray:
+    """Products vᵀ M v (3, m) of vectors (3, 3, m), one after another, with matrices (3, 3, m)."""
+    turned = matrix_products(vectors, matrices)
+    return turned[:, 0] * vectors[:, 0] + turned[:, 1] * vectors[:, 1] + turned[:, 2] * vectors[:, 2]
