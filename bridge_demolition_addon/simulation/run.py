@@ -114,6 +114,8 @@ def run_scenario(
             if recording.distrust:
                 distrust = f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}"
                 progress.stage(distrust)
+            elif recording.rigid_because:
+                progress.stage(f"connections were rigid, as they cannot be elastic here: {recording.rigid_because}")
             summary = run_summary(recording, recording.results(), context, completed=not (signals or recording.error))
             summary["density_kg_m3"] = model.density_kg_m3
             summary["members_kg"] = {member.name: member.mass_kg for member in model.members}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +66,7 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "blender": bpy.app.version_string,
         "fingerprint": _fingerprint(recording, results),
         "substep_s": context.substep_s,
+        "elasticity": None if recording.elasticity is None else asdict(recording.elasticity),
         **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
     }

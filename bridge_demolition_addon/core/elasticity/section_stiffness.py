@@ -25,8 +25,8 @@ DAMPING_RATIO = 0.05
 """Damping of concrete structures near their strength, where none is given: EN 1998-1:2004, 3.2.2.2 (3)."""
 
 BENDING_SHARE = 2.0 / 3.0
-"""Part of the turning of two cells against each other that is bending: ⟨nx² z²⟩ / ⟨nx² (x² + z²)⟩ over all directions of
-normals n, of round faces that a bar along x is cut into, which bends about y."""
+"""Part of the turning of two cells against each other that is bending: ⟨nx² z²⟩ / ⟨nx² (x² + z²)⟩ over all directions
+of normals n, of round faces that a bar along x is cut into, which bends about y."""
 
 SHORTEST = 0.02
 """Part of the root of a face's area that the distance of two points is at least taken for."""

@@ -1,13 +1,13 @@
 """The elastic structure: bodies of known mass, held together by elastic connections, and how they share loads.
 
 A sub-step is solved implicitly (backward Euler): the forces of connections are those at its end, so that no stiffness
-is too large for it. With the velocities v that bodies would have without connections, stiffness K, damping C, rows J and
-deformations e at its beginning, the velocities v' at its end follow from
+is too large for it. With the velocities v that bodies would have without connections, stiffness K, damping C, rows J
+and deformations e at its beginning, the velocities v' at its end follow from
 
     (M + Jᵀ dt (dt K + C) J) (v' - v) = Jᵀ g,    g = dt K e - dt (dt K + C) J v,
 
-and the impulses of the connections are g - dt (dt K + C) J (v' - v). D. Baraff and A. Witkin (1998), Large steps in cloth
-simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K.
+and the impulses of the connections are g - dt (dt K + C) J (v' - v). D. Baraff and A. Witkin (1998), Large steps in
+cloth simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ class ElasticStructure:
         self._follow_breaks(intact)
         if substep_s != self._substep_s:
             self._substep_s = substep_s
-            self._stale[:] = True
+            self._stale[:-1] = True
         awake = self._awake_parts(states)
         acting = self._acting(awake)
         frames = self._frames.only(acting)
@@ -169,7 +169,7 @@ class ElasticStructure:
         )
 
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Return the energy (m,) that connections have stored with bodies at positions (3, n) in rotations (3, 3, n)."""
+        """Return the energy (m,) in connections with bodies at positions (3, n) in rotations (3, 3, n)."""
         rows = np.flatnonzero(self._intact)
         deformations = joint_places(self._frames.only(rows), positions_m, rotations).deformations()
         deformations -= self._offsets[:, rows]
@@ -210,7 +210,8 @@ class ElasticStructure:
                 )
             )
             within[bodies] = -1
-        self._stale = np.ones(len(self._parts), bool)
+        # One more, the last, for what belongs to no part: -1.
+        self._stale = np.append(np.ones(len(self._parts), bool), False)
         self._rotations = np.full((3, 3, self._count), np.inf)
         self._has_broken = False
 
@@ -218,21 +219,20 @@ class ElasticStructure:
         broken = self._intact & ~intact
         if broken.any():
             self._intact = intact.copy()
-            parts = self._part_of_connection[broken]
-            self._stale[parts[parts >= 0]] = True
+            self._stale[self._part_of_connection[broken]] = True
+            self._stale[-1] = False
             self._has_broken = True
 
     def _awake_parts(self, states: BodyStates) -> np.ndarray:
-        """Parts (p,) of which a body is awake."""
+        """Parts (p + 1,) of which a body is awake."""
         mine = self._part_of_body >= 0
-        awake = np.zeros(len(self._parts), bool)
+        awake = np.zeros(len(self._stale), bool)
         awake[self._part_of_body[mine & ~states.asleep]] = True
         return awake
 
     def _acting(self, awake: np.ndarray) -> np.ndarray:
-        """Connections (k,) that are intact, and in awake parts (p,)."""
-        part = self._part_of_connection
-        return np.flatnonzero(self._intact & (part >= 0) & awake[part])
+        """Connections (k,) that are intact, and in awake parts (p + 1,)."""
+        return np.flatnonzero(self._intact & awake[self._part_of_connection])
 
     def _refresh(self, states: BodyStates, awake: np.ndarray, acting: np.ndarray, places: JointPlaces) -> None:
         """Make rows and equations of parts anew that have turned or lost a connection."""
@@ -242,7 +242,7 @@ class ElasticStructure:
         stale = self._stale & awake
         if not stale.any():
             return
-        bodies = stale[self._part_of_body] & (self._part_of_body >= 0)
+        bodies = stale[self._part_of_body]
         self._rotations[..., bodies] = states.rotations[..., bodies]
         chosen = np.flatnonzero(stale[self._part_of_connection[acting]])
         connections = acting[chosen]
@@ -262,7 +262,7 @@ class ElasticStructure:
         self._stale[stale] = False
 
     def _solved(self, awake: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """Changes of velocities (6, n) by impulses (6, n), with the connections of awake parts (p,)."""
+        """Changes of velocities (6, n) by impulses (6, n), with the connections of awake parts (p + 1,)."""
         changes = np.zeros((6, self._count))
         for number in np.flatnonzero(awake).tolist():
             part = self._parts[number]
@@ -321,7 +321,7 @@ def stressed(stiffness: np.ndarray, strains: np.ndarray) -> np.ndarray:
 
 
 def stiffness_blocks(rows: JointRows, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return what connections add to the equations of their first and second bodies, and between them: (6, 6, m) each."""
+    """Return what connections add to the equations of their first and second bodies, and between: (6, 6, m) each."""
     first, second = rows.matrices()
     first_stressed, second_stressed = (
         np.concatenate((matrix_products(stiffness[0], each[:3]), matrix_products(stiffness[1], each[3:])))

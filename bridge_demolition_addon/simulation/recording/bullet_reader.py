@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...core.errors import LayoutError
 from ...core.mechanics.frame_loads import FrameLoads
 from ...core.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...core.results.frames import BallHistory, Frame
@@ -38,6 +39,13 @@ class BulletReader:
         What explodes.
     every_substep : bool
         Whether loads are read after every sub-step, or only after the last one of each frame.
+
+    Attributes
+    ----------
+    elasticity : Elasticity or None
+        How the bridge gives way; None where connections are rigid.
+    rigid_because : LayoutError or None
+        Why connections that are meant to be elastic are rigid.
     """
 
     def __init__(
@@ -53,11 +61,9 @@ class BulletReader:
     ):
         self._scene, self._world, self._every_substep = scene, world, every_substep
         self._inventory = inventory
-        elastic = None
-        if is_elastic(scene) and connections:
-            elastic = ElasticConnections(
-                scene, world, inventory, bodies, stiffness_of(connections), damping_ratio_of(scene)
-            )
+        self.rigid_because: LayoutError | None = None
+        elastic = self._elastic_connections(bodies, connections) if is_elastic(scene) and connections else None
+        self.elasticity = elastic.elasticity if elastic else None
         self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
         normal_substep_s = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start).substep_s
         breaking = breaking_of(scene, connections)
@@ -87,6 +93,17 @@ class BulletReader:
     def close(self) -> None:
         """Read nothing any more; what is still worked out is waited for."""
         self._substeps.close()
+
+    def _elastic_connections(
+        self, bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]
+    ) -> ElasticConnections | None:
+        """Return the connections, None where Bullet's memory does not let them be elastic."""
+        stiffness, ratio = stiffness_of(connections), damping_ratio_of(self._scene)
+        try:
+            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio)
+        except LayoutError as error:
+            self.rigid_because = error
+            return None
 
     @property
     def applied_events(self) -> Sequence[AppliedEvent]:

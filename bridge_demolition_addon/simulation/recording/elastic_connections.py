@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -19,6 +20,30 @@ from ...core.elasticity.structure import BodyStates, ElasticStructure
 from ...core.geometry.vectors import cross
 from ...core.mechanics.section_forces import section_axes
 from ...core.results.inventory import Inventory
+from ...scene.world import scene_time_step
+
+
+@dataclass(frozen=True, slots=True)
+class Elasticity:
+    """How a bridge gives way before anything acts on it but its weight.
+
+    Attributes
+    ----------
+    sag_m : float
+        How far the shard goes down that goes down farthest.
+    frequency_hz : float
+        First frequency; 0 where nothing is held.
+    damping_ratio : float
+        Damping of it as a share of the critical one, with that of steps in time.
+    held_bodies : int
+        Bodies that connections to a support hold; the others fall, or lie on what holds them by contact alone.
+    """
+
+    sag_m: float
+    frequency_hz: float
+    damping_ratio: float
+    held_bodies: int
+
 
 _SOFTEST = 0.5
 """Largest softness of a row: Bullet's solver diverges from 1 on."""
@@ -74,8 +99,9 @@ class ElasticConnections:
         self._stiffness = _in_frames(stiffness, matrix_products(transposed(places.first_axes), sections), self._held)
         self._masses = inventory.masses_kg
         self._inertias = _inertias(self._motion.inverse_inertias(), motion.rotations, self._masses)
+        self._shortest_s = scene_time_step(scene).substep_s
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
-        self.at_rest = self._settle(motion)
+        self._rest = self._settle(motion)
         self._structure: ElasticStructure | None = None
         self._built = motion
         self._contact_loads = np.zeros((6, len(self._masses)))
@@ -83,6 +109,15 @@ class ElasticConnections:
         count = len(self._frames)
         self._loads = np.zeros((2, 6, count))
         world.hold_connections()
+
+    @property
+    def elasticity(self) -> Elasticity:
+        """How the bridge gives way."""
+        rest, start = self._rest, self._built.positions_m
+        fallen = (start - rest.positions_m)[2, rest.held]
+        frequency = rest.frequency_hz
+        ratio = max(self._damping_ratio, np.pi * frequency * self._shortest_s) if frequency else 0.0
+        return Elasticity(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
 
     def predict(self, substep_s: float) -> np.ndarray:
         """Work out the coming sub-step, after all other loads on bodies, as if nothing else acted than did in the last.
@@ -156,7 +191,7 @@ class ElasticConnections:
         """Take over the length of sub-steps."""
         self._substep_s = substep_s
         if self._structure is None:
-            frequency = self.at_rest.frequency_hz
+            frequency = self._rest.frequency_hz
             # Stiffness-proportional damping has the ratio π f β, to which implicit steps add π f dt.
             damping_s = max(self._damping_ratio / (np.pi * frequency) - substep_s, 0.0) if frequency > 0.0 else 0.0
             self._structure = ElasticStructure(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import astuple, replace
+from dataclasses import astuple, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +23,14 @@ from ...scene.bodies import bodies_of
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
+from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of
 from ...scene.inventory import take_inventory
 from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
 from .blast import Blast, check_blast, goes_off
 from .bullet_reader import BulletReader
+from .elastic_connections import Elasticity
 from .logs import LogFiles, Logs
 from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader
@@ -199,6 +201,18 @@ class Recording:
         ]
 
     @property
+    def elasticity(self) -> Elasticity | None:
+        """How the bridge gives way under its own weight; None where its connections are rigid."""
+        return self._reader.elasticity if self._reader else None
+
+    @property
+    def rigid_because(self) -> LayoutError | None:
+        """Why connections that are meant to be elastic are rigid."""
+        if self.distrust and is_elastic(self.scene):
+            return self.distrust
+        return self._reader.rigid_because if self._reader else None
+
+    @property
     def seconds(self) -> float:
         """Wall time that recording has taken so far."""
         # Read once a frame, the sub-step is read within the frame's own time.
@@ -293,6 +307,11 @@ class Recording:
         strength, ductility = (astuple(each) if each else () for each in (breaking.strength, breaking.ductility))
         thresholds = [each.rigid_body_constraint.breaking_threshold for each in self._connections]
         step = time_step_at(self.scene, self._start_frame)
+        elastic = {}
+        if is_elastic(self.scene):
+            stiffness = stiffness_of(self._connections)
+            elastic = {each.name: getattr(stiffness, each.name) for each in fields(stiffness)}
+            elastic["damping_ratio"] = damping_ratio_of(self.scene)
         matrices = np.array([body.matrix_world for body in self._bodies], float)
         places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
         return built_digest(
@@ -305,6 +324,7 @@ class Recording:
             ductility=np.array(ductility, float),
             blast_impulses_ns=self._blast.whole_impulses(places, rotations) if self._blast else np.zeros(0),
             step=[step.frame_s, step.substep_s],
+            **elastic,
         )
 
     def _set_time(self) -> None:

@@ -156,6 +156,8 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         operator.report({"WARNING"}, f"{recording.folder} was moved or deleted, and the logs with it")
     if recording.distrust:
         operator.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
+    elif recording.rigid_because:
+        operator.report({"WARNING"}, f"Connections were rigid, not elastic: {recording.rigid_because}")
     operator.report({"INFO"}, f"Results are in {folder}")
     return {"FINISHED"}
 

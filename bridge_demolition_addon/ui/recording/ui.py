@@ -39,6 +39,8 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
         if recording.distrust:
             draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
+        elif recording.rigid_because:
+            draw_sentence(self.layout, context, f"Connections are rigid, not elastic: {recording.rigid_because}")
 
 
 class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
