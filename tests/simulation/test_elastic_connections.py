@@ -1,0 +1,187 @@
+"""Elastic connections in Blender, held against statics and the theory of beams."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from blocks import Blocks
+
+from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, SectionStiffness, section_stiffness
+from bridge_demolition_addon.core.mechanics.strength import Strength
+from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+from bridge_demolition_addon.scene.connections.constraints import connections_of
+from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
+
+GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
+CONCRETE = ElasticModuli(30e9, 0.2)
+DENSITY_KG_M3 = 2400.0
+LENGTH_M = 12.0
+WEIGHT_N_M = DENSITY_KG_M3 * GRAVITY
+BENDING_NM2 = CONCRETE.young_pa / 12.0
+SHEAR_N = 5.0 / 6.0 * CONCRETE.shear_pa
+# A beam of blocks turns between them alone: with 20 that makes 0.25 % of a cantilever's sag, and 0.25 % of a fixed
+# beam's moment; the rest is the single precision of places in Blender.
+OF_BLOCKS = 0.005
+
+
+class ElasticBeam:
+    """A beam of 1 m × 1 m in 20 blocks along x, fixed at its start, and at its end if wanted."""
+
+    def __init__(self, *, fixed_end: bool = False, damping_ratio: float = 0.05, **time: float):
+        self.scene_of_blocks = blocks = Blocks(**time)
+        self.scene, count = blocks.scene, 20
+        size = LENGTH_M / count
+        self.mass_kg, self.size_m = DENSITY_KG_M3 * size, size
+        wall = blocks.block((-size / 2, 0, 10), 0.0, (size, 1, 1))
+        self.blocks = [blocks.block(((i + 0.5) * size, 0, 10), self.mass_kg, (size, 1, 1)) for i in range(count)]
+        bodies = [wall, *self.blocks]
+        lengths = [size / 2] + [size] * (count - 1)
+        if fixed_end:
+            self.end = blocks.block((LENGTH_M + size / 2, 0, 10), 0.0, (size, 1, 1))
+            bodies.append(self.end)
+            lengths.append(size / 2)
+        self.connections = [
+            blocks.connect("FIXED", (i * size, 0, 10), bodies[i], bodies[i + 1]) for i in range(len(bodies) - 1)
+        ]
+        for connection in self.connections:
+            connection["bda_area_m2"], connection["bda_normal"] = 1.0, (1.0, 0.0, 0.0)
+        make_elastic(self.scene, self.connections, square_sections(np.array(lengths)), damping_ratio)
+
+    def play(self, folder, frames):
+        """Simulate; return the heights of the blocks (k, 20), and loads of connections in their order."""
+        results = self.scene_of_blocks.play(folder, frames)
+        names = results.inventory.body_names.tolist()
+        heights = results.frames.positions_m[:, [names.index(each.name) for each in self.blocks], 2] - 10.0
+        rows = [results.inventory.connection_names.tolist().index(each.name) for each in self.connections]
+        loads = results.frames.loads
+        return heights, loads.connection_forces_n[:, rows], loads.connection_moments_nm[:, rows]
+
+
+def square_sections(lengths_m):
+    """Stiffness of sections of 1 m × 1 m concrete."""
+    ones = np.ones(len(lengths_m))
+    moments = np.tile(np.eye(2) / 12.0, (len(ones), 1, 1))
+    deep = np.ones((len(ones), 2), bool)
+    return section_stiffness(CONCRETE.young_pa * ones, CONCRETE.shear_pa * ones, ones, moments, lengths_m, deep)
+
+
+def make_elastic(scene, connections, stiffness, damping_ratio=0.05):
+    """Keep stiffness with connections, which Blender may list in another order."""
+    assert set(connections) == set(connections_of(scene))
+    keep_elasticity(scene, connections, stiffness, damping_ratio)
+
+
+def tip_sag_m(beam):
+    """Sag of the middle of the last block of a cantilever, by S. Timoshenko's beam."""
+    x = LENGTH_M - beam.size_m / 2
+    bent = x**2 * (6 * LENGTH_M**2 - 4 * LENGTH_M * x + x**2) / (24 * BENDING_NM2)
+    return WEIGHT_N_M * (bent + (LENGTH_M * x - x**2 / 2) / SHEAR_N)
+
+
+STEPS = ((24, 10, 1), (24, 10, 50), (60, 4, 10))
+
+
+@pytest.mark.parametrize(("rate", "substeps", "iterations"), STEPS)
+def test_a_cantilever_rests_from_the_first_frame_on_whatever_the_steps(blender, tmp_path, rate, substeps, iterations):
+    beam = ElasticBeam(frames_per_second=rate, substeps_per_frame=substeps, solver_iterations=iterations)
+    heights, forces, moments = beam.play(tmp_path, 12)
+    np.testing.assert_allclose(heights[1:, -1], -tip_sag_m(beam), rtol=OF_BLOCKS)
+    # Statics, exact whatever the stiffness but for how the weight moves as the beam sags.
+    np.testing.assert_allclose(forces[1:, 0, 2], -WEIGHT_N_M * LENGTH_M, rtol=1e-5)
+    np.testing.assert_allclose(abs(moments[1:, 0, 1]), WEIGHT_N_M * LENGTH_M**2 / 2, rtol=1e-4)
+
+
+def test_a_fixed_beam_has_the_moments_and_the_sag_of_theory(blender, tmp_path):
+    heights, _, moments = ElasticBeam(fixed_end=True).play(tmp_path, 12)
+    sag = WEIGHT_N_M * (LENGTH_M**4 / (384 * BENDING_NM2) + LENGTH_M**2 / (8 * SHEAR_N))
+    # Four times the error in sag of a cantilever: its middle is bent by what is left of two larger parts.
+    assert -heights[-1].min() == pytest.approx(sag, rel=4 * OF_BLOCKS)
+    np.testing.assert_allclose(abs(moments[-1, [0, -1], 1]), WEIGHT_N_M * LENGTH_M**2 / 12, rtol=OF_BLOCKS)
+
+
+def test_a_cantilever_swings_as_fast_as_theory_says(blender, tmp_path):
+    """Its weight is taken away from it, and it swings about its straight shape."""
+    beam = ElasticBeam(damping_ratio=0.0, frames_per_second=96, substeps_per_frame=20)
+
+    def without_weight(scene, _):
+        if scene.frame_current == 3:
+            scene.gravity = (0, 0, 0)
+
+    blender.app.handlers.frame_change_pre.append(without_weight)
+    try:
+        heights, _, _ = beam.play(tmp_path, 192)
+    finally:
+        blender.app.handlers.frame_change_pre.remove(without_weight)
+    tip = heights[4:, -1]
+    rising = np.flatnonzero((tip[:-1] < 0) & (tip[1:] >= 0))
+    crossings = rising + tip[rising] / (tip[rising] - tip[rising + 1])
+    first = 1.8751040687**2 / (2 * np.pi) * np.sqrt(BENDING_NM2 / (DENSITY_KG_M3 * LENGTH_M**4))
+    # Shear and the inertia of turning take 0.6 % off, blocks 0.1 %; steps of 1/1920 s next to nothing.
+    assert 96 / np.diff(crossings).mean() == pytest.approx(0.993 * first, rel=0.005)
+
+
+def test_a_support_that_sinks_bends_a_fixed_beam(blender, tmp_path):
+    """By δ: 6 E I δ / L² at both ends of a beam fixed there, less what shear gives way."""
+    beam = ElasticBeam(fixed_end=True)
+    beam.scene.gravity = (0, 0, 0)
+    sunk = 0.01
+    beam.end.rigid_body.kinematic = True
+    for frame, height in ((3, 10.0), (15, 10.0 - sunk)):
+        beam.end.location.z = height
+        beam.end.keyframe_insert("location", index=2, frame=frame)
+    _, _, moments = beam.play(tmp_path, 48)
+    giving = 12 * BENDING_NM2 / (SHEAR_N * LENGTH_M**2)
+    expected = 6 * BENDING_NM2 * sunk / LENGTH_M**2 / (1 + giving)
+    # Blender keeps places in single precision: 1e-6 m of the 0.01 m at a height of 10 m.
+    np.testing.assert_allclose(abs(moments[-1, [0, -1], 1]), expected, rtol=2 * OF_BLOCKS)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2)])
+def test_three_posts_share_a_load_by_stiffness_whatever_their_order(blender, tmp_path, order):
+    blocks, mass = Blocks(), 20_000.0
+    stiff, places = np.array([4e10, 1e10, 2e10]), np.array([-3.0, 0.5, 3.0])
+    beam = blocks.block((0, 0, 10), mass, (8, 1, 1))
+    posts = [blocks.block((places[each], 0, 9)) for each in order]
+    joints = [
+        blocks.connect("FIXED", (places[each], 0, 9.5), post, beam) for each, post in zip(order, posts, strict=True)
+    ]
+    for joint in joints:
+        joint["bda_area_m2"], joint["bda_normal"] = 1.0, (0.0, 0.0, 1.0)
+    axial = stiff[list(order)]
+    none = np.zeros(3)
+    shear = np.column_stack((axial, axial)) / 3
+    make_elastic(blocks.scene, joints, SectionStiffness(axial, shear, none, np.zeros((3, 2, 2))))
+    results = blocks.play(tmp_path, 12)
+    rows = [results.inventory.connection_names.tolist().index(each.name) for each in joints]
+    sums = np.array([[stiff.sum(), (stiff * places).sum()], [(stiff * places).sum(), (stiff * places**2).sum()]])
+    sink, slope = np.linalg.solve(sums, [mass * GRAVITY, 0.0])
+    shares = (stiff * (sink + slope * places))[list(order)]
+    found = abs(results.frames.loads.connection_forces_n[-1][rows, 2])
+    np.testing.assert_allclose(found, shares, rtol=1e-5)
+
+
+@pytest.mark.parametrize(("share", "holds"), [(1.01, True), (0.99, False)])
+def test_a_cantilever_breaks_at_its_root_when_it_bears_too_little(blender, tmp_path, share, holds):
+    """Bending there is w L² / 2 by d³ / 6 d/2, and its shear, far below its strength, counts as a square."""
+    beam = ElasticBeam()
+    edge = WEIGHT_N_M * LENGTH_M**2 / 2 / (1.0 / 6.0)
+    keep_breaking(beam.scene, Breaking(Strength(1e12, 1e12, 1e12, 1e12, share * edge)))
+    results = beam.scene_of_blocks.play(tmp_path, 12)
+    intact = results.frames.intact[-1]
+    root = results.inventory.connection_names.tolist().index(beam.connections[0].name)
+    assert intact.all() if holds else (not intact[root] and intact.sum() == len(intact) - 1)
+
+
+def test_a_beam_that_nothing_holds_falls_freely(blender, tmp_path):
+    blocks = Blocks()
+    bodies = [blocks.block((i, 0, 10), 2400.0) for i in range(4)]
+    joints = [blocks.connect("FIXED", (i + 0.5, 0, 10), bodies[i], bodies[i + 1]) for i in range(3)]
+    for joint in joints:
+        joint["bda_area_m2"], joint["bda_normal"] = 1.0, (1.0, 0.0, 0.0)
+    make_elastic(blocks.scene, joints, square_sections(np.ones(3)))
+    results = blocks.play(tmp_path, 12)
+    heights = results.frames.positions_m[-1, :, 2]
+    substeps, step = 120, 1 / 240
+    np.testing.assert_allclose(10 - heights, GRAVITY * step**2 * substeps * (substeps + 1) / 2, rtol=1e-5)
+    np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1], 0.0, atol=1e-3 * 2400.0 * GRAVITY)
