@@ -30,10 +30,15 @@ from bridge_demolition_addon.scene.world import START_FRAME
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
-FRAMES, ROUNDS = 5, 4
-SHARDS = (200, 1000, 3000)
+FRAMES, ROUNDS = 4, 3
+SHARDS = tuple(map(int, sys.argv[1:])) or (200, 1000, 3000)
 SETTINGS = ConnectionSettings(
-    type="FIXED", method="face", limit_per_shard=10, material="reinforced concrete slab", stiffness="elastic"
+    type="FIXED",
+    method="face",
+    material="steel",  # so that nothing breaks
+    stiffness="elastic",
+    elastic_modulus_n_mm2=34e3,
+    poisson_ratio=0.2,
 )
 
 
