@@ -24,6 +24,7 @@ from ..core.scenario import (
 from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
+from ..core.structure.equilibrium import model_at_rest, sag_m
 from ..core.structure.model import Model
 from .arguments import naming
 
@@ -63,6 +64,8 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     yield from _section("Time", _time_facts(scenario))
     model = checked_model(scenario, prepared.members)
     yield from _section("Shards and connections", _connection_facts(scenario, model))
+    if model.stiffness is not None:
+        yield from _section("At rest", _rest_facts(model))
     yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
@@ -145,6 +148,18 @@ def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, s
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
     yield from _rule_facts(connections)
+
+
+def _rest_facts(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield how an elastic bridge stands under its own weight."""
+    rest = model_at_rest(model)
+    held = int(rest.held[: len(model.shards)].sum())
+    loose = len(model.shards) - held - int(model.fixed.sum())
+    if loose:
+        yield "not held", f"{loose} shards, by no connection to a support: they fall, or lie on others"
+    if held:
+        yield "sag", f"{1000.0 * sag_m(model, rest):.2f} mm"
+        yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
 
 
 def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from blocks import Blocks
+from scenarios import I235
 
+from bridge_demolition_addon.bullet import world
+from bridge_demolition_addon.bullet.layout import platform_layout
+from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, SectionStiffness, section_stiffness
 from bridge_demolition_addon.core.mechanics.strength import Strength
+from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.core.scenario import ConnectionSettings, ShardSettings
+from bridge_demolition_addon.core.structure.equilibrium import model_at_rest, sag_m
+from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
+from bridge_demolition_addon.simulation.run import run_scenario
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)
@@ -185,3 +196,67 @@ def test_a_beam_that_nothing_holds_falls_freely(blender, tmp_path):
     substeps, step = 120, 1 / 240
     np.testing.assert_allclose(10 - heights, GRAVITY * step**2 * substeps * (substeps + 1) / 2, rtol=1e-5)
     np.testing.assert_allclose(results.frames.loads.connection_forces_n[-1], 0.0, atol=1e-3 * 2400.0 * GRAVITY)
+
+
+def run(scenario, folder, progress=None):
+    """Run a scenario without pictures; return its summary."""
+    return run_scenario(scenario, folder, overwrite=False, pictures=False, progress=progress or Silence())
+
+
+@pytest.fixture
+def elastic_span():
+    """The I-235 span of few shards with elastic connections, without a ball."""
+    connections = ConnectionSettings(
+        type="FIXED", method="face", material="reinforced concrete slab", stiffness="elastic"
+    )
+    return replace(
+        I235,
+        ball=None,
+        time=replace(I235.time, duration_s=0.25),
+        fracture=replace(I235.fracture, shards=40),
+        connections=connections,
+        shards=ShardSettings(use_deactivation=False, start_deactivated=False),
+    )
+
+
+def test_a_span_rests_in_blender_as_it_does_without(blender, tmp_path, elastic_span):
+    """What is read from Bullet's memory, and what the model says of it, lead to the same rest."""
+    summary = run(elastic_span, tmp_path / "run")
+    model = build_model(elastic_span)
+    rest = model_at_rest(model)
+    # Blender keeps places in single precision, and Bullet puts its margin around hulls.
+    assert summary["elasticity"]["sag_m"] == pytest.approx(sag_m(model, rest), rel=1e-3)
+    assert summary["elasticity"]["frequency_hz"] == pytest.approx(rest.frequency_hz, rel=1e-3)
+    assert summary["elasticity"]["held_bodies"] == 40
+    results = load_results(tmp_path / "run" / "results.npz")
+    speeds = np.linalg.norm(results.frames.velocities_m_s, axis=2)
+    assert speeds.max() < 1e-4
+    assert results.frames.intact.all()
+    # All of the weight goes to the ground, where columns stand on it.
+    weight = results.inventory.masses_kg.sum() * GRAVITY
+    feet = results.inventory.body_kinds[results.inventory.pairs[:, 1]] == "ground"
+    assert feet.any()
+    reactions = results.frames.loads.connection_forces_n[-1][feet, 2]
+    assert abs(reactions.sum()) == pytest.approx(weight, rel=1e-4)
+
+
+def test_the_digest_of_what_was_built_knows_the_stiffness(blender, tmp_path, elastic_span):
+    softer = replace(elastic_span, connections=replace(elastic_span.connections, elastic_modulus_n_mm2=20e3))
+    rigid = replace(elastic_span, connections=replace(elastic_span.connections, stiffness="rigid"))
+    digests = {
+        run(replace(each, time=replace(each.time, duration_s=0.05)), tmp_path / str(number))["fingerprint"]["built"]
+        for number, each in enumerate((elastic_span, softer, rigid))
+    }
+    assert len(digests) == 3
+
+
+def test_where_rows_are_not_as_expected_connections_are_rigid(blender, tmp_path, elastic_span, monkeypatch):
+    layout = platform_layout()
+    wrong = replace(layout, spring=replace(layout.spring, angular=layout.spring.angular + 8))
+    monkeypatch.setattr(world, "platform_layout", lambda: wrong)
+    told = []
+    progress = Silence()
+    monkeypatch.setattr(progress, "stage", told.append, raising=True)
+    summary = run(elastic_span, tmp_path / "run", progress)
+    assert summary["elasticity"] is None
+    assert any("connections were rigid" in each for each in told)

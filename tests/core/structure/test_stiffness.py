@@ -4,15 +4,13 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.bridge.member import Member
-from bridge_demolition_addon.core.elasticity.equilibrium import equilibrium
-from bridge_demolition_addon.core.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.shards import fracture
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.mechanics.joint import Joint
-from bridge_demolition_addon.core.mechanics.section_forces import section_axes
 from bridge_demolition_addon.core.structure.connections import connect, foundations, joined, neighbours_by_face
+from bridge_demolition_addon.core.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.core.structure.face_sections import second_moments
 from bridge_demolition_addon.core.structure.stiffness import connection_stiffness
 
@@ -47,26 +45,10 @@ def standing_slab(shard_count, seed):
 def sag_by_theory(shard_count, seed):
     """How far the top of the slab goes sideways under its own weight, over what beam theory says."""
     cut, connections, stiffness = standing_slab(shard_count, seed)
-    axes = np.moveaxis(section_axes(connections.normals), 0, 2)
-    first, second = connections.pairs.T
-    second = np.where(second < 0, len(cut), second)
-    centres = np.vstack((cut.centres, np.zeros(3)))
-    frames = JointFrames(
-        first, second, axes, axes, (connections.points - centres[first]).T, (connections.points - centres[second]).T
-    )
-    masses = np.append(DENSITY_KG_M3 * cut.volumes, 0.0)
-    inertias = np.zeros((3, 3, len(masses)))
-    inertias[[0, 1, 2], [0, 1, 2]] = masses * np.append(cut.volumes, 0.0) ** (2 / 3) / 6
-    rotations = np.repeat(np.eye(3)[:, :, None], len(masses), axis=2)
-    rest = equilibrium(
-        frames,
-        np.stack((stiffness.against_shifts(), stiffness.against_turns())),
-        masses,
-        inertias,
-        centres.T,
-        rotations,
-        np.array([GRAVITY_M_S2, 0.0, 0.0]),
-    )
+    masses = DENSITY_KG_M3 * cut.volumes
+    inertias = masses[:, None] * [box_inertia(np.ptp(shard.vertices, axis=0)) for shard in cut.shards]
+    rest = at_rest(connections, stiffness, masses, inertias, cut.centres, (GRAVITY_M_S2, 0.0, 0.0))
+    centres = cut.centres
     top = np.argsort(-centres[:, 2])[: max(1, shard_count // 40)]
     arms = np.array((0.0, 0.0, HEIGHT_M)) - centres[top]
     moved = rest.positions_m[:, top].T - centres[top]

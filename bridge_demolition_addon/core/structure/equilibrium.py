@@ -1,0 +1,76 @@
+"""A model with elastic connections at rest under its own weight, before any simulation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..elasticity.equilibrium import Equilibrium, equilibrium
+from ..elasticity.joint_rows import JointFrames
+from ..elasticity.section_stiffness import SectionStiffness
+from ..mechanics.section_forces import section_axes
+from ..units import STANDARD_GRAVITY_M_S2
+from .connections import GROUND, Connections
+from .model import Model
+
+
+def sag_m(model: Model, rest: Equilibrium) -> float:
+    """Return how far the shard goes down that goes down farthest, of those that are held."""
+    shards = len(model.shards)
+    held = rest.held[:shards]
+    fallen = model.centres_m[held, 2] - rest.positions_m[2, :shards][held]
+    return float(fallen.max(initial=0.0))
+
+
+def model_at_rest(model: Model) -> Equilibrium:
+    """Return where the shards of a model rest, and the ground behind them; its connections have to be elastic."""
+    masses = np.where(model.fixed, 0.0, model.masses_kg)
+    inertias = np.array([box_inertia(np.ptp(shard.vertices, axis=0)) for shard in model.shards])
+    return at_rest(model.connections, model.stiffness, masses, inertias * masses[:, None], model.centres_m)
+
+
+def box_inertia(size_m: np.ndarray) -> np.ndarray:
+    """Return the moments of inertia (3,) of a box by its mass, m²: Bullet takes every shard for the box around it."""
+    squares = np.square(size_m)
+    return (squares.sum() - squares) / 12.0
+
+
+def at_rest(
+    connections: Connections,
+    stiffness: SectionStiffness,
+    masses_kg: np.ndarray,
+    inertias_kg_m2: np.ndarray,
+    centres_m: np.ndarray,
+    gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
+) -> Equilibrium:
+    """Return where bodies rest under their own weight.
+
+    Parameters
+    ----------
+    connections, stiffness : Connections, SectionStiffness
+        The m connections, and how stiff they are.
+    masses_kg, inertias_kg_m2, centres_m : (n,), (n, 3), (n, 3) float
+        Masses of the shards, 0 for those that never move, moments of inertia about the axes of the world, and centres
+        of mass.
+    gravity_m_s2 : three float
+
+    Returns
+    -------
+    Equilibrium
+        Of the n shards, and of the ground as the last body.
+    """
+    axes = np.moveaxis(section_axes(connections.normals), 0, 2)
+    first, second = connections.pairs.T
+    second = np.where(second == GROUND, len(masses_kg), second)
+    places = np.vstack((centres_m, np.zeros(3)))
+    levers = [(connections.points - places[each]).T for each in (first, second)]
+    tensors = np.zeros((3, 3, len(places)))
+    tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
+    return equilibrium(
+        JointFrames(first, second, axes, axes, *levers),
+        np.stack((stiffness.against_shifts(), stiffness.against_turns())),
+        np.append(masses_kg, 0.0),
+        tensors,
+        places.T,
+        np.repeat(np.eye(3)[:, :, None], len(places), axis=2),
+        np.array(gravity_m_s2),
+    )
