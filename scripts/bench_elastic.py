@@ -31,7 +31,7 @@ from bridge_demolition_addon.simulation.blender_events import start_recording, s
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 FRAMES, ROUNDS = 4, 3
-SHARDS = tuple(map(int, sys.argv[1:])) or (200, 1000, 3000)
+SHARDS = (200, 1000, 3000)
 SETTINGS = ConnectionSettings(
     type="FIXED",
     method="face",
@@ -44,7 +44,7 @@ SETTINGS = ConnectionSettings(
 
 def main() -> None:
     """Build the deck in each number of shards, play it every way in turn, and print the least times and ratios."""
-    for count in SHARDS:
+    for count in map(int, sys.argv[1:] or SHARDS):
         scenario = replace(DECK, connections=SETTINGS, fracture=replace(DECK.fracture, shards=count))
         model = build_model(scenario)
         bpy.ops.wm.read_factory_settings(use_empty=True)
