@@ -260,3 +260,17 @@ def test_where_rows_are_not_as_expected_connections_are_rigid(blender, tmp_path,
     summary = run(elastic_span, tmp_path / "run", progress)
     assert summary["elasticity"] is None
     assert any("connections were rigid" in each for each in told)
+
+
+def test_what_sleeps_is_not_shaken_when_something_wakes_it(blender, tmp_path):
+    """A cantilever that starts asleep, and is woken by a pebble on its tip, stays in the shape in which it rests."""
+    beam = ElasticBeam()
+    for body in beam.blocks:
+        body.rigid_body.use_deactivation = body.rigid_body.use_start_deactivated = True
+    beam.scene_of_blocks.block((LENGTH_M - 0.5, 0, 10.6), 1e-3, (0.1, 0.1, 0.1))
+    heights, _, moments = beam.play(tmp_path, 48)
+    woken = abs(moments[:, 0, 1]) > 0.0
+    assert not woken[0] and woken[-1]
+    np.testing.assert_allclose(heights[1:, -1], -tip_sag_m(beam), rtol=2 * OF_BLOCKS)
+    # The first of these frames has loads in those sub-steps alone that came after it woke.
+    np.testing.assert_allclose(abs(moments[woken, 0, 1])[1:], WEIGHT_N_M * LENGTH_M**2 / 2, rtol=1e-3)

@@ -204,7 +204,10 @@ class ElasticConnections:
                 self._built.rotations,
             )
             self._damping_s = damping_s
-        rows = joint_places(self._frames, motion.positions_m, motion.rotations).rows()
+        places = joint_places(self._frames, motion.positions_m, motion.rotations)
+        # What sleeps is held as it is, in the sub-step in which Bullet finds what wakes it.
+        self._rows.expect(np.arange(len(self._frames)), places.deformations(), self._held)
+        rows = places.rows()
         inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._motion.inverse_inertias())
         diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
