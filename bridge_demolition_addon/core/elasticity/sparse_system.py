@@ -55,8 +55,7 @@ class BlockSystem:
         both = between[..., self._has_both]
         both = np.where(self._is_turned, np.swapaxes(both, 0, 1), both)
         parts = (of_bodies, first[..., self._has_first], second[..., self._has_second], both)
-        values = np.concatenate(parts, axis=2)
-        values = np.moveaxis(values, 2, 0).reshape(-1)
+        values = np.concatenate(parts, axis=2).reshape(-1)
         data = np.bincount(self._places, values, self._size + 1)[: self._size]
         matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
         if self._solver is None:
@@ -83,7 +82,7 @@ class BlockSystem:
         sorted_places = np.empty(self._size, int)
         sorted_places[order] = np.arange(self._size)
         places[upper] = sorted_places
-        self._places = places[which].reshape(-1)
+        self._places = np.moveaxis(places[which], 0, 2).reshape(-1)
         self._indices = all_rows[upper][order].astype(np.int32)
         per_column = np.bincount(all_columns[upper], minlength=_BLOCK * self._count)
         self._starts = np.concatenate(([0], np.cumsum(per_column))).astype(np.int32)
