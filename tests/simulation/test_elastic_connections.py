@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
+from bridge_demolition_addon.scene.tools.keyframes import key_values
 from bridge_demolition_addon.simulation.run import run_scenario
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
@@ -274,3 +276,31 @@ def test_what_sleeps_is_not_shaken_when_something_wakes_it(blender, tmp_path):
     np.testing.assert_allclose(heights[1:, -1], -tip_sag_m(beam), rtol=2 * OF_BLOCKS)
     # The first of these frames has loads in those sub-steps alone that came after it woke.
     np.testing.assert_allclose(abs(moments[woken, 0, 1])[1:], WEIGHT_N_M * LENGTH_M**2 / 2, rtol=1e-3)
+
+
+def test_a_wave_runs_through_a_bar_at_the_speed_of_sound(blender, tmp_path):
+    """A wall that begins to move at 0.1 m/s pushes a bar: √(E/ρ) is 3536 m/s in one without Poisson's effect."""
+    rate, speed, count = 240, 0.1, 60
+    blocks = Blocks(frames_per_second=rate, substeps_per_frame=100)
+    blocks.scene.gravity = (0, 0, 0)
+    wall = blocks.block((-0.5, 0, 10))
+    bar = [blocks.block((0.5 + each, 0, 10), DENSITY_KG_M3) for each in range(count)]
+    joints = [
+        blocks.connect("FIXED", (each, 0, 10), one, other) for each, (one, other) in enumerate(pairwise([wall, *bar]))
+    ]
+    for joint in joints:
+        joint["bda_area_m2"], joint["bda_normal"] = 1.0, (1.0, 0.0, 0.0)
+    make_elastic(blocks.scene, joints, square_sections(np.append(0.5, np.ones(count - 1))), damping_ratio=0.0)
+    wall.rigid_body.kinematic = True
+    frames = np.array([3.0, 13.0])
+    places = np.tile((-0.5, 0.0, 10.0), (2, 1))
+    places[1, 0] += speed * 10 / rate
+    key_values(wall, "location", frames, places)
+    results = blocks.play(tmp_path, 8)
+    names = results.inventory.body_names.tolist()
+    speeds = results.frames.velocities_m_s[:, [names.index(each.name) for each in bar], 0]
+    fronts = [0.5 + np.interp(-speed / 2, -row, np.arange(count)) for row in speeds[2:5]]
+    # A front is some blocks wide, and its middle is found within a part of one.
+    np.testing.assert_allclose(np.diff(fronts) * rate, np.sqrt(CONCRETE.young_pa / DENSITY_KG_M3), rtol=0.02)
+    # At its free end a bar goes twice as fast as the wave (B. de Saint-Venant 1867).
+    assert speeds[7, -10:] == pytest.approx(2 * speed, rel=0.02)
