@@ -38,7 +38,7 @@ class Equilibrium:
     held : (n,) bool
         Bodies that connections to a support hold.
     frequency_hz : float
-        First frequency of what is held; 0 where nothing is.
+        Lowest first frequency of the parts that are held; 0 where nothing is.
     """
 
     positions_m: np.ndarray
@@ -70,22 +70,44 @@ def equilibrium(
         Where they are now.
     gravity_m_s2 : (3,) float
     """
-    moves, count = masses_kg > 0.0, len(masses_kg)
+    moves = masses_kg > 0.0
     label = connected_parts(moves, frames.first, frames.second)
     ends = np.stack((frames.first, frames.second))
-    held = moves & np.isin(label, np.unique(label[ends][:, ~moves[ends].all(axis=0)]))
-    held &= label >= 0
-    bodies = np.flatnonzero(held)
-    if not len(bodies):
-        return Equilibrium(positions_m, rotations, held, 0.0)
-    frames, stiffness = _of_held(frames, stiffness, held)
+    supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
+    positions_m, rotations = positions_m.copy(), rotations.copy()
+    held, frequencies = np.zeros(len(masses_kg), bool), []
+    of_connections = label[ends].max(axis=0, initial=-1)
+    for part in supported[supported >= 0].tolist():
+        bodies, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
+        structure = frames.only(rows), stiffness[..., rows], masses_kg, inertias_kg_m2
+        rest = _part_at_rest(bodies, *structure, positions_m, rotations, gravity_m_s2)
+        if rest:
+            held[bodies] = True
+            places, turned, frequency = rest
+            positions_m[:, bodies], rotations[..., bodies] = places[:, bodies], turned[..., bodies]
+            frequencies.append(frequency)
+    return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0))
+
+
+def _part_at_rest(
+    bodies: np.ndarray,
+    frames: JointFrames,
+    stiffness: np.ndarray,
+    masses_kg: np.ndarray,
+    inertias_kg_m2: np.ndarray,
+    positions_m: np.ndarray,
+    rotations: np.ndarray,
+    gravity_m_s2: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, float] | None:
+    """Where bodies (b,) that hang together by connections rest, and their first frequency; None for a mechanism."""
+    count = len(masses_kg)
     unknown = np.full(count, -1)
     unknown[bodies] = np.arange(len(bodies))
     system = BlockSystem(len(bodies), unknown[frames.first], unknown[frames.second])
     weights = np.zeros((6, count))
-    weights[:3] = masses_kg * gravity_m_s2[:, None]
+    weights[:3, bodies] = masses_kg[bodies] * gravity_m_s2[:, None]
     unloaded = joint_places(frames, positions_m, rotations).deformations()
-    start, slack = (positions_m, rotations), 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
+    slack = 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
     for _ in range(_SOLUTIONS):
         places = joint_places(frames, positions_m, rotations)
         rows = places.rows()
@@ -98,16 +120,10 @@ def equilibrium(
         moved = np.zeros((6, count))
         moved[:, bodies] = system.solve(left)
         if not abs(moved[:3]).max() <= _LARGEST_M:
-            return Equilibrium(*start, np.zeros(count, bool), 0.0)
+            return None
         positions_m = positions_m + moved[:3]
         rotations = np.moveaxis(rotated(np.moveaxis(rotations, 2, 0), moved[3:].T), 0, 2)
-    return Equilibrium(positions_m, rotations, held, _first_frequency(system, own, slack))
-
-
-def _of_held(frames: JointFrames, stiffness: np.ndarray, held: np.ndarray) -> tuple[JointFrames, np.ndarray]:
-    """The connections of bodies (n,) that are held."""
-    rows = np.flatnonzero(held[frames.first] | held[frames.second])
-    return frames.only(rows), stiffness[..., rows]
+    return positions_m, rotations, _first_frequency(system, own, slack)
 
 
 def _summed(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:

@@ -1,8 +1,12 @@
 """Beams at rest, held against the theory of Timoshenko's beam."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
-from elastic_beams import CONCRETE, DENSITY_KG_M3, GRAVITY_M_S2, beam, bodies
+from elastic_beams import CONCRETE, DENSITY_KG_M3, GRAVITY_M_S2, ElasticBodies, beam, bodies
+
+from bridge_demolition_addon.core.elasticity.joint_rows import JointFrames
 
 LENGTH_M = 12.0
 WEIGHT_N_M = DENSITY_KG_M3 * GRAVITY_M_S2
@@ -93,3 +97,23 @@ def test_a_mechanism_has_no_equilibrium():
     rest = swing.at_rest()
     assert not rest.held.any()
     assert (rest.positions_m == swing.positions_m).all()
+
+
+def test_a_mechanism_leaves_other_parts_to_rest():
+    cantilever, swing = beam(4), beam(4, held=(), rollers=(0.0,))
+    count = len(cantilever.masses_kg)
+    both = {
+        name: np.concatenate((getattr(cantilever, name), getattr(swing, name)), axis=-1)
+        for name in ("stiffness", "masses_kg", "inertias_kg_m2", "positions_m", "rotations")
+    }
+    frames = {
+        each.name: np.concatenate((getattr(cantilever.frames, each.name), getattr(swing.frames, each.name)), axis=-1)
+        for each in fields(cantilever.frames)
+    }
+    frames["first"][len(cantilever.frames) :] += count
+    frames["second"][len(cantilever.frames) :] += count
+    rest = ElasticBodies(frames=JointFrames(**frames), **both).at_rest()
+    alone = cantilever.at_rest()
+    assert rest.held.tolist() == [*alone.held.tolist(), *[False] * len(swing.masses_kg)]
+    np.testing.assert_allclose(rest.positions_m[:, :count], alone.positions_m, atol=1e-12)
+    assert rest.frequency_hz == pytest.approx(alone.frequency_hz)
