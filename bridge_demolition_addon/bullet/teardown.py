@@ -118,7 +118,9 @@ class ConnectionSettings:
         return gather_doubles(self._addresses, columns=self._columns).view(np.uint64)
 
 
-def retire(layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.ndarray, alive: np.ndarray) -> None:
+def retire(
+    layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.ndarray, alive: np.ndarray, *, bodies_stay: bool
+) -> None:
     """Take out of a world all that may point at freed memory.
 
     Parameters
@@ -131,6 +133,8 @@ def retire(layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.nd
         Addresses (n,), (m,) of all bodies and constraints that it had when it was checked.
     alive
         (m,) whether each constraint is still there.
+    bodies_stay
+        Whether the bodies that are there now will not be freed before the world is.
 
     Raises
     ------
@@ -147,7 +151,7 @@ def retire(layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.nd
     for array in (constraints, *lists):
         array.keep(set())
     for array in (everything, moving):
-        array.keep(living)
+        array.keep(living if bodies_stay else set())
     inert = _inert_body(read_pointer(min(living)) if living else 0)
     for field in (layout.constraint.body_a, layout.constraint.body_b):
         write_pointers(connections[alive] + np.uint64(field), inert)

@@ -398,8 +398,10 @@ class BulletWorld:
                 write_pointers(self._bound.dynamics + field, 0)
         self._bound = None
 
-    def retire(self) -> None:
+    def retire(self, *, bodies_stay: bool = True) -> None:
         """Make a world safe that objects are being taken out of; it must not be simulated any more.
+
+        Where the bodies that are there now do not stay until the world is freed, it lets go of all of them.
 
         Raises
         ------
@@ -413,7 +415,7 @@ class BulletWorld:
         alive = bound.fingerprints.still_there(connections)
         self._forget_freed_connections()
         self._point_feedback_at(np.uint64(0))
-        retire(self._layout, bound.dynamics, bound.bodies, connections, alive)
+        retire(self._layout, bound.dynamics, bound.bodies, connections, alive, bodies_stay=bodies_stay)
         bound.exists[:] = False
 
     def take_out_edited(self) -> list[bpy.types.Object]:

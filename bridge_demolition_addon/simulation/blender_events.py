@@ -85,9 +85,10 @@ def _let_go() -> None:
 
 
 def _look_at_all() -> None:
-    """Know the worlds of all scenes that are shown: while Blender switches the add-on on, it shows no others."""
-    for window in bpy.context.window_manager.windows:
-        recorded_scene(window.scene).look()
+    """Know the worlds of all scenes; while Blender switches the add-on on, it names only those that are shown."""
+    shown = [window.scene for window in bpy.context.window_manager.windows]
+    for scene in getattr(bpy.data, "scenes", shown):
+        recorded_scene(scene).look()
 
 
 @persistent
@@ -123,7 +124,9 @@ def _after_render(*_: object) -> None:
 
 @persistent
 def _before_undo(*_: object) -> None:
-    _let_go()
+    worlds_stay = not safe_undo.needs_older_way()
+    for owner in list(_scenes.values()):
+        owner.before_undo_or_load(world_stays=worlds_stay)
     safe_undo.before_undo()
 
 

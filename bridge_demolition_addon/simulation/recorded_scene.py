@@ -98,12 +98,19 @@ class RecordedScene:
         self._fail_for(self._guard.check_update(depsgraph))
         self.contours.paint(depsgraph)
 
-    def before_undo_or_load(self) -> None:
-        """End the recording and let go of the world, while they are still there: Blender frees them now."""
+    def before_undo_or_load(self, *, world_stays: bool = False) -> None:
+        """End the recording and let go of the world while they are still there: Blender frees them now.
+
+        With `world_stays` Blender keeps the world, but not all that is in it: the world stands still.
+        """
         if self._is_recorded:
             self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
         with suppress(ReferenceError):  # the scene was deleted before
-            self._guard.forget()
+            self._guard.check_objects(self.scene)  # one that is not shown was not updated since something was deleted
+            if world_stays:
+                self._guard.stand_still(self.scene)
+            else:
+                self._guard.forget()
 
     def before_render(self) -> None:
         """Let the world rest, where Blender would simulate it in the render."""

@@ -105,7 +105,7 @@ class FolderPlayer(Player):
         return f"{first.name} and {second.name}"
 
     def change_array(self, random: Random) -> str:
-        path = self.run / RESULTS_FILE
+        path = self._regular_file(RESULTS_FILE)
         with np.load(path) as stored:
             arrays = dict(stored)
         name = random.choice(list(arrays))
@@ -121,7 +121,7 @@ class FolderPlayer(Player):
         return f"{name}, {number}"
 
     def change_summary(self, random: Random) -> str:
-        path = self.run / SUMMARY_FILE
+        path = self._regular_file(SUMMARY_FILE)
         summary = json.loads(path.read_text(encoding="utf-8"))
         table, name = summary, random.choice(list(summary))
         while isinstance(table[name], dict) and table[name] and random.random() < 0.7:
@@ -133,7 +133,7 @@ class FolderPlayer(Player):
 
     def change_log(self, random: Random) -> str:
         (self.run / RESULTS_FILE).unlink(missing_ok=True)
-        path = self.run / FORCE_LOG
+        path = self._regular_file(FORCE_LOG)
         rows = [line.split(",") for line in path.read_text(encoding="utf-8").split("\n")]
         row = random.choice(rows)
         row[random.randrange(len(row))] = random.choice(
@@ -156,6 +156,13 @@ class FolderPlayer(Player):
         if status == 0 and not (self.run / REPORT_PAGE).is_file():
             raise WrongError("a report ends well, and is not there")
         return str(status)
+
+    def _regular_file(self, name: str) -> Path:
+        """Return a file that can be changed: a pipe never ends, and a device that a link leads to has no end."""
+        path = self.run / name
+        if not path.is_file():
+            raise FileNotFoundError(path)
+        return path
 
     def _file(self, random: Random) -> Path:
         return random.choice([self.run / name for name in FILES if (self.run / name).is_file()])

@@ -100,6 +100,9 @@ class FallingRow:
         except RuntimeError as error:
             assert "No such file" in str(error)
 
+    def open_another_file(self) -> None:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+
     def add_another_block(self) -> None:
         self.blocks.block((0, 5, 3), 10.0)
 
@@ -135,6 +138,9 @@ class FallingRow:
             self.recording.error
         )
         assert len(stop_recording().frames) == 10
+
+    def choose_another_scene(self) -> None:
+        bpy.context.window.scene = bpy.data.scenes.new("Another")
 
     # What is deleted.
 
@@ -284,6 +290,21 @@ class FallingRow:
             for kind, numbers in (("Block", range(1, 9)), ("Connection", range(7)))
         )
         self.doomed, self.held_by = self.row[3], self.links[2:4]
+
+    def show_a_linked_scene(self) -> None:
+        path = self.folder / "linked.blend"
+        bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+        with bpy.data.libraries.load(str(path), link=True) as (stored, wanted):
+            wanted.scenes = stored.scenes[:1]
+        bpy.context.window.scene = wanted.scenes[0]
+        self.play(1, 5)
+
+    def undo_and_play_all_scenes(self) -> None:
+        bpy.ops.ed.undo_push(message="edited")
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+        for scene in bpy.data.scenes:
+            for frame in (12, 13, 1, 2, 3):
+                scene.frame_set(frame)
 
     def add_view_layer(self) -> None:
         bpy.context.window.view_layer = self.scene.view_layers.new("Layer")

@@ -6,6 +6,10 @@ developers, "Undo Legacy") reads the whole file again, world included. So wherev
 redo go the older way, and the preferences are as before when they are done.
 
 No body has a place in Bullet after that, and a simulation cannot go on from the middle: undo ends at the start frame.
+
+The older undo replaces Blender's data, but scenes linked from other files go on with what was made of the former data,
+and Blender crashes when it next plays them. So where such a scene has been shown, undo goes Blender's own way, and the
+worlds of demolitions stand still after it.
 """
 
 from __future__ import annotations
@@ -18,9 +22,15 @@ _before: dict[str, bool] = {}
 """The person's preferences, while they are not as the person left them."""
 
 
+def needs_older_way() -> bool:
+    """Return whether undo and redo have to go the older way now."""
+    scenes = bpy.data.scenes
+    return any(scene.rigidbody_world for scene in scenes) and not any(map(_is_linked_and_shown, scenes))
+
+
 def before_undo() -> None:
-    """Make the coming undo or redo go the older way."""
-    if _before or not any(scene.rigidbody_world for scene in bpy.data.scenes):
+    """Make the coming undo or redo go the older way, where it has to."""
+    if _before or not needs_older_way():
         return
     preferences = bpy.context.preferences
     _before[_DEVELOPER] = preferences.view.show_developer_ui
@@ -48,6 +58,10 @@ def restore_preferences() -> None:
     if bpy.app.timers.is_registered(_restore):
         bpy.app.timers.unregister(_restore)
     _restore()
+
+
+def _is_linked_and_shown(scene: bpy.types.Scene) -> bool:
+    return scene.library is not None and any(layer.depsgraph for layer in scene.view_layers)
 
 
 def _restore() -> None:

@@ -70,6 +70,12 @@ class WorldGuard:
         self.stands_still = False
         self.release()
 
+    def stand_still(self, scene: bpy.types.Scene) -> None:
+        """Make a world safe that Blender keeps, while it frees any of its objects; it stands still."""
+        if self._world:
+            self._stand_still(scene, bodies_stay=False)
+        self.release()
+
     def check_objects(self, scene: bpy.types.Scene) -> str:
         """Return that something was added to the world or taken out, in a sentence; empty where nothing was.
 
@@ -139,10 +145,10 @@ class WorldGuard:
         self._was_edited = True
         return f"connection {edited[0].name!r} was edited: go to the start frame and record again"
 
-    def _stand_still(self, scene: bpy.types.Scene) -> None:
+    def _stand_still(self, scene: bpy.types.Scene, *, bodies_stay: bool = True) -> None:
         """Make the world safe and stop time; where memory is not as expected, Blender is left to itself."""
         try:
-            self._world.retire()
+            self._world.retire(bodies_stay=bodies_stay)
             stop_time(scene)
             self.stands_still = True
         except LayoutError:

@@ -86,6 +86,11 @@ def test_deleting_at_the_start_frame_after_the_add_on_was_switched_on(tmp_path, 
     do(tmp_path, "play_unwatched", "go_to_start", "switch_on", deletion, "update", "fall_from_the_start", "switch_off")
 
 
+@pytest.mark.parametrize("deletion", ["remove_body", "remove_connection", "remove_everything"])
+def test_deleting_in_a_scene_that_is_not_shown_before_another_file_is_opened(tmp_path, deletion):
+    do(tmp_path, "watch", "choose_another_scene", deletion, "update", "open_another_file")
+
+
 @pytest.mark.parametrize("deletion", ["remove_body", "delete_body", "remove_connection"])
 def test_deleting_after_a_recording_has_ended(tmp_path, deletion):
     do(tmp_path, "record", "stop", deletion, "update", "stand_still_until_the_start")
@@ -155,6 +160,11 @@ def test_deleting_after_another_deletion_was_undone(tmp_path, layers):
     # The world that stood still is gone with the undo; the next one is guarded as any other.
     undone = ("watch_from_an_undo_step_on", "remove_everything", "update", "undo")
     do(tmp_path, *undone, *layers, "play_on_from_the_start", "remove_body", "update", "stand_still_until_the_start")
+
+
+def test_undo_while_a_scene_of_another_file_is_shown(tmp_path):
+    # It goes on with what was made of data that the older undo frees: playing it crashed after each such undo.
+    do(tmp_path, "watch_from_an_undo_step_on", "show_a_linked_scene", "undo_and_play_all_scenes")
 
 
 def test_undo_without_a_world_goes_as_ever(tmp_path):
