@@ -5,7 +5,7 @@ values (`Table`), the words of the messages (`expected`), the reference of all k
 """
 
 import json
-import math
+import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from numbers import Integral, Real
@@ -76,7 +76,7 @@ class Key:
     def holds(self, value: float) -> bool:
         """Return whether a number is finite and within the limits."""
         return (
-            math.isfinite(value)
+            abs(value) <= sys.float_info.max  # a whole number may be larger
             and (self.above is None or value > self.above)
             and (self.at_least is None or value >= self.at_least)
             and (self.at_most is None or value <= self.at_most)

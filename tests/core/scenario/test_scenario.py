@@ -198,6 +198,7 @@ def test_frames_cover_the_duration():
         (SCENARIO.time, {"duration_s": 0}, "time.duration_s is 0: expected a number above 0 (s)"),
         (SCENARIO.time, {"time_scale": 101}, "time.time_scale is 101: expected a number above 0 and up to 100"),
         (SCENARIO.time, {"substeps_per_frame": 1001}, "expected a whole number from 1 to 1000"),
+        (SCENARIO.time, {"substeps_per_frame": 10**400}, "expected a whole number from 1 to 1000"),
         (SCENARIO.shards, {"linear_damping": 2}, "shards.linear_damping is 2: expected a number from 0 to 1"),
         (SCENARIO.shards, {"use_deactivation": 1}, "shards.use_deactivation is 1: expected true or false"),
         (SCENARIO.ground, {"friction": -1}, "ground.friction is -1: expected a number of at least 0"),
