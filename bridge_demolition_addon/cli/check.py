@@ -156,7 +156,8 @@ def _rest_facts(model: Model) -> Iterator[tuple[str, str]]:
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     if loose:
-        yield "not held", f"{loose} shards, by no connection to a support: they fall, or lie on others"
+        yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
+        yield "", "would hold them: [[connections.between]] with type GENERIC"
     if held:
         yield "sag", f"{1000.0 * sag_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
