@@ -132,17 +132,27 @@ def _summed(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: in
 
 
 def _first_frequency(system: BlockSystem, own: np.ndarray, slack: float) -> float:
-    """First frequency in Hz, by inverse iteration from an even motion in all directions."""
-    shape = np.ones((6, own.shape[2]))
-    shape[3:] = 0.0
+    """First frequency in Hz; of what is free to slide, that of its swinging up and down."""
+    evenly = np.zeros((6, own.shape[2]))
+    evenly[:3] = 1.0
+    lowest = _square_of_frequency(system, own, evenly, _ITERATIONS) - slack
+    if lowest <= slack:  # it slides, or sways like a pendulum
+        evenly[:2] = 0.0
+        # Any more would bring the sliding back, from what rounding leaves of it.
+        lowest = _square_of_frequency(system, own, evenly, 2) - slack
+    return float(np.sqrt(max(lowest, 0.0)) / (2.0 * np.pi))
+
+
+def _square_of_frequency(system: BlockSystem, own: np.ndarray, shape: np.ndarray, iterations: int) -> float:
+    """Square of an angular frequency, by inverse iteration from a shape (6, b), as Rayleigh's quotient."""
     square = 0.0
-    for _ in range(_ITERATIONS):
+    for _ in range(iterations):
         inert = own[:, 0] * shape[0]
         for column in range(1, 6):
             inert = inert + own[:, column] * shape[column]
         answer = system.solve(inert)
-        before, square = square, float((shape * inert).sum() / (answer * inert).sum()) - slack
+        before, square = square, float((shape * inert).sum() / (answer * inert).sum())
         shape = answer / abs(answer).max()
         if abs(square - before) <= _SAME_FREQUENCY * abs(square):
             break
-    return float(np.sqrt(max(square, 0.0)) / (2.0 * np.pi))
+    return square
