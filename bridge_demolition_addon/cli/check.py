@@ -65,7 +65,7 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     model = checked_model(scenario, prepared.members)
     yield from _section("Shards and connections", _connection_facts(scenario, model))
     if model.stiffness is not None:
-        yield from _section("At rest", _rest_facts(model))
+        yield from _section("At rest", _rest_facts(scenario, model))
     yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
@@ -150,9 +150,9 @@ def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, s
     yield from _rule_facts(connections)
 
 
-def _rest_facts(model: Model) -> Iterator[tuple[str, str]]:
+def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
     """Yield how an elastic bridge stands under its own weight."""
-    rest = model_at_rest(model)
+    rest = model_at_rest(model, scenario.connections.joints)
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     if loose:

@@ -133,20 +133,27 @@ def _summed(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: in
 
 def _first_frequency(system: BlockSystem, own: np.ndarray, slack: float) -> float:
     """First frequency in Hz; of what is free to slide, that of its swinging up and down."""
-    evenly = np.zeros((6, own.shape[2]))
-    evenly[:3] = 1.0
-    lowest = _square_of_frequency(system, own, evenly, _ITERATIONS) - slack
+    lowest = _lowest_square(system, own) - slack
     if lowest <= slack:  # it slides, or sways like a pendulum
-        evenly[:2] = 0.0
-        # Any more would bring the sliding back, from what rounding leaves of it.
-        lowest = _square_of_frequency(system, own, evenly, 2) - slack
+        lowest = _square_by_weight(system, own)
     return float(np.sqrt(max(lowest, 0.0)) / (2.0 * np.pi))
 
 
-def _square_of_frequency(system: BlockSystem, own: np.ndarray, shape: np.ndarray, iterations: int) -> float:
-    """Square of an angular frequency, by inverse iteration from a shape (6, b), as Rayleigh's quotient."""
+def _square_by_weight(system: BlockSystem, own: np.ndarray) -> float:
+    """Square of the angular frequency of the shape (z alone) that the weight bends it to: Lord Rayleigh (1877)."""
+    masses = own[2, 2]
+    weights = np.zeros((6, len(masses)))
+    weights[2] = masses
+    down = system.solve(weights)[2]
+    return float((masses * down).sum() / (masses * down * down).sum())
+
+
+def _lowest_square(system: BlockSystem, own: np.ndarray) -> float:
+    """Square of the lowest angular frequency, by inverse iteration from an even motion in all directions."""
+    shape = np.zeros((6, own.shape[2]))
+    shape[:3] = 1.0
     square = 0.0
-    for _ in range(iterations):
+    for _ in range(_ITERATIONS):
         inert = own[:, 0] * shape[0]
         for column in range(1, 6):
             inert = inert + own[:, column] * shape[column]

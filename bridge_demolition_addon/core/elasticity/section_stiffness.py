@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ScenarioError
+from .joint_rows import matrix_products, transposed
 
 SHEAR_FACTOR = 5.0 / 6.0
 """Share of a rectangular section that bears shear evenly, κ (E. Reissner 1945)."""
@@ -167,3 +168,26 @@ def torsion_constants(areas_m2: np.ndarray, second_moments_m4: np.ndarray) -> np
     slender = np.divide(shorter, longer, out=np.zeros_like(shorter), where=longer > 0.0)
     square = slender * slender
     return longer * shorter * shorter * shorter * (1.0 / 3.0 - 0.21 * slender * (1.0 - square * square / 12.0))
+
+
+def in_frames(stiffness: SectionStiffness, sections: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """Return stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
+
+    Rows that are not held (6, m) bear nothing: what they would, the others do not bear in their place.
+    """
+    matrices = np.stack((stiffness.against_shifts(), stiffness.against_turns()))
+    turned = [matrix_products(matrix_products(sections, each), transposed(sections)) for each in matrices]
+    for matrix, rows in zip(turned, (held[:3], held[3:]), strict=True):
+        for row in range(3):
+            _let_go(matrix, row, ~rows[row])
+    return np.stack(turned)
+
+
+def _let_go(matrix: np.ndarray, row: int, free: np.ndarray) -> None:
+    """Take the stiffness of one row out of matrices (3, 3, m), where it is free (m,): a static condensation."""
+    column = matrix[:, row].copy()
+    pivot = np.where(column[row] > 0.0, column[row], 1.0)
+    taken = column[:, None] * column[None] / pivot
+    matrix -= np.where(free, taken, 0.0)
+    matrix[row] = np.where(free, 0.0, matrix[row])
+    matrix[:, row] = np.where(free, 0.0, matrix[:, row])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..elasticity.equilibrium import Equilibrium, equilibrium
 from ..elasticity.joint_rows import JointFrames
-from ..elasticity.section_stiffness import SectionStiffness
+from ..elasticity.section_stiffness import SectionStiffness, in_frames
+from ..mechanics.joint import MOTIONS, Joint
 from ..mechanics.section_forces import section_axes
 from ..units import STANDARD_GRAVITY_M_S2
 from .connections import GROUND, Connections
@@ -21,11 +24,17 @@ def sag_m(model: Model, rest: Equilibrium) -> float:
     return float(fallen.max(initial=0.0))
 
 
-def model_at_rest(model: Model) -> Equilibrium:
-    """Return where the shards of a model rest, and the ground behind them; its connections have to be elastic."""
+def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
+    """Return where the shards of a model rest, and the ground behind them; its connections have to be elastic.
+
+    Springs in motions that are free do not count.
+    """
+    held = np.array([[motion not in joint.free for motion in MOTIONS] for joint in joints]).T[
+        :, model.joint_of_connection
+    ]
     masses = np.where(model.fixed, 0.0, model.masses_kg)
     inertias = np.array([box_inertia(np.ptp(shard.vertices, axis=0)) for shard in model.shards])
-    return at_rest(model.connections, model.stiffness, masses, inertias * masses[:, None], model.centres_m)
+    return at_rest(model.connections, model.stiffness, masses, inertias * masses[:, None], model.centres_m, held)
 
 
 def box_inertia(size_m: np.ndarray) -> np.ndarray:
@@ -40,6 +49,7 @@ def at_rest(
     masses_kg: np.ndarray,
     inertias_kg_m2: np.ndarray,
     centres_m: np.ndarray,
+    held: np.ndarray | None = None,
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
 ) -> Equilibrium:
     """Return where bodies rest under their own weight.
@@ -51,6 +61,8 @@ def at_rest(
     masses_kg, inertias_kg_m2, centres_m : (n,), (n, 3), (n, 3) float
         Masses of the shards, 0 for those that never move, moments of inertia about the axes of the world, and centres
         of mass.
+    held : (6, m) bool, optional
+        Whether connections hold shifts along and turns about the axes of the world; all by default.
     gravity_m_s2 : three float
 
     Returns
@@ -58,7 +70,9 @@ def at_rest(
     Equilibrium
         Of the n shards, and of the ground as the last body.
     """
-    axes = np.moveaxis(section_axes(connections.normals), 0, 2)
+    sections = np.moveaxis(section_axes(connections.normals), 0, 2)
+    held = np.ones((6, len(connections)), bool) if held is None else held
+    axes = np.repeat(np.eye(3)[:, :, None], len(connections), axis=2)
     first, second = connections.pairs.T
     second = np.where(second == GROUND, len(masses_kg), second)
     places = np.vstack((centres_m, np.zeros(3)))
@@ -67,7 +81,7 @@ def at_rest(
     tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
     return equilibrium(
         JointFrames(first, second, axes, axes, *levers),
-        np.stack((stiffness.against_shifts(), stiffness.against_turns())),
+        in_frames(stiffness, sections, held),
         np.append(masses_kg, 0.0),
         tensors,
         places.T,

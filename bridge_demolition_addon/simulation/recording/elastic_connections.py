@@ -15,7 +15,7 @@ from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
 from ...core.elasticity.equilibrium import Equilibrium, equilibrium
 from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
-from ...core.elasticity.section_stiffness import SectionStiffness
+from ...core.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...core.elasticity.structure import BodyStates, ElasticStructure
 from ...core.geometry.vectors import cross
 from ...core.mechanics.section_forces import section_axes
@@ -96,7 +96,7 @@ class ElasticConnections:
         self._held = self._rows.held()
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
         sections = np.moveaxis(section_axes(inventory.normals), 0, 2)
-        self._stiffness = _in_frames(stiffness, matrix_products(transposed(places.first_axes), sections), self._held)
+        self._stiffness = in_frames(stiffness, matrix_products(transposed(places.first_axes), sections), self._held)
         self._masses = inventory.masses_kg
         self._inertias = _inertias(self._motion.inverse_inertias(), motion.rotations, self._masses)
         self._shortest_s = scene_time_step(scene).substep_s
@@ -230,29 +230,6 @@ class ElasticConnections:
         ):
             points = motion.positions_m[:, bodies] + levers
             check_frames(axes, points, matrices[:, :3, 3].T, np.moveaxis(turned.reshape(-1, 3, 3), 0, 2), names)
-
-
-def _in_frames(stiffness: SectionStiffness, sections: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """Stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
-
-    Rows that are not held (6, m) bear nothing: what they would, the others do not bear in their place.
-    """
-    matrices = np.stack((stiffness.against_shifts(), stiffness.against_turns()))
-    turned = [matrix_products(matrix_products(sections, each), transposed(sections)) for each in matrices]
-    for matrix, rows in zip(turned, (held[:3], held[3:]), strict=True):
-        for row in range(3):
-            _let_go(matrix, row, ~rows[row])
-    return np.stack(turned)
-
-
-def _let_go(matrix: np.ndarray, row: int, free: np.ndarray) -> None:
-    """Take the stiffness of one row out of matrices (3, 3, m), where it is free (m,): a static condensation."""
-    column = matrix[:, row].copy()
-    pivot = np.where(column[row] > 0.0, column[row], 1.0)
-    taken = column[:, None] * column[None] / pivot
-    matrix -= np.where(free, taken, 0.0)
-    matrix[row] = np.where(free, 0.0, matrix[row])
-    matrix[:, row] = np.where(free, 0.0, matrix[:, row])
 
 
 def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:

@@ -126,5 +126,5 @@ def test_a_beam_that_is_free_to_slide_swings_up_and_down_as_theory_says():
     by_depth = (np.pi / LENGTH_M) ** 2 / 12.0
     # S. Timoshenko (1937), Vibration Problems in Engineering: both corrections are to the square of the frequency.
     corrected = first * (1.0 - by_depth / 2.0 * (1.0 + BENDING_NM2 * 12.0 / SHEAR_N))
-    # Rayleigh's quotient after two steps of iteration is within a thousandth; blocks make the rest.
+    # Rayleigh's shape under its weight is within a thousandth of the true one; blocks make the rest.
     assert sliding.at_rest().frequency_hz == pytest.approx(corrected, rel=0.01)

@@ -47,7 +47,7 @@ def sag_by_theory(shard_count, seed):
     cut, connections, stiffness = standing_slab(shard_count, seed)
     masses = DENSITY_KG_M3 * cut.volumes
     inertias = masses[:, None] * [box_inertia(np.ptp(shard.vertices, axis=0)) for shard in cut.shards]
-    rest = at_rest(connections, stiffness, masses, inertias, cut.centres, (GRAVITY_M_S2, 0.0, 0.0))
+    rest = at_rest(connections, stiffness, masses, inertias, cut.centres, gravity_m_s2=(GRAVITY_M_S2, 0.0, 0.0))
     centres = cut.centres
     top = np.argsort(-centres[:, 2])[: max(1, shard_count // 40)]
     arms = np.array((0.0, 0.0, HEIGHT_M)) - centres[top]
