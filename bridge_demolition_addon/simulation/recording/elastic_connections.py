@@ -88,7 +88,6 @@ class ElasticConnections:
         ).T.repeat(3, axis=0)
         is_first = world.first_is_body_a()
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
-        self._side = np.where(is_first, 0, 1)
         axes_a, points_a, axes_b, points_b = self._rows.frames()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
         motion = self._motion.read()
@@ -106,8 +105,7 @@ class ElasticConnections:
         self._built = motion
         self._contact_loads = np.zeros((6, len(self._masses)))
         self._substep_s = 0.0
-        count = len(self._frames)
-        self._loads = np.zeros((2, 6, count))
+        self._loads = np.zeros((2, 6, len(self._frames)))
         world.hold_connections()
 
     @property
@@ -135,8 +133,8 @@ class ElasticConnections:
         velocities = left * motion.velocities + substep_s * self._accelerations(motion, pushed)
         states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
         intact = self._world.intact()
-        self._coming = motion, self._structure.step(states, intact, substep_s)
-        step = self._coming[1]
+        step = self._structure.step(states, intact, substep_s)
+        self._coming = motion, step
         self._loads[:, :, ~intact] = 0.0
         self._loads[0][:, step.acting] = step.of_first / substep_s
         self._loads[1][:, step.acting] = step.of_second / substep_s
