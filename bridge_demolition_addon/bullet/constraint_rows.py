@@ -43,12 +43,19 @@ class ConstraintRows:
     ------
     LayoutError
         Memory is not as expected; nothing has been written.
+
+    Attributes
+    ----------
+    held
+        (6, k) which rows hold a shift or a turn; the others leave it free.
     """
 
     def __init__(self, layout: Layout, addresses: np.ndarray, names: Sequence[str]):
         self._layout, self._addresses = layout, addresses
         for address, name in zip(addresses.tolist(), names, strict=True):
             self._check(address, name)
+        self._limits = self._doubles(layout.spring.lower)
+        self.held = self._limits == self._doubles(layout.spring.upper)
 
     def frames(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Return axes (3, 3, k) and places (3, k) of the frames in Bullet's body A, and those in its body B."""
@@ -58,31 +65,40 @@ class ConstraintRows:
             found += [values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()]
         return tuple(found)
 
-    def held(self) -> np.ndarray:
-        """Return which rows (6, k) hold a shift or a turn; the others leave it free."""
-        return self._doubles(self._layout.spring.lower) == self._doubles(self._layout.spring.upper)
-
-    def soften(self, softness: np.ndarray) -> None:
-        """Have all of an error corrected in a sub-step, as softly as given.
+    def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
+        """Have all of an error of constraints (r,) corrected in a sub-step, as softly as given.
 
         Parameters
         ----------
+        rows
+            (r,) constraints that still exist, as for all that is written.
         softness
-            (6, k) the rows' effective masses by their stiffness against impulses, below 1.
+            (6, r) the rows' effective masses by their stiffness against impulses, below 1.
         """
-        spring = self._layout.spring
-        write_doubles(self._fields(spring.correction), 1.0)
-        write_doubles(self._fields(spring.softness), softness)
-        write_integers(self._addresses + np.uint64(spring.flags), ALL_ROWS_SET)
+        self._write(rows, 1.0, softness, ALL_ROWS_SET)
 
-    def expect(self, rows: np.ndarray, deformations: np.ndarray, held: np.ndarray) -> None:
+    def restore(self, rows: np.ndarray) -> None:
+        """Leave constraints (r,) as Blender made them."""
+        self._hold_at(rows, self._limits[:, rows])
+        self._write(rows, SPRING_CORRECTION, 0.0, 0)
+
+    def expect(self, rows: np.ndarray, deformations: np.ndarray) -> None:
         """Say how constraints (r,) will be deformed (6, r) at the end of the coming sub-step, if nothing else acts.
 
-        Only in those rows (6, r) that are held.
+        Rows that are not held stay free.
         """
-        limits = (deformations * _TURNS_THE_OTHER_WAY)[held]
+        self._hold_at(rows, deformations * _TURNS_THE_OTHER_WAY)
+
+    def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
+        held = self.held[:, rows]
         for offsets in (self._layout.spring.lower, self._layout.spring.upper):
-            write_doubles(self._fields(offsets, rows)[held], limits)
+            write_doubles(self._fields(offsets, rows)[held], limits[held])
+
+    def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray | float, flags: int) -> None:
+        spring = self._layout.spring
+        write_doubles(self._fields(spring.correction, rows), correction)
+        write_doubles(self._fields(spring.softness, rows), softness)
+        write_integers(self._addresses[rows] + np.uint64(spring.flags), flags)
 
     def _fields(self, offsets: Sequence[int], rows: np.ndarray | slice = slice(None)) -> np.ndarray:
         return np.array(offsets, np.uint64)[:, None] + self._addresses[rows]

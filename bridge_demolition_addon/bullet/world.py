@@ -145,6 +145,7 @@ class BulletWorld:
         self._layout = layout or platform_layout()
         self._token = 0
         self._bound: _BoundWorld | None = None
+        self._constraint_rows: ConstraintRows | None = None
         self._rows = {connection.session_uid: row for row, connection in enumerate(self.connections)}
         self._threshold_factor, self._holds_connections = 1.0, False
         self._feedback = _aligned_doubles(len(self.connections))
@@ -172,7 +173,7 @@ class BulletWorld:
         dynamics = self._find_dynamics_world()
         if self._is_bound_to(dynamics):
             return WorldState.KNOWN
-        self._bound = None
+        self._bound = self._constraint_rows = None
         if not dynamics:
             return WorldState.ABSENT
         self._bound = self._check(dynamics, depsgraph, to_read)
@@ -294,6 +295,8 @@ class BulletWorld:
     def constraint_rows(self) -> ConstraintRows:
         """What writes to the rows of the connections of this world, as long as it is bound; all have to exist.
 
+        When the world is released they are as Blender made them again.
+
         Raises
         ------
         LayoutError
@@ -304,7 +307,9 @@ class BulletWorld:
         if not self._bound.exists.all():
             name = self.connections[int(np.argmin(self._bound.exists))].name
             raise SimulationError(f"elastic connection {name!r} is switched off: enable it, or delete it")
-        return ConstraintRows(self._layout, self._bound.connections, [each.name for each in self.connections])
+        names = [each.name for each in self.connections]
+        self._constraint_rows = ConstraintRows(self._layout, self._bound.connections, names)
+        return self._constraint_rows
 
     def break_connections(self, rows: np.ndarray) -> None:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
@@ -393,10 +398,12 @@ class BulletWorld:
         if ours:
             self._forget_freed_connections()
             self._point_feedback_at(np.uint64(0))
+            if self._constraint_rows:
+                self._constraint_rows.restore(np.flatnonzero(self._bound.exists))
             world = self._layout.world
             for field in (world.before_step, world.after_step, world.user_info):
                 write_pointers(self._bound.dynamics + field, 0)
-        self._bound = None
+        self._bound = self._constraint_rows = None
 
     def retire(self, *, bodies_stay: bool = True) -> None:
         """Make a world safe that objects are being taken out of; it must not be simulated any more.

@@ -12,6 +12,7 @@ from scenarios import I235
 
 from bridge_demolition_addon.bullet import world
 from bridge_demolition_addon.bullet.layout import platform_layout
+from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, SectionStiffness, section_stiffness
 from bridge_demolition_addon.core.mechanics.strength import Strength
@@ -21,6 +22,7 @@ from bridge_demolition_addon.core.scenario.connections import ConnectionBetween
 from bridge_demolition_addon.core.structure.equilibrium import model_at_rest, sag_m
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
@@ -185,6 +187,19 @@ def test_a_cantilever_breaks_at_its_root_when_it_bears_too_little(blender, tmp_p
     intact = results.frames.intact[-1]
     root = results.inventory.connection_names.tolist().index(beam.connections[0].name)
     assert intact.all() if holds else (not intact[root] and intact.sum() == len(intact) - 1)
+
+
+def test_connections_are_as_blender_made_them_once_the_recording_has_ended(blender, tmp_path):
+    """Another recorder finds nothing of ours in the world, which goes on: it would refuse what is not as expected."""
+    beam = ElasticBeam()
+    beam.play(tmp_path, 6)
+    blocks = beam.scene_of_blocks
+    world = BulletWorld(beam.scene, [*bodies_of(beam.scene)], connections_of(beam.scene))
+    assert world.bind(blender.context.evaluated_depsgraph_get(), to_read=False) is WorldState.NEW
+    rows = world.constraint_rows()
+    assert rows.held.all() and rows.held.shape == (6, 20)
+    world.release()
+    blocks.scene.frame_set(blocks.scene.frame_current + 1)
 
 
 def test_a_beam_that_nothing_holds_falls_freely(blender, tmp_path):

@@ -81,7 +81,7 @@ class ElasticConnections:
         stiffness: SectionStiffness,
         damping_ratio: float,
     ):
-        self._world, self._rows, self._motion = world, world.constraint_rows(), world.body_motion()
+        self._world, self._rows, self._reader = world, world.constraint_rows(), world.body_motion()
         self._damping_ratio = damping_ratio
         self._left_per_second = 1.0 - np.array(
             [(each.rigid_body.linear_damping, each.rigid_body.angular_damping) for each in bodies]
@@ -90,14 +90,15 @@ class ElasticConnections:
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
         axes_a, points_a, axes_b, points_b = self._rows.frames()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
-        motion = self._motion.read()
+        motion = self._reader.read()
         self._check_frames(motion)
-        self._held = self._rows.held()
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
         sections = np.moveaxis(section_axes(inventory.normals), 0, 2)
-        self._stiffness = in_frames(stiffness, matrix_products(transposed(places.first_axes), sections), self._held)
+        self._stiffness = in_frames(
+            stiffness, matrix_products(transposed(places.first_axes), sections), self._rows.held
+        )
         self._masses = inventory.masses_kg
-        self._inertias = _inertias(self._motion.inverse_inertias(), motion.rotations, self._masses)
+        self._inertias = _inertias(self._reader.inverse_inertias(), motion.rotations, self._masses)
         self._shortest_s = scene_time_step(scene).substep_s
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
         self._rest = self._settle(motion)
@@ -117,40 +118,42 @@ class ElasticConnections:
         ratio = max(self._damping_ratio, np.pi * frequency * self._shortest_s) if frequency else 0.0
         return Elasticity(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
 
-    def predict(self, substep_s: float) -> np.ndarray:
-        """Work out the coming sub-step, after all other loads on bodies, as if nothing else acted than did in the last.
+    def begin_substep(self, substep_s: float) -> None:
+        """Look at the bodies before a sub-step of a length in s, after all other loads on them."""
+        self._motion = motion = self._reader.read()
+        if substep_s != self._substep_s:
+            self._prepare(motion, substep_s)
+        pushed = motion.loads + self._contact_loads
+        velocities = power(self._left_per_second, substep_s) * motion.velocities
+        velocities += substep_s * self._accelerations(motion, pushed)
+        self._states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
+
+    def predict(self) -> np.ndarray:
+        """Work out the sub-step with what is intact, as if contacts did what they did in the last.
 
         Returns
         -------
         (2, 6, m) float
             Forces and torques on Bullet's bodies A and B of each connection.
         """
-        motion = self._motion.read()
-        if substep_s != self._substep_s:
-            self._prepare(motion, substep_s)
-        left = power(self._left_per_second, substep_s)
-        pushed = motion.loads + self._contact_loads
-        velocities = left * motion.velocities + substep_s * self._accelerations(motion, pushed)
-        states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
         intact = self._world.intact()
-        step = self._structure.step(states, intact, substep_s)
-        self._coming = motion, step
+        self._coming = step = self._structure.step(self._states, intact, self._substep_s)
         self._loads[:, :, ~intact] = 0.0
-        self._loads[0][:, step.acting] = step.of_first / substep_s
-        self._loads[1][:, step.acting] = step.of_second / substep_s
+        self._loads[0][:, step.acting] = step.of_first / self._substep_s
+        self._loads[1][:, step.acting] = step.of_second / self._substep_s
         return self._loads
 
-    def apply(self, substep_s: float) -> None:
+    def apply(self) -> None:
         """Put into Bullet what was predicted."""
-        motion, step = self._coming
+        motion, step = self._motion, self._coming
         moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
-        self._motion.set_loads(moved, motion.loads[:, moved] + step.of_bodies[:, moved] / substep_s)
-        self._rows.expect(step.acting, step.deformations - substep_s * step.rates, self._held[:, step.acting])
+        self._reader.set_loads(moved, motion.loads[:, moved] + step.of_bodies[:, moved] / self._substep_s)
+        self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
         self._structure.end_substep()
 
     def after_substep(self, contacts: Contacts, substep_s: float) -> None:
         """Note what contacts did in a sub-step: connections expect as much of them in the next."""
-        centres = self._motion.read().positions_m.T
+        centres = self._reader.read().positions_m.T
         impulses, count = contacts.impulses_ns, len(self._masses)
         loads = np.zeros((6, count))
         for side, sign in ((0, 1.0), (1, -1.0)):
@@ -162,7 +165,7 @@ class ElasticConnections:
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray:
         """Return the energy that is now in connections (m,) that are intact."""
-        motion = self._motion.read()
+        motion = self._reader.read()
         return self._structure.stored_j(motion.positions_m, motion.rotations) * intact
 
     def loads_on(self, sides: np.ndarray) -> np.ndarray:
@@ -182,7 +185,7 @@ class ElasticConnections:
             self._gravity,
         )
         rows = np.flatnonzero(found.held)
-        self._motion.put(rows, found.positions_m[:, rows], found.rotations[..., rows])
+        self._reader.put(rows, found.positions_m[:, rows], found.rotations[..., rows])
         return found
 
     def _prepare(self, motion: BodyMotion, substep_s: float) -> None:
@@ -204,16 +207,18 @@ class ElasticConnections:
             self._damping_s = damping_s
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
         # What sleeps is held as it is, in the sub-step in which Bullet finds what wakes it.
-        self._rows.expect(np.arange(len(self._frames)), places.deformations(), self._held)
+        intact = np.flatnonzero(self._world.intact())
+        self._rows.expect(intact, places.deformations()[:, intact])
         rows = places.rows()
-        inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._motion.inverse_inertias())
+        inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._reader.inverse_inertias())
         diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
-        self._rows.soften(np.minimum(1.0 / np.maximum(hardness, 1.0 / _SOFTEST), _SOFTEST))
+        softness = np.minimum(1.0 / np.maximum(hardness, 1.0 / _SOFTEST), _SOFTEST)
+        self._rows.soften(intact, softness[:, intact])
 
     def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
         """Accelerations (6, n) by forces and torques (6, n)."""
-        inverse = self._motion.inverse_inertias()
+        inverse = self._reader.inverse_inertias()
         turning = inverse[:, 0] * loads[3] + inverse[:, 1] * loads[4] + inverse[:, 2] * loads[5]
         return np.concatenate((motion.inverse_masses * loads[:3], turning * (motion.inverse_masses > 0.0)))
 

@@ -204,11 +204,13 @@ class SubstepRecorder:
 
         Once a connection has borne more than its strength in a sub-step, it has given its bodies more than a real one.
         """
+        self._elastic.begin_substep(substep_s)
         for _ in range(_MOST_ROUNDS):
-            loads = self._elastic.predict(substep_s)
-            if not len(self._break_predicted(loads, substep_s)):
+            if not len(self._break_predicted(self._elastic.predict(), substep_s)):
                 break
-        self._elastic.apply(substep_s)
+        else:
+            self._elastic.predict()
+        self._elastic.apply()
 
     def _break_predicted(self, both_sides: np.ndarray, substep_s: float) -> np.ndarray:
         """Break what would not bear predicted loads (2, 6, m) on the bodies of connections, and return it (b,)."""
