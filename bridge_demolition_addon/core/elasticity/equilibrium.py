@@ -9,7 +9,7 @@ import numpy as np
 from ..geometry.rotations import rotated
 from .joint_rows import JointFrames, joint_places
 from .sparse_system import BlockSystem
-from .structure import connected_parts, mass_matrices, stiffness_blocks, stressed
+from .structure import connected_parts, mass_matrices, stiffness_blocks, stressed, summed_on_bodies
 
 _SLOWEST_S = 60.0
 """What would swing slower than in this period is not held: a mechanism, or a part without a support."""
@@ -114,7 +114,7 @@ def _part_at_rest(
         own = mass_matrices(masses_kg, inertias_kg_m2, rotations, bodies)
         system.factor(slack * own, *stiffness_blocks(rows, stiffness))
         holding = rows.loads(stressed(stiffness, places.deformations() - unloaded))
-        left = (weights + _summed(frames, holding, count))[:, bodies]
+        left = (weights + summed_on_bodies(frames, holding, count))[:, bodies]
         if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
             break
         moved = np.zeros((6, count))
@@ -124,11 +124,6 @@ def _part_at_rest(
         positions_m = positions_m + moved[:3]
         rotations = np.moveaxis(rotated(np.moveaxis(rotations, 2, 0), moved[3:].T), 0, 2)
     return positions_m, rotations, _first_frequency(system, own, slack)
-
-
-def _summed(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
-    bodies = np.concatenate((frames.first, frames.second))
-    return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
 
 
 def _first_frequency(system: BlockSystem, own: np.ndarray, slack: float) -> float:

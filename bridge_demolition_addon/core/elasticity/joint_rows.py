@@ -75,14 +75,14 @@ class JointPlaces:
         sines = np.stack((-_dot(one[:, 1], other[:, 2]), _dot(one[:, 0], other[:, 2]), -_dot(one[:, 0], other[:, 1])))
         upright = np.sqrt(np.maximum(1.0 - sines[1] * sines[1], 0.0))
         cosines = np.stack((_dot(one[:, 2], other[:, 2]), upright, _dot(one[:, 0], other[:, 0])))
-        return np.concatenate((_turned_back(one, self.shifts_m), arctangent(sines, cosines)))
+        return np.concatenate((_along_first(one, self.shifts_m), arctangent(sines, cosines)))
 
     def rows(self) -> JointRows:
         """Return the rows at these places."""
         first_z, second_x = self.first_axes[:, 2], self.second_axes[:, 0]
         y = _cross(first_z, second_x)
         turning = np.stack([_unit(each) for each in (_cross(y, first_z), y, _cross(second_x, y))])
-        along = np.swapaxes(self.first_axes, 0, 1)
+        along = transposed(self.first_axes)
         return JointRows(
             along,
             np.stack([_cross(self.first_levers_m, axis) for axis in along]),
@@ -171,8 +171,8 @@ def joint_places(frames: JointFrames, positions_m: np.ndarray, rotations: np.nda
         Of all n bodies.
     """
     first, second = rotations.take(frames.first, axis=2), rotations.take(frames.second, axis=2)
-    first_levers = _turned(first, frames.first_points_m)
-    second_levers = _turned(second, frames.second_points_m)
+    first_levers = _along_second(first, frames.first_points_m)
+    second_levers = _along_second(second, frames.second_points_m)
     between = positions_m.take(frames.second, axis=1) - positions_m.take(frames.first, axis=1)
     return JointPlaces(
         matrix_products(first, frames.first_axes),
@@ -196,21 +196,13 @@ def transposed(matrices: np.ndarray) -> np.ndarray:
     return np.swapaxes(matrices, 0, 1)
 
 
-def _turned(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Products (3, m) of matrices (3, 3, m) with vectors (3, m)."""
-    return _along_second(matrices, vectors)
-
-
-def _turned_back(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Products (3, m) of transposed matrices (3, 3, m) with vectors (3, m)."""
-    return _along_first(matrices, vectors)
-
-
 def _along_second(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Products (3, m) of matrices (3, 3, m) with vectors (3, m)."""
     return matrices[:, 0] * vectors[0] + matrices[:, 1] * vectors[1] + matrices[:, 2] * vectors[2]
 
 
 def _along_first(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Products (3, m) of transposed matrices (3, 3, m) with vectors (3, m)."""
     return matrices[0] * vectors[0] + matrices[1] * vectors[1] + matrices[2] * vectors[2]
 
 

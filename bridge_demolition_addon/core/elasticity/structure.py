@@ -47,31 +47,28 @@ class BodyStates:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ElasticStep:
-    """What elastic connections do in a sub-step.
+    """What k of the elastic connections do in a sub-step; the others are broken, or asleep.
 
     Attributes
     ----------
-    impulses : (6, m) float
-        Impulses in the rows of the connections, N·s and N·m·s.
-    deformations : (6, m) float
+    acting : (k,) int
+        Which connections.
+    deformations : (6, k) float
         Before the sub-step, m and rad, as Bullet measures them.
-    rates : (6, m) float
+    rates : (6, k) float
         How fast they shrink in it, m/s and rad/s.
-    of_first, of_second : (6, m) float
+    of_first, of_second : (6, k) float
         Impulses on the two bodies, and about their centres.
     of_bodies : (6, n) float
         The sum on every body.
-    acting : (m,) bool
-        Connections for which all this was worked out; the others are broken, or asleep.
     """
 
-    impulses: np.ndarray
+    acting: np.ndarray
     deformations: np.ndarray
     rates: np.ndarray
     of_first: np.ndarray
     of_second: np.ndarray
     of_bodies: np.ndarray
-    acting: np.ndarray
 
 
 class _Part:
@@ -105,8 +102,8 @@ class ElasticStructure:
         Tensors of inertia in the axes of the bodies.
     damping_s : float
         Damping over stiffness, β.
-    start : BodyStates
-        Without deformation; what rounding leaves of the frames then counts as none.
+    positions_m, rotations : (3, n) and (3, 3, n) float
+        Where nothing is deformed: what rounding leaves of the frames there counts as none.
     """
 
     def __init__(
@@ -130,11 +127,6 @@ class ElasticStructure:
         self._substep_s = 0.0
         self._partition()
 
-    @property
-    def parts(self) -> int:
-        """How many parts hang together by connections."""
-        return len(self._parts)
-
     def step(self, states: BodyStates, intact: np.ndarray, substep_s: float) -> ElasticStep:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
         self._follow_breaks(intact)
@@ -153,19 +145,18 @@ class ElasticStructure:
         implicit = substep_s * (substep_s + self._damping_s)
         strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
         amounts = stressed(stiffness, strains)
-        changes = self._solved(awake, self._on_bodies(frames, rows.loads(amounts)))
+        changes = self._solved(awake, summed_on_bodies(frames, rows.loads(amounts), self._count))
         first, second = (changes.take(each, axis=1) for each in (frames.first, frames.second))
         slowing = rows.rates(first, second)
         amounts -= stressed(stiffness, implicit * slowing)
         of_first, of_second = rows.loads(amounts)
         return ElasticStep(
-            impulses=amounts,
+            acting=acting,
             deformations=deformations,
             rates=rates + slowing,
             of_first=of_first,
             of_second=of_second,
-            of_bodies=self._on_bodies(frames, (of_first, of_second)),
-            acting=acting,
+            of_bodies=summed_on_bodies(frames, (of_first, of_second), self._count),
         )
 
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
@@ -269,11 +260,11 @@ class ElasticStructure:
             changes[:, part.bodies] = part.system.solve(right[:, part.bodies])
         return changes
 
-    def _on_bodies(self, frames: JointFrames, loads: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-        """Sums (6, n) on all bodies."""
-        bodies = np.concatenate((frames.first, frames.second))
-        columns = np.concatenate(loads, axis=1)
-        return np.stack([np.bincount(bodies, each, self._count) for each in columns])
+
+def summed_on_bodies(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+    """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
+    bodies = np.concatenate((frames.first, frames.second))
+    return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
 
 
 def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:

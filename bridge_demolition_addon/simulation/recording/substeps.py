@@ -59,7 +59,7 @@ class Breaks:
     Attributes
     ----------
     time_s : float
-        Simulated time at its end.
+        Simulated time at its end; at its beginning, of what broke before it.
     connections : (b,) int
         Which connections.
     loads : SectionForces
