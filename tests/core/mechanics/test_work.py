@@ -180,3 +180,25 @@ def test_unknown_work_has_the_shape_of_known_work():
     assert unknown.gravity_j.shape == (4,)
     assert unknown.made_j.shape == (4, 2)
     assert np.isnan(unknown.made_j).all()
+
+
+def test_a_spring_gives_back_what_it_could_store_and_all_above_that_is_made():
+    """Two bodies of 2 kg go towards each other at 1 m/s each, 2 J, and a spring that can store 1.5 J stops them."""
+    free, masses = np.array([True, True]), [2.0, 2.0]
+
+    def spring(impulse_ns, stored_j):
+        zeros = np.zeros((1, 1, 3))
+        pushes = np.array([[[-impulse_ns, 0.0, 0.0]]])
+        return PairImpulses(PAIR, pushes, zeros, zeros, stored_j=np.array([[stored_j]]))
+
+    work = accumulator(masses, motion(along_x([1.0, -1.0])))
+    back, pushed = np.sqrt(0.75), np.sqrt(2.0)
+    amounts = []
+    for speed, change, stored in ((1.0, 0.0, 0.0), (0.0, 2.0, 1.5), (-back, 2.0 * back, 0.0)):
+        add(work, motion(along_x([speed, -speed])), free, spring(change, stored), NONE)
+        frame = work.finish()
+        amounts.append((frame.dissipated_j, frame.made_by_connections_j))
+    # What it cannot store is dissipated; what it stored makes no energy when it comes back.
+    np.testing.assert_allclose(amounts, [(0.0, 0.0), (0.5, 0.0), (0.0, 0.0)], atol=1e-12)
+    add(work, motion(along_x([-pushed, pushed])), free, spring(2.0 * (pushed - back), 0.0), NONE)
+    assert work.finish().made_by_connections_j == pytest.approx(2.0 * (pushed**2 - back**2), rel=1e-12)
