@@ -1,0 +1,117 @@
+"""Limits by rank: the largest run, or one of the next, as a limit for all runs to come, whatever their distribution.
+
+What is drawn has to be independent and of one distribution, and how many runs there are and which rank counts has to
+be fixed before they are seen.
+
+One count serves three questions, because in each of them so many runs of all touch what is set up, and the part of the
+distribution that lies outside is then at most theirs:
+
+- the k-th largest of one quantity as its limit (Wilks 1941): k runs;
+- the largest of each of m quantities as limits of all m at once (Guba, Makai and Pál 2003): m runs;
+- the smallest shape with d free dimensions around all runs (Campi and Garatti 2008): d runs.
+
+References
+----------
+S. S. Wilks (1941), Determination of sample sizes for setting tolerance limits, Annals of Mathematical Statistics 12,
+91-96.
+A. Guba, M. Makai and L. Pál (2003), Statistical aspects of best estimate method, Reliability Engineering and System
+Safety 80, 217-232.
+M. C. Campi and S. Garatti (2008), The exact feasibility of randomized solutions of uncertain convex programs, SIAM
+Journal on Optimization 19, 1211-1230: their bound, which for d dimensions is that of the d-th largest of one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .binomial import at_most
+from .proportions import upper_limit
+
+
+def confidence_of(touching: int, runs: int, quantile: float) -> float:
+    """Return how sure it is that at least a share `quantile` of all runs to come stays within.
+
+    Parameters
+    ----------
+    touching
+        How many of the runs set the limit: for the k-th largest as limit of one quantity, k.
+    runs
+        How many there are, not fewer.
+    quantile
+        Share of all runs, above 0 and below 1.
+    """
+    return float(1.0 - at_most(touching - 1, runs, 1.0 - quantile))
+
+
+def least_runs(quantile: float, confidence: float, touching: int = 1) -> int:
+    """Return how many runs are needed, so that `confidence_of` is no less than a confidence above 0 and below 1."""
+    enough = touching
+    while confidence_of(touching, enough, quantile) < confidence:
+        enough *= 2
+    too_few = enough // 2 if enough > touching else touching - 1
+    while enough - too_few > 1:
+        middle = (too_few + enough) // 2
+        if confidence_of(touching, middle, quantile) < confidence:
+            too_few = middle
+        else:
+            enough = middle
+    return enough
+
+
+def most_touching(runs: int, quantile: float, confidence: float) -> int:
+    """Return the rank to use, from the largest: the highest that so many runs allow; 0 where they are too few."""
+    return int(most_touching_by_runs(np.array([runs]), quantile, confidence)[0])
+
+
+def most_touching_by_runs(runs: np.ndarray, quantile: float, confidence: float) -> np.ndarray:
+    """Return `most_touching` of each number of runs (n,)."""
+    allowed, refused = np.zeros(runs.shape, int), runs + 1
+    while (refused - allowed > 1).any():
+        middle = np.where(refused - allowed > 1, (allowed + refused) // 2, allowed)
+        # At no rank at all everything stays within: what is not asked any more keeps its answer.
+        sure = (middle == allowed) | (at_most(np.maximum(middle - 1, 0), runs, 1.0 - quantile) <= 1.0 - confidence)
+        allowed, refused = np.where(sure, middle, allowed), np.where(sure, refused, middle)
+    return allowed
+
+
+def share_within(touching: int, runs: int, confidence: float) -> float:
+    """Return the largest share of all runs to come of which it is so sure that they stay within."""
+    return 1.0 - float(upper_limit(touching - 1, runs, confidence))
+
+
+def nth_largest(values: np.ndarray, rank: int) -> float:
+    """Return the value (n,) of a rank from the largest, which is 1; infinite values count as largest."""
+    return float(np.partition(values, len(values) - rank)[len(values) - rank])
+
+
+def limits_by_runs(values: np.ndarray, quantile: float, confidence: float, rank: int) -> tuple[np.ndarray, np.ndarray]:
+    """Follow a limit while runs come in.
+
+    Parameters
+    ----------
+    values : (n,) float
+        In the order of the runs.
+    quantile, confidence
+        What the limit has to hold.
+    rank
+        Highest rank from the largest that is used: with many runs the one fixed beforehand, with few a lower one.
+
+    Returns
+    -------
+    (m,) int
+        Numbers of runs at which the limit is looked at: up to `_MOST_POINTS` of those that allow one, all included.
+    (m,) float
+        The limit by these first runs.
+    """
+    first = least_runs(quantile, confidence)
+    if len(values) < first:
+        return np.zeros(0, int), np.zeros(0)
+    points = min(_MOST_POINTS, len(values) - first + 1)
+    runs = np.unique(np.rint(np.linspace(first, len(values), points)).astype(int))
+    ranks = np.minimum(most_touching_by_runs(runs, quantile, confidence), rank)
+    limits = [nth_largest(values[:count], each) for count, each in zip(runs, ranks, strict=True)]
+    return runs, np.array(limits)
+
+
+_MOST_POINTS = 400
+"""More would not be told apart in a chart."""

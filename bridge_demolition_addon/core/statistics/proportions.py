@@ -1,0 +1,34 @@
+"""Limits of a probability of which some trials are known.
+
+References
+----------
+C. J. Clopper and E. S. Pearson (1934), The use of confidence or fiducial limits illustrated in the case of the
+binomial, Biometrika 26, 404-413.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .binomial import chance_of_at_most
+
+
+def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> np.ndarray:
+    """Largest probability that so many of the trials leave possible, with a one-sided confidence.
+
+    Parameters
+    ----------
+    happened : int or array of int
+        In how many trials it happened, 0 to `trials`.
+    trials
+        How many trials there were, at least 1, independent of each other.
+    confidence
+        Above 0 and below 1.
+    """
+    return chance_of_at_most(happened, trials, 1.0 - confidence)
+
+
+def lower_limit(happened: ArrayLike, trials: int, confidence: float) -> np.ndarray:
+    """Smallest probability that so many of the trials leave possible; see `upper_limit`."""
+    return 1.0 - upper_limit(trials - np.asarray(happened), trials, confidence)

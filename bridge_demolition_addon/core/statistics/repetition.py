@@ -1,0 +1,69 @@
+"""How much a limit by rank scatters: where it would lie if all runs were made once more, with other draws.
+
+Two sets of independent runs of one distribution mix evenly. How many of the second lie below a run of the first
+depends on its rank alone, whatever the distribution is.
+
+References
+----------
+H. A. David and H. N. Nagaraja (2003), Order Statistics, 3rd edition, section 7.3: prediction of order statistics.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arithmetic import exponential, logarithm
+
+
+def chances_above(rank: int, runs: int) -> np.ndarray:
+    """Return how likely the value of a rank, in as many new runs, is above each of the values that are known.
+
+    Parameters
+    ----------
+    rank
+        From the largest, which is 1.
+    runs
+        How many runs are known, and how many are new.
+
+    Returns
+    -------
+    (runs,) float
+        For the largest value that is known, the second largest, and so on: increasing.
+    """
+    # From the largest down, the new value of that rank comes after `rank` - 1 new ones and so many known ones.
+    before = np.arange(1.0, runs)
+    none_before = (runs - np.arange(rank)) / (2.0 * runs - np.arange(rank))
+    # Every order of known and new values is as likely as any other; so much rarer or oftener is one more before it.
+    ratios = (rank - 1.0 + before) / before * (runs + 1.0 - before) / (2.0 * runs + 1.0 - rank - before)
+    # By logarithms: of a thousandth rank no known value before it is too rare for a number.
+    sizes = logarithm(none_before).sum() + np.concatenate([[0.0], np.cumsum(logarithm(ratios))])
+    return np.minimum(np.cumsum(exponential(sizes)), 1.0)
+
+
+def repeated_limit(values: np.ndarray, rank: int, confidence: float) -> tuple[float, float, float]:
+    """Return the range in which the limit by rank of as many new runs would lie.
+
+    Parameters
+    ----------
+    values : (n,) float
+        What is known.
+    rank
+        That of the limit, from the largest.
+    confidence
+        For each end of the range by itself.
+
+    Returns
+    -------
+    float
+        The largest known value that a new limit exceeds with this confidence; minus infinity where there is none.
+    float
+        The smallest known value that it does not exceed with this confidence; infinity where there is none.
+    float
+        How likely it exceeds all that is known.
+    """
+    falling = np.sort(values)[::-1]
+    chances = chances_above(rank, len(values))
+    exceeded, not_exceeded = falling[chances >= confidence], falling[chances <= 1.0 - confidence]
+    lowest = float(exceeded[0]) if len(exceeded) else -np.inf
+    highest = float(not_exceeded[-1]) if len(not_exceeded) else np.inf
+    return lowest, highest, float(chances[0])
