@@ -22,7 +22,7 @@ from .arguments import naming
 from .progress import Progress, progress_on
 
 COMPARISON_FOLDER = "report"
-"""Where in the folder of a study its runs are compared."""
+"""Where in the folder of a comparison its report is."""
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -30,7 +30,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser(
         "run",
         help="run a scenario and keep its results in a folder",
-        description="Of one scenario, the results are kept in DIR. Several are a study: they are run in order, "
+        description="Of one scenario, the results are kept in DIR. Several are a comparison: they are run in order, "
         "and the results of each are kept in a folder in DIR that is called like its file.",
         allow_abbrev=False,
     )
@@ -46,7 +46,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--report",
         action="store_true",
-        help=f"make a report of each run at its end, and one that compares all of a study, in DIR/{COMPARISON_FOLDER}",
+        help=f"make a report of each run at its end, and one that compares all of them, in DIR/{COMPARISON_FOLDER}",
     )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=run)
@@ -61,15 +61,15 @@ def run(arguments: argparse.Namespace) -> None:
             if len(scenarios) == 1:
                 _run_and_report(arguments.scenarios[0], scenarios[0], None, arguments.output, arguments, progress)
             else:
-                _run_study(scenarios, arguments, progress)
+                _run_comparison(scenarios, arguments, progress)
     finally:
         progress.finish()
 
 
-def _run_study(scenarios: Sequence[Scenario], arguments: argparse.Namespace, progress: Progress) -> None:
+def _run_comparison(scenarios: Sequence[Scenario], arguments: argparse.Namespace, progress: Progress) -> None:
     """Run scenarios one after the other, none of them if any has to be refused, and compare them if wanted."""
     comparison = arguments.output / COMPARISON_FOLDER
-    folders = study_folders(arguments.scenarios, arguments.output)
+    folders = comparison_folders(arguments.scenarios, arguments.output)
     if arguments.report and comparison in folders:
         raise OutputError(f"{comparison}: is the folder of the report; call its scenario something else")
     progress.stage(f"checking {len(scenarios)} scenarios")
@@ -95,7 +95,7 @@ def _model_of(path: str, scenario: Scenario) -> Model:
         return checked_model(scenario)
 
 
-def study_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
+def comparison_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
     """Return the folders of the runs of several scenario files, called like these.
 
     Raises

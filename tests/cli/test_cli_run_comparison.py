@@ -1,4 +1,4 @@
-"""``bda run`` with several scenarios: a study, whose runs are kept beside each other and compared."""
+"""``bda run`` with several scenarios: a comparison, whose runs are kept beside each other."""
 
 import signal
 import sys
