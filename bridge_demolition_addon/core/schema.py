@@ -17,6 +17,9 @@ import numpy as np
 
 from .errors import ScenarioError
 
+Scalar = bool | int | float | str
+"""Type of a value that may be any of these."""
+
 LARGEST_INTEGER = 2**31 - 1
 """Largest whole number that Blender's properties hold."""
 
@@ -210,6 +213,8 @@ def _checked(item: Field, name: str, kind: Any, value: Any) -> Any:
         return tuple(_checked(item, f"{name}[{place}]", element, each) for place, each in enumerate(value))
     if kind in (int, float):
         return _checked_number(item, name, kind, value)
+    if kind is Scalar:
+        return _checked(item, name, type(value) if isinstance(value, bool | int | str) else float, value)
     if not isinstance(value, kind) or (kind is str and not _is_text(value, key_of(item).choices)):
         raise _unexpected(item, name, value)
     return value
@@ -275,7 +280,12 @@ def _nouns(kind: Any) -> tuple[str, str]:
     if get_origin(kind) is tuple:
         of = f"of {_list_length(kind) or 'one or more'} {_nouns(get_args(kind)[0])[1]}"
         return f"a list {of}", f"lists {of}"
-    return {int: ("a whole number", "whole numbers"), str: ("a text", "texts")}.get(kind, ("a number", "numbers"))
+    names = {
+        int: ("a whole number", "whole numbers"),
+        str: ("a text", "texts"),
+        Scalar: ("a number, a text, true or false", "numbers, texts, true or false"),
+    }
+    return names.get(kind, ("a number", "numbers"))
 
 
 def _list_length(kind: Any) -> int | None:

@@ -9,7 +9,7 @@ from dataclasses import Field
 from pathlib import Path
 
 from ..schema import Table, expected, holds_many, is_required, key_fields, key_of, subtable_class, subtable_fields
-from .file import toml_value
+from ..toml_tables import toml_value
 from .scenario import Scenario
 
 INTRODUCTION = """\

@@ -25,7 +25,7 @@ from bpy.props import (
 )
 
 from ...core.scenario import Charge, Scenario
-from ...core.scenario.file import read_scenario, toml_value
+from ...core.scenario.file import read_scenario
 from ...core.schema import (
     Key,
     Table,
@@ -40,6 +40,7 @@ from ...core.schema import (
     subtable_fields,
     value_type,
 )
+from ...core.toml_tables import toml_value
 
 PRESETS = Path(__file__).parent / "presets"
 DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"

@@ -17,7 +17,6 @@ import numpy as np
 
 from ...core.errors import BlastError, ScenarioError
 from ...core.scenario import Charge, Scenario
-from ...core.scenario.file import toml_value
 from ...core.scenario.kept import table_values, values_from_text, values_text
 from ...core.schema import (
     Table,
@@ -31,6 +30,7 @@ from ...core.schema import (
     subtable_class,
     value_type,
 )
+from ...core.toml_tables import toml_value
 from ...scene.blast.charges import charges_of, replace_charges
 from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length
 

@@ -1,0 +1,141 @@
+"""The tables of a study file, as checked values."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .. import schema
+from ..schema import LARGEST_INTEGER, Scalar, Table
+from .criteria import Criterion
+from .distributions import Choice, Distribution, Lognormal, Normal, Triangular, Uniform
+
+_NEEDED = {
+    "normal": ("mean", "deviation"),
+    "lognormal": ("median", "variation"),
+    "uniform": ("lowest", "highest"),
+    "triangular": ("lowest", "most_likely", "highest"),
+    "choice": ("values",),
+}
+"""Keys that a distribution cannot do without."""
+
+_TAKEN = _NEEDED | {name: (*_NEEDED[name], "lowest", "highest") for name in ("normal", "lognormal")}
+"""Keys that a distribution may have."""
+
+KEPT = ("outcome", "logs", "all")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Vary(Table):
+    """A key of the scenario whose value is drawn anew for each run, independently of all others. `scenario.seed`, which
+    cuts the shards, is always drawn and needs no such table.
+    """
+
+    table: ClassVar[str] = "vary"
+
+    key: str = schema.key(
+        "Which key, with its table: `ball.drop_height_m`. In lists, a name or a number from 1 says which: "
+        '`charges."mid pier".mass_kg`, `removals.2.time_s`, `ball.target_m.1`. Without it, the key of all tables of '
+        "the list is drawn, of each for itself: `charges.delay_ms`."
+    )
+    distribution: str = schema.key("How it scatters.", choices=tuple(_NEEDED))
+    mean: float | None = schema.key("Mean of a `normal` distribution.", default=None)
+    deviation: float | None = schema.key("Standard deviation of a `normal` distribution.", default=None, above=0)
+    median: float | None = schema.key("Median of a `lognormal` distribution.", default=None, above=0)
+    variation: float | None = schema.key(
+        "Coefficient of variation of a `lognormal` distribution: standard deviation by mean.",
+        default=None,
+        above=0,
+        at_most=10,
+    )
+    lowest: float | None = schema.key(
+        "Lowest value of a `uniform` or `triangular` distribution; of a `normal` or `lognormal` one, which is cut off "
+        "there, if it is to have one.",
+        default=None,
+    )
+    most_likely: float | None = schema.key("Where the density of a `triangular` distribution is highest.", default=None)
+    highest: float | None = schema.key("Highest value, as with `lowest`.", default=None)
+    values: tuple[Scalar, ...] | None = schema.key("Values of a `choice`, all equally likely.", default=None)
+    factor: bool = schema.key(
+        "Whether what is drawn is a factor on the scenario's own value, instead of a value in the key's unit.",
+        default=False,
+    )
+
+    @property
+    def drawn_from(self) -> Distribution:
+        """Return the distribution."""
+        ends = {name: getattr(self, name) for name in ("lowest", "highest") if getattr(self, name) is not None}
+        match self.distribution:
+            case "normal":
+                return Normal(self.mean, self.deviation, **ends)
+            case "lognormal":
+                return Lognormal(self.median, self.variation, **ends)
+            case "uniform":
+                return Uniform(self.lowest, self.highest)
+            case "triangular":
+                return Triangular(self.lowest, self.most_likely, self.highest)
+            case _:
+                return Choice(self.values)
+
+    def _check_together(self) -> None:
+        for name in ("mean", "deviation", "median", "variation", "lowest", "most_likely", "highest", "values"):
+            is_given = getattr(self, name) is not None
+            if is_given and name not in _TAKEN[self.distribution]:
+                raise self.unexpected(name, f'none with distribution "{self.distribution}"')
+            if not is_given and name in _NEEDED[self.distribution]:
+                raise self.unexpected(name, f'it with distribution "{self.distribution}"')
+        self._check_order()
+        if self.factor and self.values and not all(type(value) in (int, float) for value in self.values):
+            raise self.unexpected("factor", "false where values are not numbers")
+        _ = self.drawn_from  # refuses ends that leave nothing
+
+    def _check_order(self) -> None:
+        if self.lowest is not None and self.highest is not None and not self.lowest < self.highest:
+            raise self.unexpected("highest", f"more than vary.lowest, {self.lowest:g}")
+        if self.most_likely is not None and not self.lowest <= self.most_likely <= self.highest:
+            raise self.unexpected("most_likely", f"a number from vary.lowest to vary.highest, {self.highest:g}")
+        if self.distribution == "lognormal" and self.lowest is not None and self.lowest < 0.0:
+            raise self.unexpected("lowest", "at least 0 with a lognormal distribution")
+        if self.distribution == "lognormal" and self.highest is not None and self.highest <= 0.0:
+            raise self.unexpected("highest", "more than 0 with a lognormal distribution")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudySettings(Table):
+    """What is run, how often, and what is to be said of it."""
+
+    table: ClassVar[str] = "study"
+
+    scenario: str = schema.key("Path of the scenario file, from the study file's folder.")
+    runs: int = schema.key(
+        "Number of runs. It is fixed beforehand: whoever stops when a result pleases has no confidence to state.",
+        default=93,
+        at_least=1,
+        at_most=10_000_000,
+    )
+    seed: int = schema.key("Start of the random numbers of the study.", default=0, at_least=0, at_most=LARGEST_INTEGER)
+    quantile: float = schema.key("Part of all runs that the limit is for.", default=0.95, at_least=0.5, at_most=0.9999)
+    confidence: float = schema.key(
+        "Probability with which the limit holds for that part.", default=0.95, at_least=0.5, at_most=0.9999
+    )
+    rank: int = schema.key(
+        "Which of the farthest reaches is the limit, counted from the largest and fixed beforehand: with 2 it scatters "
+        "less than with 1, but needs more runs.",
+        default=2,
+        at_least=1,
+        at_most=1000,
+    )
+    least_mass_kg: float = schema.key(
+        "Lightest shard that is a hazard: the reach does not count lighter ones.", default=0.0, unit="kg", at_least=0
+    )
+    time_limit_s: float | None = schema.key(
+        "Time after which a run is ended that hangs; it counts as one of unlimited reach. By default none.",
+        default=None,
+        unit="s",
+        above=0,
+    )
+    keep: str = schema.key(
+        "What is kept of each run: its `outcome`, its `logs` as well, or `all` that `bda run` keeps.",
+        default="outcome",
+        choices=KEPT,
+    )
+    vary: tuple[Vary, ...] = ()
+    criteria: tuple[Criterion, ...] = ()
