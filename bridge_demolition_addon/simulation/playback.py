@@ -102,6 +102,25 @@ class Playing:
             raise SimulationError("the recording was ended by someone else")
 
 
+def play(recording: Recording, stop_at: Rest | None = None) -> Playing:
+    """Play all frames of the scene of a recording, and end the recording.
+
+    Raises
+    ------
+    DemolitionError
+        It ended before its time.
+    """
+    playing = Playing(recording, stop_at)
+    try:
+        while not playing.finished:
+            playing.step()
+    finally:
+        playing.end()
+    if recording.error:
+        raise recording.error
+    return playing
+
+
 def start_over(scene: bpy.types.Scene) -> None:
     """Go to the start frame, and have frames that were played before simulated again instead of played back."""
     world = scene.rigidbody_world

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..core.results.arrays import Results
-from ..core.results.fingerprint import result_digest
+from ..core.results.fingerprint import motion_digest, result_digest
 from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
 from ..core.sequence.rest import Rest, last_event_s
@@ -74,9 +74,10 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
 
 
 def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
-    """Digests of what was built and of what came out, and what it was calculated with."""
+    """Digests of what was built, how it moved and what came out, and what it was calculated with."""
     return {
         "built": recording.built_digest,
+        "motion": motion_digest(results),
         "result": result_digest(results),
         "processor": _processor(),
         "system": f"{platform.system()} {platform.machine()}",

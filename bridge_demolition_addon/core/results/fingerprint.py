@@ -1,14 +1,15 @@
 """Digests by which two people see at once whether they have the same run.
 
-The same bits give the same digest. One digest is of what was built, the other of what came out. Where the first
-differs, something else was simulated. Where only the second does, Blender's own arithmetic differs.
+The same bits give the same digest. One digest is of what was built, one of how everything moved and broke, and one of
+all that came out. Where the first differs, something else was simulated. Where only the others do, Blender's own
+arithmetic differs.
 """
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,15 @@ def digest(parts: Mapping[str, Any]) -> str:
 def built_digest(inventory: Inventory, **more: Any) -> str:
     """Return the digest of bodies and connections, and of all else that decides what will happen, by names."""
     return digest({each.name: getattr(inventory, each.name) for each in fields(inventory)} | more)
+
+
+def motion_digest(results: Results) -> str:
+    """Return the digest of how all bodies moved, what broke and what exploded: all of frames but loads and work.
+
+    It is the same whether loads were recorded or not.
+    """
+    parts = {each.name: getattr(results.frames, each.name) for each in fields(results.frames)}
+    return digest({name: part for name, part in parts.items() if not is_dataclass(part)})
 
 
 def result_digest(results: Results) -> str:

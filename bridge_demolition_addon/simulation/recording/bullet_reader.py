@@ -39,6 +39,8 @@ class BulletReader:
         What explodes.
     every_substep : bool
         Whether loads are read after every sub-step, or only after the last one of each frame.
+    loads : bool
+        Whether loads and work are read at all.
 
     Attributes
     ----------
@@ -58,6 +60,7 @@ class BulletReader:
         blast: Blast | None,
         *,
         every_substep: bool,
+        loads: bool,
     ):
         self._scene, self._world, self._every_substep = scene, world, every_substep
         self._inventory = inventory
@@ -84,6 +87,7 @@ class BulletReader:
             work,
             elastic,
             every_substep=every_substep,
+            loads=loads,
         )
         after = self._substeps.after_substep if every_substep else None
         if elastic and not every_substep:

@@ -36,6 +36,8 @@ from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader
 from .recordable import check_recordable
 
+WITHOUT_LOADS = "motion and breaking, without loads"
+
 
 class Recording:
     """Records one scene from its start frame on; a simulation that starts again is recorded from its beginning.
@@ -50,6 +52,9 @@ class Recording:
         Whether loads are read after every sub-step, or only after the last one of each frame.
     log_files : LogFiles or None
         Logs that do not go to the folder; all do by default.
+    loads : bool
+        Whether loads and work are recorded and logs written. Without them a run takes less time and comes to the same:
+        motion and breaking have the same bits.
 
     Raises
     ------
@@ -76,7 +81,13 @@ class Recording:
     """
 
     def __init__(
-        self, scene: bpy.types.Scene, folder: Path, *, every_substep: bool = True, log_files: LogFiles | None = None
+        self,
+        scene: bpy.types.Scene,
+        folder: Path,
+        *,
+        every_substep: bool = True,
+        log_files: LogFiles | None = None,
+        loads: bool = True,
     ):
         check_recordable(scene)
         rewrite_thresholds(scene)  # the step may have changed since the scene was built
@@ -86,7 +97,7 @@ class Recording:
         self.error: Exception | None = None
         self.distrust: LayoutError | None = None
         self._every_substep = every_substep
-        self._log_files = log_files or LogFiles()
+        self._log_files, self._loads = log_files or LogFiles(), loads
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         check_blast(scene, self._bodies)
@@ -257,6 +268,8 @@ class Recording:
     def _reading(self) -> str:
         if self.distrust:
             return READING_OF_MOTION
+        if not self._loads:
+            return WITHOUT_LOADS
         return "every sub-step" if self._every_substep else "last sub-step of each frame"
 
     def _follow_bullet(self, depsgraph: bpy.types.Depsgraph) -> None:
@@ -297,9 +310,10 @@ class Recording:
         self.forget()
         self._blast = Blast(self.scene, self._bodies, self.inventory, world) if goes_off(self.scene) else None
         self.built_digest = self._digest()
-        charges = [charge.name for charge in self._blast.charges] if self._blast else ()
         self._stream = FrameStream(self.folder, self._reading, self.inventory)
-        self._logs = Logs(self.folder, self.inventory, charges, self._log_files)
+        if self._loads:
+            charges = [charge.name for charge in self._blast.charges] if self._blast else ()
+            self._logs = Logs(self.folder, self.inventory, charges, self._log_files)
 
     def _digest(self) -> str:
         """Digest of all that decides what will happen: bodies, connections, what breaks them, and loads."""
@@ -369,7 +383,8 @@ class Recording:
         elif substep > 0.0:
             frame, breaks = self._reader.read_frame(substep)
             self._keep(frame, self._reader.take_ball_history())
-            self._logs.write_breaks(frame.number, breaks)
+            if self._logs:
+                self._logs.write_breaks(frame.number, breaks)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin(self) -> None:
@@ -386,6 +401,7 @@ class Recording:
             self.inventory,
             self._blast,
             every_substep=self._every_substep,
+            loads=self._loads,
         )
 
     def _keep(self, frame: Frame, balls: BallHistory) -> None:
@@ -397,6 +413,7 @@ class Recording:
             frame = replace(frame, blast_impulses_ns=impulses)
         self._stream.append(frame, balls)
         self._last = frame
-        self._logs.write_frame(frame)
-        if exploded:
-            self._logs.write_blast(frame, blast_loads, frame_s)
+        if self._logs:
+            self._logs.write_frame(frame)
+            if exploded:
+                self._logs.write_blast(frame, blast_loads, frame_s)

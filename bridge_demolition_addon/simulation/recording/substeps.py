@@ -2,7 +2,8 @@
 
 While Bullet waits, no more is done than copying what it holds and breaking what is overloaded. The loads of many
 sub-steps are then worked out at once, which takes a fraction of the time: all those of a frame, or as many as fit into
-`_BATCH_BYTES`. In larger models that is done beside Bullet, in a thread of its own.
+`_BATCH_BYTES`. In larger models that is done beside Bullet, in a thread of its own. Where loads are not wanted, nothing
+is copied that does not decide what breaks.
 """
 
 from __future__ import annotations
@@ -77,8 +78,8 @@ class _Substep:
 
     Attributes
     ----------
-    snapshot : Snapshot
-        What Bullet held after it.
+    snapshot : Snapshot or None
+        What Bullet held after it; None where nobody needs it.
     substep_s, end_s : float
         Its length, and simulated time at its end.
     ties_n : (m, 3) float or None
@@ -91,7 +92,7 @@ class _Substep:
         What broke before it.
     """
 
-    snapshot: Snapshot
+    snapshot: Snapshot | None
     substep_s: float
     end_s: float
     ties_n: np.ndarray | None
@@ -123,6 +124,8 @@ class SubstepRecorder:
         The connections, where they are elastic.
     every_substep : bool
         Whether every sub-step is recorded: the work of a frame is known only then.
+    loads : bool
+        Whether loads and work are recorded. What comes to pass is the same without them.
 
     Attributes
     ----------
@@ -146,6 +149,7 @@ class SubstepRecorder:
         elastic: ElasticConnections | None = None,
         *,
         every_substep: bool,
+        loads: bool,
     ):
         self.elapsed_s = 0.0
         self.seconds = 0.0
@@ -169,6 +173,7 @@ class SubstepRecorder:
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
         self._cuts = SectionCuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
+        self._unknown = None if loads else (self._frame.finish().unknown(), FrameWork.unknown(len(inventory.masses_kg)))
         self._intact = world.intact()
         self._waiting: list[_Substep] = []
         self._background = BackgroundWork()
@@ -247,7 +252,10 @@ class SubstepRecorder:
             return
         began = time.perf_counter()
         try:
-            self._record(substep_s)
+            if self._unknown:
+                self._follow(substep_s)
+            else:
+                self._record(substep_s)
             if self._is_worth_handing_over():
                 self._hand_over()
         except Exception as error:  # whoever follows the frames raises it there
@@ -275,6 +283,8 @@ class SubstepRecorder:
         LayoutError
             Bullet's memory was not as expected.
         """
+        if self._unknown:
+            return *self._unknown, []
         self._background.finish()
         waiting, self._waiting = self._waiting, []
         self._work_out(waiting, work_counts=self._work_counts)
@@ -303,7 +313,7 @@ class SubstepRecorder:
             self._hand_over()
             self._work_counts = not self._is_warming_up
         snapshot = self._snapshot(substep_s)
-        ties_n = self._reinforcement.forces_n.copy() if self._reinforcement else None
+        ties_n = self._tie_forces()
         intact = snapshot.intact.copy()
         intact[self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, _NONE))] = False
         broken = np.flatnonzero(self._intact & ~intact)
@@ -312,6 +322,18 @@ class SubstepRecorder:
         foreseen, self._foreseen = self._foreseen, []
         self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken, stored_j, foreseen))
         self._world.let_broken_collide(intact)
+
+    def _follow(self, substep_s: float) -> None:
+        """Break what is overloaded in a sub-step of which no loads are kept, and let go of what is broken."""
+        self.elapsed_s += substep_s
+        snapshot = self._snapshot(substep_s) if self._breaking.strength or self._elastic else None
+        self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, self._tie_forces(), _NONE))
+        self._foreseen = []
+        self._intact = self._world.intact()
+        self._world.let_broken_collide(self._intact)
+
+    def _tie_forces(self) -> np.ndarray | None:
+        return self._reinforcement.forces_n.copy() if self._reinforcement else None
 
     def _snapshot(self, substep_s: float) -> Snapshot:
         """What Bullet holds, with the loads of elastic connections, of which it knows only what contacts change."""

@@ -1,0 +1,59 @@
+"""A run of which only motion and breaking are wanted, as in a study: no loads, no logs, no pictures, no scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..core.results.arrays import Results
+from ..core.scenario import Scenario
+from ..core.signals import interrupted_afterwards
+from ..core.structure.model import Model
+from ..scene.demolition import build_demolition
+from .playback import play
+from .recording.recorder import Recording
+from .run_summary import RunContext, rest_watch, run_summary
+
+
+@contextmanager
+def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple[Results, dict[str, Any]]]:
+    """Simulate a scenario in an otherwise empty Blender file, and give what came to pass until the block ends.
+
+    Motion and breaking have the same bits as those of `run_scenario`; loads and work are unknown.
+
+    Parameters
+    ----------
+    scenario, model
+        What to simulate, and its model.
+    folder
+        Existing folder in which frames are kept meanwhile.
+
+    Returns
+    -------
+    Results, dict
+        What was recorded, and its summary, as in ``summary.json``.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written to.
+    SimulationError, LayoutError
+        The simulation cannot be run or read.
+    """
+    with interrupted_afterwards():
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)  # add-ons stay, one of which this may be
+    scene = bpy.context.scene
+    build_demolition(scene, scenario, model)
+    context = RunContext.of(scene, scenario.title, scenario)
+    rest = rest_watch(scenario) if scenario.time.stop_at_rest else None
+    recording = Recording(scene, folder, every_substep=scenario.recording.every_substep, loads=False)
+    try:
+        play(recording, stop_at=rest)
+        results = recording.results()
+        yield results, run_summary(recording, results, context, completed=True)
+    finally:
+        recording.forget()
