@@ -13,6 +13,9 @@ from ..geometry.plan_areas import united
 from ..geometry.vectors import transformed
 from ..results.arrays import Results
 
+_STRAIGHT_SIDE_M = 1e-5
+"""What leaves a straight line by no more is one."""
+
 _STRAIGHT_M = 0.01
 """How far corners may stray from a place, or from a straight way, whose hull is then too large by no more."""
 
@@ -63,16 +66,22 @@ def swept_footprint(results: Results, bodies: Sequence[int]) -> CrossSection:
     # Body by body first: thousands of areas that all overlap take a hundred times as long at once.
     areas = [at_first]
     for body in bodies:
-        plans = _plans(results, body, own[body])
+        plans = plans_of(results, body, own[body])
         if not _covers_box(at_first, plans):  # most debris falls down within what the bridge covered
             areas.append(CrossSection.batch_boolean(_sweeps(plans), OpType.Add))
     return united(areas)
 
 
-def _plans(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
+def plans_of(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
     """Corners (k, v, 2) of a body in plan at all recorded steps."""
     places, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
     return transformed(rotations[:, None], corners) + places[:, None]
+
+
+def straightened(area: CrossSection) -> CrossSection:
+    """Return an area with fewer sides: the edge of a deck is a line of a thousand, one for each shard at it."""
+    fewer = area.simplify(_STRAIGHT_SIDE_M)
+    return area if fewer.is_empty() else fewer
 
 
 def _covers_box(area: CrossSection, points: np.ndarray) -> bool:

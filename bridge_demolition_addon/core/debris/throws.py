@@ -13,10 +13,7 @@ from ..geometry.plan_areas import distances_outside
 from ..geometry.vectors import dot, transformed
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, throw, travel
-from .footprint import corners_at, footprint
-
-_STRAIGHT_M = 1e-5
-"""What leaves a straight line by no more is one."""
+from .footprint import corners_at, footprint, straightened
 
 PERCENTS = (50, 75, 90, 95, 99, 100)
 
@@ -74,9 +71,7 @@ def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray
     """Return how far bodies with these corners, d times (v, 3), stick out of an outline in plan, (d,)."""
     if not len(corners):
         return np.zeros(0)
-    # The edge of a deck is a line of a thousand sides, one for each shard at it.
-    smooth = outline.simplify(_STRAIGHT_M)
-    distances = distances_outside(outline if smooth.is_empty() else smooth, np.concatenate(corners)[:, :2])
+    distances = distances_outside(straightened(outline), np.concatenate(corners)[:, :2])
     counts = [len(each) for each in corners]
     return np.maximum.reduceat(distances, np.cumsum([0, *counts[:-1]]))
 

@@ -14,10 +14,11 @@ from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown
 from ..toml_tables import table_of_document, tables_text, toml_document
-from .criteria import Criterion
+from .criteria import Criterion, check_criteria
 from .distributions import Distribution
 from .keys import ScenarioKey, changed, keys_named
 from .settings import StudySettings, Vary
+from .statements import check_runs
 
 MOST_BYTES = MEGABYTE
 """Size up to which a study file is read."""
@@ -115,6 +116,8 @@ def study_of(settings: StudySettings, scenario: Scenario) -> Study:
     ScenarioError
         The scenario lacks what is varied or asked, or a draw could not be run.
     """
+    check_runs(settings.runs, settings.quantile, settings.confidence, settings.rank)
+    check_criteria(settings.criteria, scenario)
     variations: dict[str, Variation] = {}
     for number, vary in enumerate(settings.vary, start=1):
         try:
