@@ -23,6 +23,12 @@ _PLACE = 1e-6
 
 _SAME_VALUE = 1e-6
 
+_SOFTEST = 0.5
+"""Largest softness of a row: Bullet's solver diverges from 1 on."""
+
+_FREE_FROM = 2.0
+"""Softness from which on a row is freer if it is left free than if it is as soft as rows can be."""
+
 _TURNS_THE_OTHER_WAY = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])[:, None]
 """Bullet takes limits of turns with the opposite sign."""
 
@@ -56,6 +62,7 @@ class ConstraintRows:
             self._check(address, name)
         self._limits = self._doubles(layout.spring.lower)
         self.held = self._limits == self._doubles(layout.spring.upper)
+        self._answers = self.held.copy()
 
     def frames(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Return axes (3, 3, k) and places (3, k) of the frames in Bullet's body A, and those in its body B."""
@@ -68,17 +75,21 @@ class ConstraintRows:
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of constraints (r,) corrected in a sub-step, as softly as given.
 
+        What is softer than the solver can be is left free: it hardly answers in a sub-step.
+
         Parameters
         ----------
         rows
             (r,) constraints that still exist, as for all that is written.
         softness
-            (6, r) the rows' effective masses by their stiffness against impulses, below 1.
+            (6, r) the rows' effective masses by their stiffness against impulses.
         """
-        self._write(rows, 1.0, softness, ALL_ROWS_SET)
+        self._answers[:, rows] = self.held[:, rows] & (softness < _FREE_FROM)
+        self._write(rows, 1.0, np.minimum(softness, _SOFTEST), ALL_ROWS_SET)
 
     def restore(self, rows: np.ndarray) -> None:
         """Leave constraints (r,) as Blender made them."""
+        self._answers[:, rows] = self.held[:, rows]
         self._hold_at(rows, self._limits[:, rows])
         self._write(rows, SPRING_CORRECTION, 0.0, 0)
 
@@ -90,9 +101,9 @@ class ConstraintRows:
         self._hold_at(rows, deformations * _TURNS_THE_OTHER_WAY)
 
     def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
-        held = self.held[:, rows]
-        for offsets in (self._layout.spring.lower, self._layout.spring.upper):
-            write_doubles(self._fields(offsets, rows)[held], limits[held])
+        held, answers = self.held[:, rows], self._answers[:, rows]
+        for offsets, when_free in ((self._layout.spring.lower, 1.0), (self._layout.spring.upper, -1.0)):
+            write_doubles(self._fields(offsets, rows)[held], np.where(answers, limits, when_free)[held])
 
     def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray | float, flags: int) -> None:
         spring = self._layout.spring

@@ -89,10 +89,9 @@ class BulletReader:
             every_substep=every_substep,
             loads=loads,
         )
-        after = self._substeps.after_substep if every_substep else None
-        if elastic and not every_substep:
-            after = self._substeps.note_contacts
-        world.call_around_substeps(self._substeps.before_substep, after)
+        world.call_around_substeps(
+            self._substeps.before_substep, self._substeps.after_substep if every_substep else None
+        )
 
     def close(self) -> None:
         """Read nothing any more; what is still worked out is waited for."""

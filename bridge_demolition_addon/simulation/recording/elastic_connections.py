@@ -10,14 +10,12 @@ import numpy as np
 
 from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import check_frames
-from ...bullet.contacts import Contacts
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
 from ...core.elasticity.equilibrium import Equilibrium, equilibrium
 from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
 from ...core.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...core.elasticity.structure import BodyStates, ElasticStructure
-from ...core.geometry.vectors import cross
 from ...core.mechanics.section_forces import section_axes
 from ...core.results.inventory import Inventory
 from ...scene.world import scene_time_step
@@ -43,10 +41,6 @@ class Elasticity:
     frequency_hz: float
     damping_ratio: float
     held_bodies: int
-
-
-_SOFTEST = 0.5
-"""Largest softness of a row: Bullet's solver diverges from 1 on."""
 
 
 class ElasticConnections:
@@ -104,7 +98,6 @@ class ElasticConnections:
         self._rest = self._settle(motion)
         self._structure: ElasticStructure | None = None
         self._built = motion
-        self._contact_loads = np.zeros((6, len(self._masses)))
         self._substep_s = 0.0
         self._loads = np.zeros((2, 6, len(self._frames)))
         world.hold_connections()
@@ -123,13 +116,12 @@ class ElasticConnections:
         self._motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
-        pushed = motion.loads + self._contact_loads
         velocities = power(self._left_per_second, substep_s) * motion.velocities
-        velocities += substep_s * self._accelerations(motion, pushed)
+        velocities += substep_s * self._accelerations(motion, motion.loads)
         self._states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
-        """Work out the sub-step with what is intact, as if contacts did what they did in the last.
+        """Work out the sub-step with what is intact, as if there were no contacts.
 
         Returns
         -------
@@ -150,18 +142,6 @@ class ElasticConnections:
         self._reader.set_loads(moved, motion.loads[:, moved] + step.of_bodies[:, moved] / self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
         self._structure.end_substep()
-
-    def after_substep(self, contacts: Contacts, substep_s: float) -> None:
-        """Note what contacts did in a sub-step: connections expect as much of them in the next."""
-        centres = self._reader.read().positions_m.T
-        impulses, count = contacts.impulses_ns, len(self._masses)
-        loads = np.zeros((6, count))
-        for side, sign in ((0, 1.0), (1, -1.0)):
-            bodies = contacts.pairs[:, side]
-            each = sign * impulses
-            turning = cross(contacts.places_m - centres[bodies], each)
-            loads += np.stack([np.bincount(bodies, column, count) for column in (*each.T, *turning.T)])
-        self._contact_loads = loads / substep_s
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray:
         """Return the energy that is now in connections (m,) that are intact."""
@@ -206,15 +186,15 @@ class ElasticConnections:
             )
             self._damping_s = damping_s
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
-        # What sleeps is held as it is, in the sub-step in which Bullet finds what wakes it.
         intact = np.flatnonzero(self._world.intact())
-        self._rows.expect(intact, places.deformations()[:, intact])
         rows = places.rows()
         inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._reader.inverse_inertias())
         diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
-        softness = np.minimum(1.0 / np.maximum(hardness, 1.0 / _SOFTEST), _SOFTEST)
+        softness = np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0)
         self._rows.soften(intact, softness[:, intact])
+        # What sleeps is held as it is, in the sub-step in which Bullet finds what wakes it.
+        self._rows.expect(intact, places.deformations()[:, intact])
 
     def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
         """Accelerations (6, n) by forces and torques (6, n)."""

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
@@ -65,16 +64,6 @@ class LoadReader:
         """Return what Bullet holds after the last sub-step."""
         return self._snapshots.take()
 
-    def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
-        """Return the contacts in snapshots.
-
-        Raises
-        ------
-        LayoutError
-            They are not as expected.
-        """
-        return self._snapshots.contacts(snapshots)
-
     def loads(self, snapshots: Sequence[Snapshot], bodies: BodyStates, substeps_s: np.ndarray) -> SubstepLoads:
         """Return the loads of sub-steps.
 
@@ -98,7 +87,7 @@ class LoadReader:
         rotations = taken(bodies.rotations.reshape(*bodies.positions.shape[:2], 9), self._bodies)
         points = carried_points(self._local_points, centres, rotations.reshape(*centres.shape, 3))
         moment = forces.moments_at(points, force, torque, centres)
-        contacts = self.contacts(snapshots)
+        contacts = self._snapshots.contacts(snapshots)
         return SubstepLoads(
             substeps_s=substeps_s,
             connection_forces_n=self._sign * force,
