@@ -20,6 +20,10 @@ class Progress:
         """Give how many parts of a stage are done."""
         self._show(done, total, f"{_counted(done, total)} {text}")
 
+    def draws(self, done: int, total: int, lost: int) -> None:
+        """Give how many draws of a study have ended, and how many of them otherwise than by being done."""
+        self._show(done, total, f"draw {_counted(done, total)}" + (f", {lost} not done" if lost else ""))
+
     def finish(self) -> None:
         """Leave the terminal ready for other output."""
 
@@ -64,7 +68,7 @@ class _Bar(tqdm):
 
 
 class PlainLines(Progress):
-    """Stages as lines, and a line after each tenth of the frames and at the end of parts."""
+    """Stages as lines, and a line after each tenth of the frames or draws and at the end of parts."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -74,10 +78,17 @@ class PlainLines(Progress):
         print(text, file=self._stream, flush=True)
 
     def frame(self, done: int, total: int, broken: int) -> None:
-        tenths = 10 * done // total
-        if tenths > self._tenths:
+        if self._begins_a_tenth(done, total):
             super().frame(done, total, broken)
+
+    def draws(self, done: int, total: int, lost: int) -> None:
+        if self._begins_a_tenth(done, total):
+            super().draws(done, total, lost)
+
+    def _begins_a_tenth(self, done: int, total: int) -> bool:
+        tenths, before = 10 * done // total, self._tenths
         self._tenths = tenths
+        return tenths > before
 
     def part(self, done: int, total: int, text: str) -> None:
         if done == total:

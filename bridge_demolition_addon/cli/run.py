@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from ..core.errors import OutputError, SimulationError
@@ -128,15 +129,8 @@ def _run_and_report(
 def _run_scenario(
     path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> Mapping[str, Any]:
-    try:
-        with interrupted_afterwards():
-            from ..simulation.run import run_scenario  # a scenario can be checked where Blender is not installed
-    except ModuleNotFoundError as error:
-        if error.name != "bpy":
-            raise
-        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
     with naming(path):
-        return run_scenario(
+        return _simulation().run_scenario(
             scenario,
             output,
             model=model,
@@ -145,6 +139,24 @@ def _run_scenario(
             film=arguments.film,
             progress=progress,
         )
+
+
+def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
+    """Run a scenario in place of what is in a folder, keep all but films, and return its summary."""
+    with _blender_silenced() if quiet else nullcontext():
+        return _simulation().run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress)
+
+
+def _simulation() -> ModuleType:
+    """Return what runs scenarios, which is loaded only now: they can be checked where Blender is not installed."""
+    try:
+        with interrupted_afterwards():
+            from ..simulation import run
+    except ModuleNotFoundError as error:
+        if error.name != "bpy":
+            raise
+        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
+    return run
 
 
 @contextmanager

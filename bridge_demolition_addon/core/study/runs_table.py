@@ -24,8 +24,9 @@ from ..reading import MEGABYTE, file_text
 RUN, STATUS = "run", "status"
 INPUT, OUTPUT = "in.", "out."
 
-DONE = "done"
-STATUSES = (DONE, "crashed", "timed_out", "out_of_memory", "killed", "refused", "failed")
+DONE, REFUSED, FAILED, CRASHED = "done", "refused", "failed", "crashed"
+TIMED_OUT, OUT_OF_MEMORY, KILLED = "timed_out", "out_of_memory", "killed"
+STATUSES = (DONE, REFUSED, FAILED, CRASHED, TIMED_OUT, OUT_OF_MEMORY, KILLED)
 """What became of a draw."""
 
 REACH = "reach_m"

@@ -1,0 +1,192 @@
+"""``bda study``: run a scenario many times with inputs drawn by chance, and say what holds for such runs."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from pathlib import Path
+
+from ..core.errors import OutputError, SimulationError
+from ..core.signals import Interrupted, signals_noted
+from ..core.study.conclusions import Conclusions
+from ..core.study.draws import draw_of, inputs_of
+from ..core.study.file import SEED, Study, read_study
+from ..core.study.runs_table import DONE
+from ..studies.draw_process import Limits
+from ..studies.draw_program import draw_command
+from ..studies.engine import Engine
+from ..studies.folder import (
+    AGAIN_FOLDER,
+    CONCLUSIONS_FILE,
+    DRAW_FOLDER,
+    RUNS_FILE,
+    SHEET_FILE,
+    TRIED_AGAIN,
+    StudyFolder,
+    end_in,
+    study_in,
+    versions_of,
+)
+from ..studies.local import LocalProcesses
+from ..studies.study_run import StudyRun
+from ..studies.versions import installed_blender, versions_with
+from .progress import Progress, progress_on
+from .run import run_with_everything
+
+_LOOK_EVERY_S = 0.2
+_SHOWN_DRAWS = 5
+_SHOWN_REASONS = 5
+_MOST_JOBS = 1000
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser(
+        "study",
+        help="run a scenario many times with inputs drawn by chance",
+        description="Run all draws of a study, each in a process of its own, and write runs.csv and study.json to DIR. "
+        "The same command goes on with a study that was stopped, and reruns nothing that is done.",
+        allow_abbrev=False,
+    )
+    parser.add_argument(
+        "study", metavar="STUDY.toml", help="study file, see docs/studies.md; with --again, the folder of a study"
+    )
+    parser.add_argument("--output", metavar="DIR", type=Path, help="folder of the study, made if new")
+    parser.add_argument("--jobs", metavar="N", type=_jobs, help="draws at a time (as many as this machine has cores)")
+    parser.add_argument(
+        "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
+    )
+    parser.add_argument("--report", action="store_true", help="make the report of the study at its end, in DIR/report")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--check", action="store_true", help="print some draws and how long it takes, and run nothing")
+    parser.add_argument(
+        "--again", metavar="N", type=_number, help="run draw N of a study once more, and keep everything"
+    )
+    parser.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Run a study, print what it would be, or run one of its draws once more."""
+    if arguments.again is not None:
+        _play_again(Path(arguments.study), arguments.again, quiet=arguments.quiet)
+        return
+    study = read_study(arguments.study)
+    if arguments.check:
+        for line in _facts(study, arguments):
+            print(line)
+        return
+    if arguments.output is None:
+        raise OutputError("--output is missing: name the folder of the study")
+    _run(study, arguments)
+
+
+def _run(study: Study, arguments: argparse.Namespace) -> None:
+    progress = progress_on(sys.stdout, quiet=arguments.quiet)
+    versions = versions_with(installed_blender())
+    with signals_noted() as signals, StudyFolder(arguments.output, study, versions) as folder:
+        with closing(_engine(study, versions, arguments)) as engine:
+            run = StudyRun(study, folder, engine, versions)
+            try:
+                _play(run, signals, progress)
+            finally:
+                progress.finish()
+                run.write_tables()
+        if signals:
+            raise Interrupted(signals[0])
+        said = run.write_conclusions()
+    if not arguments.quiet:
+        _print_results(study, run, said, arguments.output)
+
+
+def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
+    while not run.is_finished and not signals:
+        run.step(_LOOK_EVERY_S)
+        progress.draws(run.done, run.total, run.done - run.statuses.get(DONE, 0))
+
+
+def _engine(study: Study, versions: dict[str, str], arguments: argparse.Namespace) -> Engine:
+    jobs = arguments.jobs or os.cpu_count() or 1
+    return LocalProcesses(jobs, draw_command(), versions, Limits(study.settings.time_limit_s))
+
+
+def _print_results(study: Study, run: StudyRun, said: Conclusions, output: Path) -> None:
+    print()
+    for line in sentences(study, said):
+        print(line)
+    for number, reason in list(run.reasons.items())[:_SHOWN_REASONS]:
+        print(f"draw {number} is not done: {reason}")
+    if len(run.reasons) > _SHOWN_REASONS:
+        print(f"{len(run.reasons) - _SHOWN_REASONS} more are not done, see status in {RUNS_FILE}")
+    if again := sum(run.statuses.get(status, 0) for status in TRIED_AGAIN):
+        print(f"{again} of them were killed or had no memory: the same command runs these once more")
+    print()
+    for name in (RUNS_FILE, SHEET_FILE, CONCLUSIONS_FILE):
+        if (output / name).exists():
+            print(output / name)
+
+
+def sentences(study: Study, said: Conclusions) -> Iterator[str]:
+    """Yield what a study says, in one sentence each."""
+    exclusion = study.scenario.exclusion
+    settings = study.settings
+    names = [SEED, *(each.key.name for each in study.variations)]
+    yield said.reach.sentence(names, settings.least_mass_kg, exclusion.buffer_m if exclusion else None)
+    yield said.reach.spread_sentence
+    for each in said.criteria:
+        yield each.success_sentence
+    if said.success and len(said.criteria) > 1:
+        yield said.success.success_sentence
+
+
+def _facts(study: Study, arguments: argparse.Namespace) -> Iterator[str]:
+    """Yield lines on draws that there would be."""
+    settings = study.settings
+    yield study.scenario.title
+    yield ""
+    yield f"{settings.runs} draws, of which the first are:"
+    for number in range(1, min(settings.runs, _SHOWN_DRAWS) + 1):
+        values = ", ".join(f"{name} {_shown(value)}" for name, value in inputs_of(study, number).items())
+        yield f"{number:>5}  {values}"
+
+
+def _shown(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _play_again(path: Path, number: int, *, quiet: bool) -> None:
+    """Run a draw of the study in a folder once more with everything, and see that it comes to the same."""
+    study = study_in(path)
+    if number > study.settings.runs:
+        raise OutputError(f"--again {number}: the study in {path} has draws 1 to {study.settings.runs}")
+    draw = draw_of(study, number)
+    before = end_in(path / DRAW_FOLDER / draw.address(versions_of(path)))
+    progress = progress_on(sys.stdout, quiet=quiet)
+    output = path / AGAIN_FOLDER / str(number)
+    try:
+        summary = run_with_everything(draw.scenario, output, progress, quiet=quiet)
+    finally:
+        progress.finish()
+    if before is None or before.status != DONE:
+        return
+    differing = [name for name, digest in before.fingerprint.items() if summary["fingerprint"][name] != digest]
+    if differing:
+        raise SimulationError(f"{output}: draw {number} came to something else than in the study: {differing} differs")
+    if not quiet:
+        print(f"draw {number} came to the same as in the study, bit by bit: {output}")
+
+
+def _jobs(text: str) -> int:
+    return _whole(text, _MOST_JOBS)
+
+
+def _number(text: str) -> int:
+    return _whole(text, 10_000_000)
+
+
+def _whole(text: str, largest: int) -> int:
+    if not (text.isascii() and text.isdecimal() and len(text) < 9 and 1 <= int(text) <= largest):
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a whole number from 1 to {largest}")
+    return int(text)

@@ -1,0 +1,300 @@
+"""A process that runs draws, one after another: what becomes of it becomes of the draw at work and of nothing else.
+
+The program reads a request from its standard input, one line of JSON, and answers on its standard output with a line of
+JSON behind `MARK`; other lines there are somebody else's. Its first answer says which versions it runs. It leaves files
+in the folder that the request names.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import queue
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import OutputError, SimulationError
+from ..core.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT
+
+MARK = "bda-draw "
+"""What begins the program's own lines on its standard output."""
+
+UNWRITABLE = "unwritable"
+"""Status of an answer of a program that could not write; no draw's."""
+
+DRAWS_PER_PROCESS = 50
+"""After so many, a process is replaced: Blender gives back little of the memory that a draw took."""
+
+_LOOK_EVERY_S = 0.25
+_BY_SOMEBODY = [getattr(signal, name) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP") if hasattr(signal, name)]
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""Each process has a core of its own, and numpy's threads would wait for each other on it."""
+
+_ENDS_WITHIN_S = 30.0
+"""After its last answer, a core dump included."""
+
+_LAST_WORDS = 400
+_VMSTAT = Path("/proc/vmstat")
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """When a draw is ended.
+
+    Attributes
+    ----------
+    time_s : float or None
+        Wall time.
+    memory_mb : float or None
+        Memory of its process in MB.
+    """
+
+    time_s: float | None = None
+    memory_mb: float | None = None
+
+    def __post_init__(self):
+        if self.memory_mb is not None and sys.platform != "linux":
+            raise SimulationError("study.memory_limit_MB: the memory of a process can be watched on Linux only")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class End:
+    """What became of a draw.
+
+    Attributes
+    ----------
+    status : str
+        One of `STATUSES` of the table of runs.
+    reason : str
+        Why it is not done.
+    outputs, fingerprint : dict
+        What the program gave, where it is done: values, and digests of the run.
+    wall_time_s : float
+        How long it took.
+    """
+
+    status: str
+    reason: str = ""
+    outputs: Mapping[str, Any] = field(default_factory=dict)
+    fingerprint: Mapping[str, str] = field(default_factory=dict)
+    wall_time_s: float = 0.0
+
+
+class DrawProcess:
+    """Runs draws in a process, and starts another where that one ends.
+
+    Parameters
+    ----------
+    command
+        Program and arguments.
+    versions
+        What it has to run: from another version nothing is taken.
+    limits
+        When a draw is ended.
+    """
+
+    def __init__(self, command: Sequence[str], versions: Mapping[str, str], limits: Limits):
+        self._command, self._versions, self._limits = list(command), dict(versions), limits
+        self._program: _Program | None = None
+        self._closing = threading.Lock()
+        self._is_closed = False
+
+    def play(self, request: Mapping[str, Any], folder: Path) -> End:
+        """Run a draw whose files go to a folder, which is made anew.
+
+        A draw that takes the process with it is played once more in a fresh one, if it shared it with earlier draws, or
+        if somebody killed it: so how draws are spread over processes does not show.
+
+        Raises
+        ------
+        OutputError
+            The folder cannot be written to.
+        SimulationError
+            The program does not start, or runs other versions.
+        """
+        began = time.monotonic()
+        program = self._ready_program()
+        is_fresh = program.played == 0
+        end = self._play_once(program, request, folder, began)
+        if end.status is KILLED or (not is_fresh and end.status in (CRASHED, OUT_OF_MEMORY)):
+            end = self._play_once(self._ready_program(), request, folder, time.monotonic())
+        return end
+
+    def close(self) -> None:
+        """End the process, and the draw that is at work in it."""
+        with self._closing:
+            self._is_closed = True
+            program = self._program
+        if program:
+            program.end()
+
+    def _ready_program(self) -> _Program:
+        if self._program is None:
+            with self._closing:
+                if self._is_closed:
+                    raise SimulationError("the study was stopped")
+                self._program = _Program(self._command)
+            self._program.begin(self._versions)
+        return self._program
+
+    def _play_once(self, program: _Program, request: Mapping[str, Any], folder: Path, began: float) -> End:
+        _make_anew(folder)
+        answer = self._answer(program, {**request, "folder": str(folder)})
+        status = answer["status"]
+        if status not in (DONE, REFUSED) or program.played >= DRAWS_PER_PROCESS:
+            program.end()
+            self._program = None
+        if status == UNWRITABLE:
+            raise OutputError(answer["reason"])
+        given = {name: answer[name] for name in ("reason", "outputs", "fingerprint") if name in answer}
+        return End(status, **given, wall_time_s=time.monotonic() - began)
+
+    def _answer(self, program: _Program, request: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the program's answer, or what has to be said in its place."""
+        limits, began, kills = self._limits, time.monotonic(), _kills_for_memory()
+        program.ask(request)
+        while True:
+            left_s = math.inf if limits.time_s is None else limits.time_s - (time.monotonic() - began)
+            with suppress(queue.Empty):
+                answer = program.answers.get(timeout=min(_LOOK_EVERY_S, max(left_s, 0.0)))
+                return answer or _meaning(program.ended(), _kills_for_memory() > kills)
+            if left_s <= 0.0:
+                return {"status": TIMED_OUT, "reason": f"it took longer than {limits.time_s:g} s"}
+            if limits.memory_mb is not None and program.memory_mb() > limits.memory_mb:
+                return {"status": OUT_OF_MEMORY, "reason": f"it took more than {limits.memory_mb:g} MB"}
+
+
+class _Program:
+    """A program that runs, and a thread that reads its answers."""
+
+    def __init__(self, command: Sequence[str]):
+        self.played = 0
+        self.answers: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
+        self._last_words = tempfile.TemporaryFile()  # noqa: SIM115, open as long as the program
+        try:
+            self._process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._last_words,
+                env=os.environ | _ONE_THREAD,
+                text=True,
+                encoding="utf-8",
+                errors="replace",
+                # Ctrl-C is for the study, which ends its processes itself.
+                start_new_session=sys.platform != "win32",
+                creationflags=subprocess.CREATE_NEW_PROCESS_GROUP if sys.platform == "win32" else 0,
+            )
+        except OSError as error:
+            raise SimulationError(f"{command[0]}: draws cannot be run by it: {error.strerror}") from error
+        threading.Thread(target=self._read, name="answers of draws", daemon=True).start()
+
+    def begin(self, versions: Mapping[str, str]) -> None:
+        """Wait for the first answer, and see that the versions are those expected.
+
+        Raises
+        ------
+        SimulationError
+            They are not, or the program ended.
+        """
+        answer = self.answers.get()
+        if answer is None:
+            code = self.ended()
+            raise SimulationError(f"draws cannot be run: their program ended with status {code}: {self._said}")
+        if error := answer.get("error"):
+            self.end()
+            raise SimulationError(error)
+        other = {name: found for name, found in answer["versions"].items() if versions.get(name) != found}
+        if other:
+            self.end()
+            found = ", ".join(f"{name} {version} instead of {versions.get(name)}" for name, version in other.items())
+            raise SimulationError(f"draws would be run by other versions than those of the study: {found}")
+
+    def ask(self, request: Mapping[str, Any]) -> None:
+        """Hand over a request; one that has ended does not answer."""
+        self.played += 1
+        with suppress(OSError):
+            self._process.stdin.write(json.dumps(request) + "\n")
+            self._process.stdin.flush()
+
+    def memory_mb(self) -> float:
+        """Memory that the process has now; 0 once it has ended."""
+        try:
+            pages = Path(f"/proc/{self._process.pid}/statm").read_text(encoding="ascii").split()[1]
+        except (OSError, IndexError):
+            return 0.0
+        return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+    def ended(self) -> int:
+        """Return the exit status of a process that answers no more."""
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(_ENDS_WITHIN_S)
+        return self.end()
+
+    def end(self) -> int:
+        """End the process, where it has not, and return its exit status."""
+        self._process.kill()
+        code = self._process.wait()
+        with suppress(OSError):  # what it was still to be asked
+            self._process.stdin.close()
+        return code
+
+    @property
+    def _said(self) -> str:
+        self._last_words.seek(0)
+        lines = self._last_words.read().decode("utf-8", "replace").strip().splitlines()
+        return lines[-1][-_LAST_WORDS:] if lines else "it said nothing"
+
+    def _read(self) -> None:
+        with self._process.stdout as lines:
+            for line in lines:
+                if line.startswith(MARK):
+                    self.answers.put(json.loads(line.removeprefix(MARK)))
+        self.answers.put(None)
+
+
+def _meaning(code: int, for_memory: bool) -> dict[str, str]:
+    """Return what became of a draw whose process ended with a status, maybe as the system's memory had run out."""
+    if code >= 0:
+        return {"status": CRASHED, "reason": f"its process ended with status {code}"}
+    if -code not in _BY_SOMEBODY:
+        return {"status": CRASHED, "reason": f"its process crashed with {_signal_name(-code)}"}
+    if for_memory:
+        return {"status": OUT_OF_MEMORY, "reason": "the system ended its process, as memory had run out"}
+    return {"status": KILLED, "reason": f"its process was killed by {_signal_name(-code)}"}
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def _kills_for_memory() -> int:
+    """Return how many processes Linux has killed as memory had run out; 0 elsewhere."""
+    try:
+        lines = _VMSTAT.read_text(encoding="ascii").splitlines()
+    except OSError:
+        return 0
+    return next((int(line.split()[1]) for line in lines if line.startswith("oom_kill ")), 0)
+
+
+def _make_anew(folder: Path) -> None:
+    try:
+        if folder.exists():
+            shutil.rmtree(folder)
+        folder.mkdir(parents=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error

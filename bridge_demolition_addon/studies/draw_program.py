@@ -1,0 +1,97 @@
+"""The program that runs draws in Blender: ``python -m bridge_demolition_addon.studies.draw_program``.
+
+A request has the scenario of a draw and the study, both in TOML. The study says what is recorded: motion alone, or
+everything as `bda run` does.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ..core.disk import whole_file
+from ..core.results.arrays import Results, load_results
+from ..core.results.files import BLEND_FILE, FORCE_CHART, RESULTS_FILE
+from ..core.scenario import Scenario
+from ..core.scenario.file import scenario_from_text
+from ..core.sequence.checked_model import checked_model
+from ..core.study.outcome import outcome_of
+from ..core.study.settings import StudySettings
+from ..core.toml_tables import table_of_document, toml_document
+from .service import Service
+from .versions import versions_with
+
+OUTLINES_FILE = "outlines.npz"
+RUN_FOLDER = "run"
+"""In the folder of a draw, where more than its outcome is kept."""
+
+_ROOT = Path(__file__).resolve().parents[2]
+
+
+def draw_command() -> list[str]:
+    """Return the program and its arguments, run by this Python."""
+    start = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {__package__}.draw_program import main; main()"
+    return [sys.executable, "-c", start]
+
+
+def main() -> NoReturn:
+    """Answer requests until there are no more."""
+    service = Service()
+    try:
+        import bpy
+    except ModuleNotFoundError as error:
+        service.say({"error": f"Blender is not there: install the bpy package or run inside Blender ({error})"})
+        os._exit(1)
+    service.serve(versions_with(".".join(map(str, bpy.app.version))), play)
+
+
+def play(request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Run the draw of a request, leave its files in a folder, and return its outputs and its fingerprint."""
+    scenario = scenario_from_text(request["scenario"])
+    settings = table_of_document(StudySettings, toml_document(request["study"]))
+    if settings.keep == "outcome":
+        from ..simulation.motion_run import motion_run
+
+        with motion_run(scenario, checked_model(scenario), folder) as (results, summary):
+            return _kept(results, summary, scenario, settings, folder)
+    return _play_whole(scenario, settings, folder)
+
+
+def _play_whole(scenario: Scenario, settings: StudySettings, folder: Path) -> dict[str, Any]:
+    from ..simulation.run import run_scenario
+
+    run = folder / RUN_FOLDER
+    summary = run_scenario(scenario, run, overwrite=True, pictures=settings.keep == "all", progress=_NoProgress())
+    answer = _kept(load_results(run), summary, scenario, settings, folder)
+    if settings.keep == "logs":
+        for name in (RESULTS_FILE, BLEND_FILE, FORCE_CHART):
+            (run / name).unlink(missing_ok=True)
+    return answer
+
+
+def _kept(
+    results: Results, summary: Mapping[str, Any], scenario: Scenario, settings: StudySettings, folder: Path
+) -> dict[str, Any]:
+    outcome = outcome_of(results, summary, scenario, settings.criteria, settings.least_mass_kg)
+    with whole_file(folder / OUTLINES_FILE) as part:
+        np.savez_compressed(part, **outcome.outlines.arrays())
+    fingerprint = {name: summary["fingerprint"][name] for name in ("built", "motion")}
+    return {"outputs": outcome.outputs, "fingerprint": fingerprint}
+
+
+class _NoProgress:
+    """Nobody looks on."""
+
+    def stage(self, text: str) -> None:
+        """Say nothing."""
+
+    def frame(self, done: int, total: int, broken: int) -> None:
+        """Say nothing."""
+
+    def part(self, done: int, total: int, text: str) -> None:
+        """Say nothing."""

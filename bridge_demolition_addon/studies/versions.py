@@ -1,0 +1,47 @@
+"""What a draw's result depends on besides its inputs: the versions that calculate it."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from ..core.errors import SimulationError
+
+_LIBRARIES = ("numpy", "manifold3d", "qdldl", "scipy", "trimesh")
+_PACKAGE = Path(__file__).resolve().parents[1]
+_CALCULATING = ("bullet", "core", "scene", "simulation")
+"""Layers of this package that decide what comes out."""
+
+_SHORT = 12
+
+
+def installed_blender() -> str:
+    """Return the version of Blender's module, without loading it.
+
+    Raises
+    ------
+    SimulationError
+        It is not there.
+    """
+    try:
+        return version("bpy")
+    except PackageNotFoundError as error:
+        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
+
+
+def versions_with(blender: str) -> dict[str, str]:
+    """Return all versions, with that of a Blender; those of this package and its libraries are the ones here."""
+    return {"blender": blender, "bridge_demolition_addon": _code(), **{name: version(name) for name in _LIBRARIES}}
+
+
+@cache
+def _code() -> str:
+    """Digest of this package's own code, of which the same version may have many."""
+    found = hashlib.sha256()
+    for layer in _CALCULATING:
+        for path in sorted((_PACKAGE / layer).rglob("*.py")):
+            found.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")
+            found.update(path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return found.hexdigest()[:_SHORT]
