@@ -310,6 +310,9 @@ def test_a_span_rests_in_blender_as_it_does_without(blender, tmp_path, elastic_s
     speeds = np.linalg.norm(results.frames.velocities_m_s, axis=2)
     assert speeds.max() < still_m_s
     assert results.frames.intact.all()
+    # The first frame shows them as they were built, so that displacements are those under load.
+    sag = results.frames.positions_m[0, :, 2] - results.frames.positions_m[-1, :, 2]
+    assert sag.max() == pytest.approx(summary["elasticity"]["sag_m"], rel=0.02)
     # All of the weight goes to the ground, where columns stand on it.
     weight = results.inventory.masses_kg.sum() * GRAVITY
     feet = results.inventory.body_kinds[results.inventory.pairs[:, 1]] == "ground"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,10 +44,17 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
     unit, ticks = unit_of(settings.quantity, max(abs(scale.low), abs(scale.high))), scale.ticks()
     return ColourBar(
         title=TITLES[settings.quantity],
-        subtitle="peak so far" if settings.peak else "",
+        subtitle=", ".join(_what_is_shown(settings)),
         unit=f"({unit.name})",
         tick_shares=scale.shares(ticks),
         tick_texts=tuple(tick_text(tick / unit.size) for tick in ticks),
         frame=f"frame {frame.frame}",
         time=f"{frame.time_s:.3f} s",
     )
+
+
+def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
+    if settings.peak:
+        yield "peak so far"
+    if settings.magnification != 1.0:
+        yield f"shape × {settings.magnification:g}"

@@ -5,12 +5,13 @@ from __future__ import annotations
 import bisect
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
 
 from ..errors import ContourError
+from ..geometry.rotations import rotated, rotation_vectors
 from ..geometry.vectors import length
 from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.stress import principal_stresses
@@ -28,6 +29,7 @@ class Quantity(StrEnum):
     SUM = "sum"
     VON_MISES = "von Mises"
     PRINCIPAL = "principal"
+    DISPLACEMENT = "displacement"
 
 
 TITLES = {
@@ -36,10 +38,11 @@ TITLES = {
     Quantity.SUM: "Sum of forces",
     Quantity.VON_MISES: "Von Mises stress",
     Quantity.PRINCIPAL: "Largest principal stress",
+    Quantity.DISPLACEMENT: "Displacement",
 }
 
 STRESSES = (Quantity.VON_MISES, Quantity.PRINCIPAL)
-"""Quantities in Pa; all others are in N."""
+"""Quantities in Pa. Displacement is in m, and all others are in N."""
 
 
 class RangeKind(StrEnum):
@@ -63,13 +66,15 @@ class ContourSettings:
     range_kind
         Of all frames so far, of each frame by itself, or fixed.
     low, high
-        The fixed range, N or Pa.
+        The fixed range, N, Pa or m.
     logarithmic
         Whether equal steps of colour stand for equal ratios. Signs are left out then.
     decades
         Powers of ten in an automatic range that is logarithmic.
     colour_map
         Which colours.
+    magnification
+        How many times as far as they are displaced bodies are shown.
 
     Raises
     ------
@@ -85,6 +90,7 @@ class ContourSettings:
     logarithmic: bool = False
     decades: float = 3.0
     colour_map: ColourMap = ColourMap.BLUE_TO_RED
+    magnification: float = 1.0
 
     def __post_init__(self) -> None:
         if self.range_kind != RangeKind.FIXED:
@@ -136,10 +142,19 @@ class Unit:
 
 
 def unit_of(quantity: Quantity, high: float) -> Unit:
-    """Return the unit for a quantity whose largest magnitude is `high`, in N or Pa."""
+    """Return the unit for a quantity whose largest magnitude is `high`, in N, Pa or m."""
     if quantity in STRESSES:
         return Unit("N/mm²", 1e6) if high >= 1e4 else Unit("kPa", 1e3)
+    if quantity == Quantity.DISPLACEMENT:
+        return Unit("m", 1.0) if high >= 1.0 else Unit("mm", 1e-3)
     return Unit("MN", 1e6) if high >= 1e6 else Unit("kN", 1e3) if high >= 1e3 else Unit("N", 1.0)
+
+
+def unit_of_range(quantity: Quantity) -> Unit:
+    """Return the unit in which a fixed range is given."""
+    if quantity == Quantity.DISPLACEMENT:
+        return Unit("mm", 1e-3)
+    return Unit("N/mm²", 1e6) if quantity in STRESSES else Unit("kN", 1e3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +166,7 @@ class ContourFrame:
     frame, time_s
         Which.
     values : (n,) float
-        N or Pa; nan where a body has no value.
+        N, Pa or m; nan where a body has no value.
     scale
         The range.
     screen_colours : (n, 3) float
@@ -229,8 +244,20 @@ class ContourSeries:
         """Return the frame of a row as it was recorded."""
         return self.recorded[row]
 
+    def magnified(self, row: int, magnification: float) -> Frame:
+        """Return the frame of a row with its bodies displaced and turned so many times as much as they are."""
+        frame, first = self.recorded[row], self.recorded[0]
+        if magnification == 1.0:
+            return frame
+        turns = rotation_vectors(first.rotations, frame.rotations)
+        return replace(
+            frame,
+            positions_m=first.positions_m + magnification * (frame.positions_m - first.positions_m),
+            rotations=rotated(first.rotations, magnification * turns),
+        )
+
     def values(self, row: int, quantity: Quantity, *, peak: bool = False) -> np.ndarray:
-        """Return the values (n,) of a row, N or Pa; nan for bodies that do not move and where nothing is known."""
+        """Return the values (n,) of a row, N, Pa or m; nan for bodies that do not move and where nothing is known."""
         self._fill(quantity, peak)
         return self._values[quantity, peak][row]
 
@@ -242,7 +269,7 @@ class ContourSeries:
         return ContourFrame(self._numbers[row], self._times_s[row], values, scale, painted)
 
     def extent(self, row: int | None, quantity: Quantity, *, peak: bool = False) -> tuple[float, float]:
-        """Return the lowest and highest value, N or Pa, of a row, or of all rows for None; 0 is always among them.
+        """Return the lowest and highest value, N, Pa or m, of a row, or of all rows for None; 0 is always among them.
 
         As in 2019 a range has 0 in it, so that what is free of load has the colour of that.
         """
@@ -266,13 +293,19 @@ class ContourSeries:
         values = self._values.setdefault((quantity, peak), [])
         extents = self._extents.setdefault((quantity, peak), [])
         for row in range(len(values), len(self)):
-            loads = self.recorded[row].loads
-            found = np.where(self.moves, _peaks(quantity, loads) if peak else _means(quantity, loads), np.nan)
+            found = np.where(self.moves, self._found(row, quantity, peak), np.nan)
             if peak and values:
                 found = np.fmax(values[-1], found)
             known = found[np.isfinite(found)]
             values.append(found)
             extents.append((float(known.min(initial=0.0)), float(known.max(initial=0.0))))
+
+    def _found(self, row: int, quantity: Quantity, peak: bool) -> np.ndarray:
+        """Return the values (n,) of a row, whether bodies move or not."""
+        frame = self.recorded[row]
+        if quantity == Quantity.DISPLACEMENT:
+            return length(frame.positions_m - self.recorded[0].positions_m)
+        return _peaks(quantity, frame.loads) if peak else _means(quantity, frame.loads)
 
 
 def _means(quantity: Quantity, loads: FrameLoads) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 from ...core.display.contours import ContourFrame, ContourSeries, ContourSettings
 from ...core.errors import ContourError
 from ...core.results.arrays import Results
+from ...core.results.frames import Frame
 from ...scene.bodies import bodies_of
 from ...scene.rendering.body_colours import colours_are_shown, paint, place, show_colours, show_materials, unpaint
 from ..recording.recorder import Recording
@@ -49,6 +50,7 @@ class ContourDisplay:
 
     def show(self, settings: ContourSettings) -> None:
         """Colour the bodies from now on, whatever frame is gone to."""
+        self._show_true_shape()
         self.settings, self.error = settings, None
         if not colours_are_shown(self.scene):
             show_colours(self.scene)
@@ -56,6 +58,7 @@ class ContourDisplay:
 
     def hide(self) -> None:
         """Give the bodies their own colours and materials back."""
+        self._show_true_shape()
         self.settings = self.error = None
         show_materials(self.scene)
         unpaint(self.scene)
@@ -125,6 +128,21 @@ class ContourDisplay:
         world = self.scene.rigidbody_world
         return self._loaded is not None or not (world and world.enabled) or world.point_cache.is_outdated
 
+    @property
+    def magnification(self) -> float:
+        """How many times as far as they are displaced bodies are shown; while they are recorded, where they are."""
+        return 1.0 if self.settings is None or self.is_live else self.settings.magnification
+
+    def _show_true_shape(self) -> None:
+        """Show bodies that are magnified where they are: Blender does not know that they are shown elsewhere."""
+        series = self.series
+        row = series.row_at(self.scene.frame_current) if series else None
+        if row is None or self.magnification == 1.0:
+            return
+        for layer in self.scene.view_layers:
+            if layer.depsgraph:
+                self._place(layer.depsgraph, series, series.frame(row))
+
     def _followed(self) -> ContourSeries | None:
         """Return the series of the recording, with the frames that came since the last look."""
         if self.recording is None or not self.recording.recorded_frames:
@@ -141,9 +159,11 @@ class ContourDisplay:
             return
         frame, row = found
         series = self.series
+        if self.is_placed or self.magnification != 1.0:
+            self._place(depsgraph, series, series.magnified(row, self.magnification))
         rows = {name: row for row, name in enumerate(series.body_names)}
-        if self.is_placed:
-            moving = {name: body for name, body in rows.items() if series.moves[body]}
-            recorded = series.frame(row)
-            place(self.scene, depsgraph, moving, recorded.positions_m, recorded.rotations)
         paint(self.scene, depsgraph, rows, np.where(series.moves[:, None], frame.screen_colours, np.nan))
+
+    def _place(self, depsgraph: bpy.types.Depsgraph, series: ContourSeries, shown: Frame) -> None:
+        moving = {name: row for row, name in enumerate(series.body_names) if series.moves[row]}
+        place(self.scene, depsgraph, moving, shown.positions_m, shown.rotations)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -65,6 +66,7 @@ class BulletReader:
         self._scene, self._world, self._every_substep = scene, world, every_substep
         self._inventory = inventory
         self.rigid_because: LayoutError | None = None
+        self._built_positions_m, self._built_rotations = world.positions()
         elastic = self._elastic_connections(bodies, connections) if is_elastic(scene) and connections else None
         self.elasticity = elastic.elasticity if elastic else None
         self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
@@ -123,12 +125,18 @@ class BulletReader:
         return self._substeps.seconds
 
     def read_first_frame(self, substep_s: float) -> Frame:
-        """Return a frame in which no time passed, or else one whose loads were not asked for in time."""
+        """Return a frame in which no time passed, or else one whose loads were not asked for in time.
+
+        Where connections are elastic, and have put the bodies where they rest, it shows them as they were built.
+        """
         self._substeps.skip(substep_s * self._scene.rigidbody_world.substeps_per_frame)
         loads, work, _ = self._substeps.finish_frame()
         if substep_s > 0.0:
             loads, work = loads.unknown(), FrameWork.unknown(len(self._inventory.masses_kg))
-        return self._frame(substep_s, loads, work)
+        frame = self._frame(substep_s, loads, work)
+        if self.elasticity is None or substep_s > 0.0:
+            return frame
+        return replace(frame, positions_m=self._built_positions_m, rotations=self._built_rotations)
 
     def read_frame(self, substep_s: float) -> tuple[Frame, list[Breaks]]:
         """Return the frame whose sub-steps have this length, without blast, and what broke in it."""

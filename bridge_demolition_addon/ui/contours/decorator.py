@@ -78,7 +78,7 @@ def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
     row = series.row_at(scene.frame_current) if series else None
     if not settings.show_vectors or row is None:
         return {}
-    frame, first = series.frame(row), series.frame(0)
+    frame, first = series.magnified(row, contours_of(scene).magnification), series.frame(0)
     frame_s = float(series.times_s[row] - series.times_s[row - 1]) if row else 0.0
     forces = {
         "BODIES": lambda: _of_moving(series.moves, *body_forces(frame)),

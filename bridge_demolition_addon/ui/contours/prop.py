@@ -15,6 +15,11 @@ _QUANTITIES = (
     (Quantity.SUM.name, TITLES[Quantity.SUM], "Sum of the magnitudes of all contact and connection forces"),
     (Quantity.VON_MISES.name, TITLES[Quantity.VON_MISES], "Equivalent stress, averaged over the body"),
     (Quantity.PRINCIPAL.name, TITLES[Quantity.PRINCIPAL], "Largest tension, averaged over the body"),
+    (
+        Quantity.DISPLACEMENT.name,
+        TITLES[Quantity.DISPLACEMENT],
+        "How far the body is from where it stood when the recording began; elastic connections bear no load there",
+    ),
     (Quantity.SIGNED_2019.name, TITLES[Quantity.SIGNED_2019], "What the add-on of 2019 logged: for comparison only"),
 )
 _RANGES = (
@@ -72,10 +77,10 @@ class ContourProperties:
         name="Range", description="What the lowest and highest colour stand for", items=_RANGES, update=_follow
     )
     contour_low: FloatProperty(
-        name="Lowest", description="Low end of the fixed range, kN or N/mm²", default=0.0, update=_follow
+        name="Lowest", description="Low end of the fixed range, kN, N/mm² or mm", default=0.0, update=_follow
     )
     contour_high: FloatProperty(
-        name="Highest", description="High end of the fixed range, kN or N/mm²", default=1000.0, update=_follow
+        name="Highest", description="High end of the fixed range, kN, N/mm² or mm", default=1000.0, update=_follow
     )
     contour_logarithmic: BoolProperty(
         name="Logarithmic",
@@ -91,6 +96,15 @@ class ContourProperties:
         update=_follow,
     )
     contour_map: EnumProperty(name="Colours", description="Colour map", items=_MAPS, update=_follow)
+    contour_magnification: FloatProperty(
+        name="Magnify Shape",
+        description="How many times as far as they are displaced bodies are shown, once the recording has ended",
+        default=1.0,
+        min=1.0,
+        max=1e6,
+        soft_max=1000.0,
+        update=_follow,
+    )
     colour_bar: BoolProperty(
         name="Colour Bar", description="Show the colour bar in the 3D view", default=True, update=_redraw
     )

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...core.display.contours import STRESSES, Quantity
+from ...core.display.contours import Quantity, unit_of_range
 from ...scene.visibility import symbols_are_hidden
 from ..sidebar import SidebarPanel, draw_sentence
 from . import decorator as overlay
@@ -27,7 +27,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "contour_peak")
         column.prop(settings, "contour_range")
         if settings.contour_range == "FIXED":
-            unit = "N/mm²" if Quantity[settings.contour_quantity] in STRESSES else "kN"
+            unit = unit_of_range(Quantity[settings.contour_quantity]).name
             ends = column.column(align=True)
             ends.prop(settings, "contour_low", text=f"Lowest, {unit}")
             ends.prop(settings, "contour_high", text=f"Highest, {unit}")
@@ -35,6 +35,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         if settings.contour_logarithmic and settings.contour_range != "FIXED":
             column.prop(settings, "contour_decades")
         column.prop(settings, "contour_map")
+        column.prop(settings, "contour_magnification")
         column.prop(settings, "colour_bar")
         layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")
         layout.operator("bda.load_results")

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import bpy
 
 from ...core.display.colour_scale import ColourMap
-from ...core.display.contours import STRESSES, ContourSettings, Quantity, RangeKind
+from ...core.display.contours import ContourSettings, Quantity, RangeKind, unit_of_range
 from ...core.errors import DemolitionError
 from ...simulation.blender_events import contours_of
 
@@ -25,7 +25,7 @@ def settings_of(scene: bpy.types.Scene) -> ContourSettings:
     """
     settings = scene.bda
     quantity = Quantity[settings.contour_quantity]
-    size = 1e6 if quantity in STRESSES else 1e3
+    size = unit_of_range(quantity).size
     return ContourSettings(
         quantity=quantity,
         peak=settings.contour_peak,
@@ -35,6 +35,7 @@ def settings_of(scene: bpy.types.Scene) -> ContourSettings:
         logarithmic=settings.contour_logarithmic,
         decades=settings.contour_decades,
         colour_map=ColourMap[settings.contour_map],
+        magnification=settings.contour_magnification,
     )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from sample_results import FRAME_S, POINTS, G, hanging_chain
 
+from bridge_demolition_addon.core.display.colour_bar import colour_bar
 from bridge_demolition_addon.core.display.contours import (
     ContourSeries,
     ContourSettings,
@@ -40,6 +41,27 @@ def test_stresses_of_the_chain(series):
     # A hanging bar under tension at one end: mean stress is half the end's. Lower: 200 g over 0.5 m² at its top.
     assert series.values(1, Quantity.PRINCIPAL)[LOWER] == pytest.approx(200 * G / 0.5 / 2.0)
     assert series.values(1, Quantity.VON_MISES)[LOWER] == pytest.approx(200 * G / 0.5 / 2.0)
+
+
+def test_displacement_is_from_where_a_body_stood_at_first(series):
+    # Lower has moved by (3, 4, -12) m: Pythagoras gives 13 m.
+    assert series.values(4, Quantity.DISPLACEMENT)[[UPPER, LOWER]] == pytest.approx([0.0, 13.0])
+    assert unit_of(Quantity.DISPLACEMENT, 13.0).name == "m"
+    assert unit_of(Quantity.DISPLACEMENT, 0.013).name == "mm"
+
+
+def test_a_magnified_shape_is_displaced_and_turned_so_many_times_as_much():
+    results = hanging_chain()
+    angle = 0.1
+    turned = results.frames.rotations.copy()
+    turned[4, LOWER, :2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    series = ContourSeries.of_results(replace(results, frames=replace(results.frames, rotations=turned)))
+    first, shown = series.frame(0), series.magnified(4, 3.0)
+    assert shown.positions_m[LOWER] - first.positions_m[LOWER] == pytest.approx([9.0, 12.0, -36.0])
+    expected = [[np.cos(0.3), -np.sin(0.3)], [np.sin(0.3), np.cos(0.3)]]
+    np.testing.assert_allclose(shown.rotations[LOWER, :2, :2], expected, atol=1e-6)  # kept in single precision
+    assert series.magnified(4, 1.0).positions_m[LOWER].tolist() == series.frame(4).positions_m[LOWER].tolist()
+    assert colour_bar(ContourSettings(magnification=3.0), series.show(4, ContourSettings())).subtitle == "shape × 3"
 
 
 def test_what_never_moves_has_no_value(series):

@@ -53,6 +53,36 @@ def test_a_changed_setting_is_followed_at_once(recorded):
     assert shown(recorded) == pytest.approx(linear(colours(ColourMap.CIVIDIS, [1.0]))[0], abs=1e-6)
 
 
+@pytest.mark.parametrize("outdated", [False, True], ids=["played by Blender", "forgotten by Blender"])
+def test_a_magnified_shape_is_shown_until_it_is_asked_for_no_more(extension, tmp_path, outdated):
+    """A block that falls freely for three frames of a twenty-fourth of a second."""
+    blocks = Blocks()
+    block = blocks.block((0.0, 0.0, 50.0), 100.0)
+    (tmp_path / "log").mkdir()
+    results = blocks.play(tmp_path / "log", FRAMES)
+    scene, settings = blocks.scene, blocks.scene.bda
+    if outdated:
+        blocks.world.substeps_per_frame += 1  # Blender forgets what it played
+
+    def height():
+        return block.evaluated_get(scene.view_layers[0].depsgraph).matrix_world.translation.z
+
+    frame = int(results.frames.number[3])
+    fallen = 50.0 - results.frames.positions_m[3, 0, 2]
+    assert fallen > 0.05
+    scene.frame_set(frame)
+    settings.contours, settings.contour_quantity, settings.contour_magnification = True, "DISPLACEMENT", 7.0
+    assert height() == pytest.approx(50.0 - 7.0 * fallen, abs=1e-4)
+    scene.frame_set(frame - 1)
+    scene.frame_set(frame)
+    assert height() == pytest.approx(50.0 - 7.0 * fallen, abs=1e-4)
+    settings.contour_magnification = 1.0
+    assert height() == pytest.approx(50.0 - fallen, abs=1e-4)
+    settings.contour_magnification = 7.0
+    settings.contours = False
+    assert height() == pytest.approx(50.0 - fallen, abs=1e-4)
+
+
 def test_settings_have_the_units_that_the_panel_names(recorded):
     from bridge_demolition_addon.ui.contours.view import settings_of
 
@@ -62,6 +92,9 @@ def test_settings_have_the_units_that_the_panel_names(recorded):
     settings.contour_quantity = "VON_MISES"
     found = settings_of(recorded.scene)
     assert (found.quantity, found.range_kind, found.high) == (Quantity.VON_MISES, RangeKind.FIXED, 2e6)
+    settings.contour_quantity, settings.contour_magnification = "DISPLACEMENT", 200.0
+    found = settings_of(recorded.scene)
+    assert (found.high, found.magnification) == pytest.approx((2e-3, 200.0))
 
 
 def test_a_range_that_is_none_is_told_and_changes_nothing(recorded):
