@@ -15,9 +15,14 @@ def program_in(folder):
     """Command of a program that simulates nothing, and the log in a folder of what it begins."""
     log = folder / "draws.log"
     log.touch()
+    return command_with(log), log
+
+
+def command_with(log):
+    """Command of that program, whatever has to be found by it."""
     program = TESTS / "programs" / "draws_without_blender.py"
     start = f"import runpy, sys; sys.path.insert(0, {str(ROOT)!r}); sys.argv[:] = ['', {str(log)!r}]; "
-    return [sys.executable, "-c", f"{start}runpy.run_path({str(program)!r}, run_name='__main__')"], log
+    return [sys.executable, "-c", f"{start}runpy.run_path({str(program)!r}, run_name='__main__')"]
 
 
 def request(deed, seed=1):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import NoReturn
 
-from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
+from ..core.errors import BlastError, ClusterError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
 from ..core.signals import Interrupted, interrupt_by_system
 from . import charge, charts, check, report, run, study
 from .console import StandardStream
@@ -51,7 +51,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         arguments = _parser().parse_args(argv)
         arguments.execute(arguments)
-    except (UsageError, ScenarioError, GeometryError, BlastError, OutputError) as error:
+    except (UsageError, ScenarioError, GeometryError, BlastError, ClusterError, OutputError) as error:
         return _failed(error, WRONG_INPUT)
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return _failed(error, RUN_FAILED)

@@ -16,7 +16,6 @@ from ..core.study.draws import draw_of, inputs_of
 from ..core.study.file import SEED, Study, read_study
 from ..core.study.runs_table import DONE
 from ..studies.draw_process import Limits
-from ..studies.draw_program import draw_command
 from ..studies.engine import Engine
 from ..studies.folder import (
     AGAIN_FOLDER,
@@ -32,7 +31,6 @@ from ..studies.folder import (
 )
 from ..studies.local import LocalProcesses
 from ..studies.study_run import StudyRun
-from ..studies.versions import installed_blender, versions_with
 from .progress import Progress, progress_on
 from .run import run_with_everything
 
@@ -85,31 +83,43 @@ def execute(arguments: argparse.Namespace) -> None:
 
 def _run(study: Study, arguments: argparse.Namespace) -> None:
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
-    versions = versions_with(installed_blender())
-    with signals_noted() as signals, StudyFolder(arguments.output, study, versions) as folder:
-        with closing(_engine(study, versions, arguments)) as engine:
-            run = StudyRun(study, folder, engine, versions)
-            try:
-                _play(run, signals, progress)
-            finally:
-                progress.finish()
-                run.write_tables()
-        if signals:
-            raise Interrupted(signals[0])
+    with (
+        signals_noted() as signals,
+        closing(_engine(study, arguments)) as engine,
+        StudyFolder(arguments.output, study, engine.versions) as folder,
+    ):
+        run = StudyRun(study, folder, engine)
+        try:
+            _play(run, signals, progress)
+        finally:
+            engine.close()  # before the folder is free for others
+            run.write_tables()
         said = run.write_conclusions()
     if not arguments.quiet:
         _print_results(study, run, said, arguments.output)
 
 
 def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
-    while not run.is_finished and not signals:
-        run.step(_LOOK_EVERY_S)
-        progress.draws(run.done, run.total, run.done - run.statuses.get(DONE, 0))
+    """Run all draws, unless a signal stops that."""
+    try:
+        while not run.is_finished:
+            run.step(_LOOK_EVERY_S)
+            progress.draws(run.done, run.total, run.done - run.statuses.get(DONE, 0))
+            if signals:
+                raise Interrupted(signals[0])
+    finally:
+        progress.finish()
 
 
-def _engine(study: Study, versions: dict[str, str], arguments: argparse.Namespace) -> Engine:
-    jobs = arguments.jobs or os.cpu_count() or 1
-    return LocalProcesses(jobs, draw_command(), versions, Limits(study.settings.time_limit_s))
+def _engine(study: Study, arguments: argparse.Namespace) -> Engine:
+    limits = Limits(study.settings.time_limit_s)
+    if arguments.dask is None:
+        return LocalProcesses(arguments.jobs or os.cpu_count() or 1, limits)
+    if arguments.jobs is not None:
+        raise OutputError("--jobs is for this machine: leave it out with --dask, whose workers say how many they take")
+    from ..studies.dask_cluster import DaskCluster  # loading Dask takes a second
+
+    return DaskCluster(arguments.dask, limits)
 
 
 def _print_results(study: Study, run: StudyRun, said: Conclusions, output: Path) -> None:

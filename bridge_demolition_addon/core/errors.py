@@ -25,6 +25,10 @@ class OutputError(DemolitionError):
     """The folder for the results exists already or cannot be written."""
 
 
+class ClusterError(DemolitionError):
+    """The cluster that a study is to run on is not there."""
+
+
 class LayoutError(DemolitionError):
     """Blender's memory does not look as expected; nothing was trusted and nothing was written."""
 

@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import OutputError, SimulationError
+from ..core.errors import SimulationError
 from ..core.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT
 
 MARK = "bda-draw "
@@ -118,10 +118,8 @@ class DrawProcess:
 
         Raises
         ------
-        OutputError
-            The folder cannot be written to.
-        SimulationError
-            The program does not start, or runs other versions.
+        OSError, SimulationError
+            Its files cannot be written; or the program does not start, or runs other versions.
         """
         began = time.monotonic()
         program = self._ready_program()
@@ -156,7 +154,7 @@ class DrawProcess:
             program.end()
             self._program = None
         if status == UNWRITABLE:
-            raise OutputError(answer["reason"])
+            raise SimulationError(answer["reason"])
         given = {name: answer[name] for name in ("reason", "outputs", "fingerprint") if name in answer}
         return End(status, **given, wall_time_s=time.monotonic() - began)
 
@@ -292,9 +290,6 @@ def _kills_for_memory() -> int:
 
 
 def _make_anew(folder: Path) -> None:
-    try:
-        if folder.exists():
-            shutil.rmtree(folder)
-        folder.mkdir(parents=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: cannot be written ({error.strerror})") from error
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)

@@ -34,11 +34,15 @@ class Engine(Protocol):
 
     Attributes
     ----------
-    capacity : int
-        How many draws to have submitted at a time, so that it never waits for the next.
+    versions : dict
+        What draws are run with.
     """
 
-    capacity: int
+    versions: Mapping[str, str]
+
+    @property
+    def capacity(self) -> int:
+        """How many draws to have submitted at a time, so that it never waits for the next."""
 
     def submit(self, task: Task) -> None:
         """Have a draw run as soon as there is a place for it."""
@@ -53,4 +57,4 @@ class Engine(Protocol):
         """
 
     def close(self) -> None:
-        """Stop at once; what is at work is lost."""
+        """Stop at once; what is at work is lost. Once more is nothing."""

@@ -26,7 +26,7 @@ from .draw_process import End
 STUDY_FILE, VERSIONS_FILE = "study.toml", "versions.json"
 DRAW_FOLDER, AGAIN_FOLDER = "draws", "again"
 RUNS_FILE, SHEET_FILE, CONCLUSIONS_FILE = "runs.csv", "runs.xlsx", "study.json"
-INPUTS_FILE, OUTCOME_FILE = "inputs.json", "outcome.json"
+OUTCOME_FILE = "outcome.json"
 
 _PART = ".part"
 TRIED_AGAIN = (KILLED, OUT_OF_MEMORY)
@@ -102,13 +102,13 @@ class StudyFolder:
             return
         part.mkdir(exist_ok=True)
         outcome = {
+            "inputs": dict(inputs),
             "status": end.status,
             "reason": end.reason,
             "outputs": dict(end.outputs),
             "fingerprint": dict(end.fingerprint),
             "wall_time_s": round(end.wall_time_s, 3),
         }
-        (part / INPUTS_FILE).write_text(json.dumps(dict(inputs), indent=1) + "\n", encoding="utf-8")
         write_whole_text(part / OUTCOME_FILE, json.dumps(outcome, indent=1) + "\n")
         if place.exists():  # what is damaged there, as by a loss of power
             shutil.rmtree(place)
@@ -135,7 +135,7 @@ def end_in(draw: Path) -> End | None:
     try:
         kept = json.loads((draw / OUTCOME_FILE).read_text(encoding="utf-8"))
         end = End(kept["status"], kept["reason"], kept["outputs"], kept["fingerprint"], float(kept["wall_time_s"]))
-        return end if end.status in STATUSES and (draw / INPUTS_FILE).is_file() else None
+        return end if end.status in STATUSES else None
     except (FileNotFoundError, NotADirectoryError, ValueError, KeyError, TypeError):
         return None
 

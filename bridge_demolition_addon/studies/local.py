@@ -7,7 +7,9 @@ import threading
 from collections.abc import Mapping, Sequence
 
 from .draw_process import DrawProcess, End, Limits
+from .draw_program import draw_command
 from .engine import Task
+from .versions import installed_blender, versions_with
 
 
 class LocalProcesses:
@@ -17,25 +19,32 @@ class LocalProcesses:
     ----------
     jobs
         How many.
-    command
-        Program of draws and its arguments.
-    versions
-        What it has to run.
     limits
         When a draw is ended.
+    command, versions
+        Program of draws and its arguments, and what it has to run; by default that of this Python.
 
     Attributes
     ----------
+    versions : dict
+        What all of them have to run.
     capacity : int
         One more than jobs, so that none of them ever waits.
     """
 
-    def __init__(self, jobs: int, command: Sequence[str], versions: Mapping[str, str], limits: Limits):
+    def __init__(
+        self,
+        jobs: int,
+        limits: Limits,
+        command: Sequence[str] | None = None,
+        versions: Mapping[str, str] | None = None,
+    ):
         self.capacity = jobs + 1
+        self.versions = dict(versions or versions_with(installed_blender()))
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._ends: queue.SimpleQueue[tuple[Task, End | Exception]] = queue.SimpleQueue()
         self._is_closed = False
-        self._processes = [DrawProcess(command, versions, limits) for _ in range(jobs)]
+        self._processes = [DrawProcess(command or draw_command(), self.versions, limits) for _ in range(jobs)]
         self._threads = [
             threading.Thread(target=self._work, args=(each,), name="draws", daemon=True) for each in self._processes
         ]

@@ -82,6 +82,8 @@ def _answer(request: Mapping[str, Any], play: Play) -> Mapping[str, Any]:
         is_unwritable = isinstance(error, OSError) or (
             isinstance(error, OutputError) and isinstance(error.__cause__, OSError)
         )
+        if isinstance(error, OSError) and error.filename is None:  # as where a file that is open grows no more
+            error = OSError(error.errno, error.strerror, request["folder"])
         return {"status": UNWRITABLE if is_unwritable else FAILED, "reason": text_of(error)}
     except Exception as error:
         traceback.print_exc()

@@ -35,8 +35,6 @@ class StudyRun:
         Its folder.
     engine
         Runs the draws.
-    versions
-        What they are run with.
 
     Attributes
     ----------
@@ -46,10 +44,10 @@ class StudyRun:
         Draws that were run since this was made; all others were there.
     """
 
-    def __init__(self, study: Study, folder: StudyFolder, engine: Engine, versions: Mapping[str, str]):
+    def __init__(self, study: Study, folder: StudyFolder, engine: Engine):
         self.is_paused = False
         self.played = 0
-        self._study, self._folder, self._engine, self._versions = study, folder, engine, dict(versions)
+        self._study, self._folder, self._engine = study, folder, engine
         self._next = 1
         self._rows: dict[int, Row] = {}
         self._reasons: dict[int, str] = {}
@@ -122,7 +120,7 @@ class StudyRun:
             rank=settings.rank,
             criteria=[each.output for each in self._study.criteria],
         )
-        text = json.dumps(found.as_json() | {"versions": self._versions}, indent=2)
+        text = json.dumps(found.as_json() | {"versions": dict(self._engine.versions)}, indent=2)
         write_whole_text(self._folder.path / CONCLUSIONS_FILE, text + "\n")
         return found
 
@@ -141,7 +139,7 @@ class StudyRun:
         except ScenarioError as error:
             self._note(number, inputs_of(self._study, number), End(REFUSED, str(error)))
             return
-        address = draw.address(self._versions)
+        address = draw.address(self._engine.versions)
         if address in self._at_work:  # another one with the same inputs, down to the seed
             self._at_work[address].append(draw)
         elif end := self._folder.end_of(address):

@@ -69,6 +69,7 @@ _DEEDS = {
     "stumble": lambda _folder: {}["nothing"],
     "take memory": take_memory,
     "take time": lambda _folder: time.sleep(0.3),
+    "write elsewhere": lambda folder: (folder / "nowhere" / "nowhere").touch(),
     "write much": lambda folder: (folder / "much.bin").write_bytes(bytes(200_000)),
 }
 

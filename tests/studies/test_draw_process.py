@@ -11,7 +11,7 @@ import time
 import pytest
 from draw_programs import VERSIONS, begun, program_in, request
 
-from bridge_demolition_addon.core.errors import OutputError, SimulationError
+from bridge_demolition_addon.core.errors import SimulationError
 from bridge_demolition_addon.studies.draw_process import DRAWS_PER_PROCESS, DrawProcess, Limits
 
 not_on_windows = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
@@ -118,8 +118,10 @@ def test_lines_of_others_on_its_output_mean_nothing(process, tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_not_the_draws_fault(process, tmp_path):
     (tmp_path / "file").touch()
-    with pytest.raises(OutputError, match=r"file.*: cannot be written"):
+    with pytest.raises(NotADirectoryError):
         play(process, "nothing", tmp_path / "file" / "1")
+    with pytest.raises(SimulationError, match="nowhere: No such file or directory"):
+        play(process, "write elsewhere", tmp_path / "2")
 
 
 def test_other_versions_are_refused(program, tmp_path):

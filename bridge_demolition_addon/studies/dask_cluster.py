@@ -1,0 +1,166 @@
+"""Draws on a Dask cluster that is there: each task starts a process of its own, whose crash a worker survives.
+
+Files come back through Dask: workers need no disk in common with whoever asks.
+"""
+
+from __future__ import annotations
+
+import queue
+import tempfile
+import time
+import uuid
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..core.errors import ClusterError, SimulationError, writing
+from ..core.study.runs_table import KILLED
+from .draw_process import DrawProcess, End, Limits
+from .draw_program import draw_command
+from .engine import Task
+from .versions import installed_blender, versions_with
+
+if TYPE_CHECKING:
+    from distributed import Future
+
+_ANSWERS_WITHIN_S = 10.0
+_COUNT_EVERY_S = 5.0
+_GONE = "the scheduler has gone; once it is back, the same command goes on"
+
+
+class DaskCluster:
+    """Runs draws on the workers of a scheduler, one in each of their threads.
+
+    Parameters
+    ----------
+    address
+        Of the scheduler, such as ``tcp://host:8786``.
+    limits
+        When a draw is ended.
+    command, versions
+        Program of draws and its arguments, as workers are to start it, and what it has to run; by default that of their
+        own Python, and what the first of them says.
+
+    Attributes
+    ----------
+    versions : dict
+        What all workers have to run.
+
+    Raises
+    ------
+    ClusterError
+        Nobody answers there, it has no workers, or Dask is not installed here.
+    SimulationError
+        Workers have no Blender.
+    """
+
+    def __init__(
+        self,
+        address: str,
+        limits: Limits,
+        command: Sequence[str] | None = None,
+        versions: Mapping[str, str] | None = None,
+    ):
+        try:
+            from distributed import Client
+        except ModuleNotFoundError as error:
+            raise ClusterError(
+                "a study on a cluster needs Dask: install it with pip install 'bridge-demolition-addon[dask]'"
+            ) from error
+        try:
+            self._client = Client(address, timeout=_ANSWERS_WITHIN_S, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise ClusterError(f"{address}: no Dask scheduler answers there; start one with dask scheduler") from error
+        self._address, self._limits, self._command = address, limits, command
+        self._futures: set[Future] = set()
+        self._ended: queue.SimpleQueue[tuple[Task, Future]] = queue.SimpleQueue()
+        self._threads, self._counted_s = 0, -_COUNT_EVERY_S
+        try:
+            if not self._thread_count():
+                raise ClusterError(f"{address}: the Dask scheduler there has no workers; start some with dask worker")
+            self.versions = dict(versions or self._client.submit(_versions_here, pure=False).result())
+        except BaseException:
+            self._client.close()
+            raise
+
+    @property
+    def capacity(self) -> int:
+        """Twice as many as workers have threads, so that none of these ever waits."""
+        return 2 * max(self._thread_count(), 1)
+
+    def submit(self, task: Task) -> None:
+        """Have a draw run as soon as a worker is free."""
+        future = self._client.submit(
+            _play_here,
+            dict(task.request),
+            self._command,
+            self.versions,
+            self._limits,
+            key=f"draw-{task.address}-{uuid.uuid4().hex}",  # no result of another study's
+            pure=False,
+        )
+        self._futures.add(future)
+        future.add_done_callback(lambda ended: self._ended.put((task, ended)))
+
+    def collect(self, timeout_s: float) -> list[tuple[Task, End]]:
+        """Return draws that have ended, with their files where they belong; see `Engine`."""
+        ended = []
+        try:
+            ended.append(self._ended.get(timeout=timeout_s) if timeout_s > 0.0 else self._ended.get_nowait())
+            while True:
+                ended.append(self._ended.get_nowait())
+        except queue.Empty:
+            pass
+        if not ended and self._client.status not in ("running", "connecting"):
+            raise SimulationError(f"{self._address}: {_GONE}")
+        return [(task, self._end_of(task, future)) for task, future in ended]
+
+    def close(self) -> None:
+        """Forget what is at work: it goes on to its end where it is, and nobody takes it."""
+        if self._client.status == "closed":
+            return
+        self._client.cancel(list(self._futures), force=True)
+        self._client.close()
+
+    def _end_of(self, task: Task, future: Future) -> End:
+        from distributed import KilledWorker
+
+        self._futures.discard(future)
+        if future.status in ("cancelled", "lost"):
+            raise SimulationError(f"{self._address}: {_GONE}")
+        try:
+            end, files = future.result()
+        except KilledWorker:
+            return End(KILLED, "each worker that it was given to ended")
+        finally:
+            future.release()
+        with writing(task.folder):
+            for name, content in files.items():
+                path = task.folder / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content)
+        return end
+
+    def _thread_count(self) -> int:
+        if time.monotonic() - self._counted_s >= _COUNT_EVERY_S:
+            self._threads, self._counted_s = sum(self._client.nthreads().values()), time.monotonic()
+        return self._threads
+
+
+def _versions_here() -> dict[str, str]:
+    return versions_with(installed_blender())
+
+
+def _play_here(
+    request: Mapping[str, Any], command: Sequence[str] | None, versions: Mapping[str, str], limits: Limits
+) -> tuple[End, dict[str, bytes]]:
+    """Run a draw in a process of its own; what became of it, and its files by their paths in its folder."""
+    process = DrawProcess(command or draw_command(), versions, limits)
+    try:
+        with tempfile.TemporaryDirectory(prefix="bda-draw-") as folder:
+            place = Path(folder) / "draw"
+            end = process.play(request, place)
+            paths = [path for path in place.rglob("*") if path.is_file()]
+            return end, {path.relative_to(place).as_posix(): path.read_bytes() for path in paths}
+    finally:
+        process.close()
