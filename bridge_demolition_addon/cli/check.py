@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -41,6 +42,11 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser("check", help="read a scenario and say what follows from it", allow_abbrev=False)
     parser.add_argument("scenario", metavar="SCENARIO.toml", help="scenario file, see docs/scenario.md")
+    parser.add_argument(
+        "--stand",
+        action="store_true",
+        help="say how the bridge stands under its own weight, as with elastic connections, also where they are rigid",
+    )
     parser.set_defaults(execute=check)
 
 
@@ -48,7 +54,7 @@ def check(arguments: argparse.Namespace) -> None:
     """Print what a planner wants to know before a run."""
     scenario = read_scenario(arguments.scenario)
     with naming(arguments.scenario):
-        for line in scenario_facts(scenario):
+        for line in scenario_facts(_made_elastic(scenario) if arguments.stand else scenario):
             print(line)
 
 
@@ -73,6 +79,10 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
         yield from _section("Sequence", _sequence_facts(scenario))
     if scenario.charges:
         yield from _section("Charges", _charge_facts(scenario))
+
+
+def _made_elastic(scenario: Scenario) -> Scenario:
+    return replace(scenario, connections=replace(scenario.connections, stiffness="elastic"))
 
 
 def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:

@@ -114,6 +114,20 @@ def test_a_large_model_is_told_what_one_force_for_all_comes_to():
     assert by_default["in shear"] == "0.9 N/mm²"
 
 
+def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys):
+    connections = replace(I235.connections, type="FIXED", method="face", material="concrete", breaking_force_kgf=None)
+    file = tmp_path / "span.toml"
+    texts = []
+    for stiffness in ("rigid", "elastic"):
+        scenario = replace(I235, connections=replace(connections, stiffness=stiffness))
+        file.write_text(scenario_text(scenario), encoding="utf-8")
+        assert main(["check", str(file), *(["--stand"] if stiffness == "rigid" else [])]) == 0
+        texts.append(capsys.readouterr().out)
+    assert "At rest" in texts[0] and texts[0] == texts[1]
+    assert main(["check", "--stand", str(I235_FILE)]) == 2
+    assert 'connections.method is "vertex": expected "face"' in capsys.readouterr().err
+
+
 def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):
     (tmp_path / "wall.stl").write_bytes(exported(box((4, 1, 3), (2, 0.5, 1.5)), ".stl"))
     wall = Geometry(name="wall", file=str(tmp_path / "wall.stl"), density_kg_m3=2400.0)
