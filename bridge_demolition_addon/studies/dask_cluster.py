@@ -23,7 +23,7 @@ from .versions import installed_blender, versions_with
 if TYPE_CHECKING:
     from distributed import Future
 
-_ANSWERS_WITHIN_S = 10.0
+_ANSWERS_WITHIN_S = 5.0
 _COUNT_EVERY_S = 5.0
 _GONE = "the scheduler has gone; once it is back, the same command goes on"
 

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``bda study``: a small study in Blender, what it leaves, and what it refuses without changing anything."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pandas
+import pytest
+from processes import run_bda, run_program
+from scenarios import SHORT_RUN
+from study_files import study_file, tables_in
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.study.draws import draw_of
+from bridge_demolition_addon.core.study.file import read_study
+from bridge_demolition_addon.studies.folder import study_in
+
+BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.3))
+RUNS = 4
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    return study_file(tmp_path_factory.mktemp("study"), RUNS, ("One", "Two"), BRIEF)
+
+
+@pytest.fixture(scope="module")
+def done(study):
+    """Folder of the study, whose four draws share a process, in a parent in which Blender cannot be loaded."""
+    output = study.parent / "out"
+    run = run_program("bda_without_blender", "study", study, "--output", output, "--jobs", 1)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert run.stdout.splitlines()[-3:] == [str(output / name) for name in ("runs.csv", "runs.xlsx", "study.json")]
+    return output
+
+
+def test_pandas_reads_all_draws_in_one_line(study, done):
+    table = pandas.read_csv(done / "runs.csv")
+    assert table["run"].tolist() == [1, 2, 3, 4]
+    assert table["status"].tolist() == ["done"] * RUNS
+    inputs = [draw_of(read_study(study), number).inputs for number in range(1, RUNS + 1)]
+    for name in ("scenario.seed", "ball.mass_kg"):
+        assert table[f"in.{name}"].tolist() == [each[name] for each in inputs]
+    assert (table["out.broken"] > 0).all() and np.isfinite(table["out.reach_m"]).all()
+
+
+def test_the_folder_has_the_study_as_it_was_run(study, done):
+    assert study_in(done).text == read_study(study).text
+    assert json.loads((done / "study.json").read_text(encoding="utf-8"))["reach"]["runs"] == RUNS
+    draws = list(done.glob("draws/*"))
+    assert len(draws) == RUNS
+    for draw in draws:
+        assert sorted(path.name for path in draw.iterdir()) == ["outcome.json", "outlines.npz"]
+
+
+def test_it_comes_to_the_same_with_a_process_for_each(study, done, tmp_path):
+    assert run_bda("study", study, "--output", tmp_path / "out", "--jobs", 4, "--quiet") == (0, "", "")
+    assert tables_in(tmp_path / "out") == tables_in(done)
+
+
+def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):
+    status, printed, complained = run_bda("study", done, "--again", 3)
+    again = done / "again" / "3"
+    assert status == 0, complained
+    assert f"draw 3 came to the same as in the study, bit by bit: {again}" in printed.splitlines()
+    assert (again / "force_log.csv").stat().st_size > 0 and (again / "frames" / "after.png").stat().st_size > 0
+
+    (draw,) = [path for path in done.glob("draws/*/outcome.json") if str(seed_of(done, 3)) in path.read_text()]
+    kept = draw.read_text(encoding="utf-8")
+    summary = json.loads((again / "summary.json").read_text(encoding="utf-8"))
+    assert summary["connections"]["broken"] == json.loads(kept)["outputs"]["broken"]
+    motion = json.loads(kept)["fingerprint"]["motion"]
+    draw.write_text(kept.replace(motion, motion[::-1]), encoding="utf-8")
+    status, _, complained = run_bda("study", done, "--again", 3, "--quiet")
+    draw.write_text(kept, encoding="utf-8")
+    assert status == 1
+    assert "draw 3 came to something else than in the study: ['motion'] differs" in complained
+
+
+def seed_of(folder, number):
+    return draw_of(study_in(folder), number).inputs["scenario.seed"]
+
+
+@pytest.mark.parametrize("keep, more", [("logs", ["force_log.csv"]), ("all", ["force_log.csv", "results.npz"])])
+def test_more_is_kept_where_it_is_asked_for(tmp_path, keep, more):
+    study = study_file(tmp_path / "in", 2, ("One",), BRIEF, keep=keep)
+    assert run_bda("study", study, "--output", tmp_path / "out", "--quiet") == (0, "", "")
+    runs = list((tmp_path / "out").glob("draws/*/run"))
+    assert len(runs) == 2
+    for run in runs:
+        assert {"summary.json", "scenario_as_run.toml", *more} <= {path.name for path in run.iterdir()}
+        assert (run / "results.npz").exists() == (keep == "all")
+    table = pandas.read_csv(tmp_path / "out" / "runs.csv")
+    assert (table["out.largest_force_N"] > 0.0).all()  # loads are known where they are recorded
+
+
+def refused(capsys, *arguments):
+    """What is said where nothing is run; in this process, as none gets as far as Blender."""
+    assert main(["study", *map(str, arguments)]) == 2
+    complained = capsys.readouterr().err
+    assert complained.startswith("bda: error: ") and len(complained.splitlines()) == 1
+    return complained
+
+
+def test_a_changed_study_is_refused(study, done, tmp_path, capsys):
+    before = tables_in(done)
+    for change in (("runs = 4", "runs = 5"), ("lowest = 8000.0", "lowest = 8500.0")):
+        other = tmp_path / "study.toml"
+        text = study.read_text(encoding="utf-8").replace(*change)
+        other.write_text(text.replace('"scenario.toml"', f"'{study.parent / 'scenario.toml'}'"), encoding="utf-8")
+        complained = refused(capsys, other, "--output", done)
+        assert f"{done}: was begun with another study or scenario, see study.toml there" in complained
+    assert tables_in(done) == before
+
+
+def test_another_version_is_refused(study, done, capsys):
+    kept = (done / "versions.json").read_text(encoding="utf-8")
+    numpy = json.loads(kept)["numpy"]
+    (done / "versions.json").write_text(kept.replace(numpy, "1.0.0"), encoding="utf-8")
+    complained = refused(capsys, study, "--output", done)
+    (done / "versions.json").write_text(kept, encoding="utf-8")
+    assert f"{done}: was begun with numpy 1.0.0, which is another version here" in complained
+
+
+@pytest.mark.parametrize("name", ["notes.txt", "draws/notes.txt"])
+def test_a_folder_of_something_else_is_refused(study, tmp_path, capsys, name):
+    mine = tmp_path / "mine" / name
+    mine.parent.mkdir(parents=True)
+    mine.touch()
+    complained = refused(capsys, study, "--output", tmp_path / "mine")
+    assert f"{tmp_path / 'mine'}: exists already and is not the folder of a study" in complained
+    assert [path for path in (tmp_path / "mine").rglob("*") if path.is_file()] == [mine]
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        ((), "--output is missing"),
+        (("--output", "out", "--jobs", "0"), "argument --jobs: '0' is wrong: expected a whole number from 1 to 1000"),
+        (("--output", "out", "--jobs", "two"), "'two' is wrong"),
+        (("--output", "out", "--jobs", "2", "--dask", "tcp://127.0.0.1:1"), "leave it out with --dask"),
+        (("--output", "out", "--dask", "tcp://127.0.0.1:1"), "tcp://127.0.0.1:1: no Dask scheduler answers there"),
+        (("--output", "out", "--dask", "nonsense://"), "nonsense://: no Dask scheduler answers there"),
+        (("--again", "1"), "study.toml: expected the folder of a study"),
+    ],
+    ids=lambda each: " ".join(each) if isinstance(each, tuple) else "",
+)
+def test_wrong_arguments_are_refused(study, monkeypatch, tmp_path, capsys, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    assert words in refused(capsys, study, *arguments)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_draw_that_there_is_not_is_refused(done, capsys):
+    assert "has draws 1 to 4" in refused(capsys, done, "--again", 5)
+
+
+def test_a_check_runs_nothing(study, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["study", str(study), "--check"]) == 0
+    printed = capsys.readouterr().out
+    assert f"{RUNS} draws" in printed
+    for number in range(1, RUNS + 1):
+        assert str(draw_of(read_study(study), number).inputs["scenario.seed"]) in printed
+    assert not list(tmp_path.iterdir())
