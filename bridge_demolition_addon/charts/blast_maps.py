@@ -32,17 +32,19 @@ def overpressure_map(
     bridge: CrossSection,
     neighbours: Sequence[Neighbour],
     model: BlastModel,
+    pressure_factor: float = 1.0,
 ) -> None:
     """Largest overpressure of any one charge on the ground, with the rings of damage."""
     thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= WIDEST_PA]
-    radii = ring_radii(charges, 0.0, thresholds, model)
+    radii = ring_radii(charges, 0.0, thresholds, model, pressure_factor)
     places = np.array([charge.place_m[:2] for charge in charges])
     left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground
     low = np.minimum(places.min(axis=0) - _ROOM * radii.max(), (left, back))
     high = np.maximum(places.max(axis=0) + _ROOM * radii.max(), (right, front))
     xs, ys = np.linspace(low[0], high[0], _CELLS), np.linspace(low[1], high[1], _CELLS)
     grid = np.stack([*np.meshgrid(xs, ys), np.zeros((_CELLS, _CELLS))], axis=-1)
-    peaks_kpa = peak_overpressures(grid.reshape(-1, 3), charges, model).reshape(_CELLS, _CELLS) / 1e3
+    peaks_pa = peak_overpressures(grid.reshape(-1, 3), charges, model, pressure_factor)
+    peaks_kpa = peaks_pa.reshape(_CELLS, _CELLS) / 1e3
     axes = figure.add_subplot()
     scale = LogNorm(1.0, max(float(peaks_kpa.max()), 10.0))
     image = axes.imshow(

@@ -148,21 +148,21 @@ def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, s
         is_usual = is_large and connections.material == MATERIAL_OF_LARGE_MODELS
         usual = f", as in all models of {LARGE_MODEL} shards or more that give no strength" if is_usual else ""
         yield "strength of", f"{connections.material}{usual}"
-        yield from _strength_facts(MATERIALS[connections.material])
+        yield from _strength_facts(scenario.joints[0].strength)
     else:
-        force = connections.breaking_force_newton
+        force = scenario.joints[0].breaking_force_n
         yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
         yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
         if is_large:
             yield from _stress_facts(force, scenario, model)
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
-    yield from _rule_facts(connections)
+    yield from _rule_facts(scenario)
 
 
 def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
     """Yield how an elastic bridge stands under its own weight."""
-    rest = model_at_rest(model, scenario.connections.joints)
+    rest = model_at_rest(model, scenario.joints)
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     if loose:
@@ -175,7 +175,7 @@ def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
 
 def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
     """Yield the stress that one breaking force for all comes to, which grows with the number of shards."""
-    alike = np.array([joint.breaking_force_n == force_n for joint in scenario.connections.joints])
+    alike = np.array([joint.breaking_force_n == force_n for joint in scenario.joints])
     holds = alike[model.joint_of_connection]
     if area_m2 := float(model.connections.areas[holds].sum()):
         stress = force_n * int(holds.sum()) / area_m2 / NEWTON_PER_SQUARE_MILLIMETRE
@@ -183,8 +183,8 @@ def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[
         yield "of all, by their area", f"{stress:.3g} N/mm² in the mean; plain concrete is torn at {torn:g} N/mm²"
 
 
-def _rule_facts(connections: ConnectionSettings) -> Iterator[tuple[str, str]]:
-    for rule, joint in zip(connections.between, connections.joints[1:], strict=True):
+def _rule_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    for rule, joint in zip(scenario.connections.between, scenario.joints[1:], strict=True):
         yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else _joint_text(rule, joint)}"
 
 

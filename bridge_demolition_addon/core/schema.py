@@ -59,6 +59,8 @@ class Key:
         Smallest and largest value.
     choices : tuple of str
         The only texts that are taken; empty for any text.
+    or_else : str
+        What else is taken besides the choices, in words, where a table further out checks that.
     """
 
     description: str
@@ -67,6 +69,7 @@ class Key:
     at_least: float | None = None
     at_most: float | None = None
     choices: tuple[str, ...] = ()
+    or_else: str = ""
 
     @property
     def limits(self) -> str:
@@ -215,7 +218,7 @@ def _checked(item: Field, name: str, kind: Any, value: Any) -> Any:
         return _checked_number(item, name, kind, value)
     if kind is Scalar:
         return _checked(item, name, type(value) if isinstance(value, bool | int | str) else float, value)
-    if not isinstance(value, kind) or (kind is str and not _is_text(value, key_of(item).choices)):
+    if not isinstance(value, kind) or (kind is str and not _is_text(value, key_of(item))):
         raise _unexpected(item, name, value)
     return value
 
@@ -234,9 +237,9 @@ def _checked_number(item: Field, name: str, kind: type, value: Any) -> int | flo
     return number
 
 
-def _is_text(text: str, choices: tuple[str, ...]) -> bool:
-    if choices:
-        return text in choices
+def _is_text(text: str, rule: Key) -> bool:
+    if rule.choices and not rule.or_else:
+        return text in rule.choices
     return bool(text.strip()) and not any(category(letter) in LINE_BREAKING_CATEGORIES for letter in text)
 
 
@@ -267,7 +270,8 @@ def expected(item: Field) -> str:
     if kind is bool:
         return "true or false"
     if kind is str:
-        return f"one of {_listed(rule.choices)}" if rule.choices else "a text on one line, not blank"
+        others = f", or {rule.or_else}" if rule.or_else else ""
+        return f"one of {_listed(rule.choices)}{others}" if rule.choices else "a text on one line, not blank"
     noun, _ = _nouns(kind)
     if rule.choices:
         noun = f"{noun}, each one of {_listed(rule.choices)}"

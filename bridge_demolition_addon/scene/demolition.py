@@ -10,7 +10,7 @@ import bpy
 from ..core.blast.settings import Apply
 from ..core.bridge.extent import ground_half_size, surface_height
 from ..core.elasticity.section_stiffness import DAMPING_RATIO
-from ..core.mechanics.strength import MATERIALS, Ductility
+from ..core.mechanics.strength import Ductility, Strength
 from ..core.scenario import ConnectionSettings, Scenario
 from ..core.structure.model import Model
 from .blast.charges import charge_objects, create_charges
@@ -64,7 +64,8 @@ def _build(
         create_hits(ball, settings, surfaces, FIRST_STEP_FRAME, scenario.timeline)
     for hammer, surface in zip(scenario.jackhammers, hammered, strict=True):
         create_jackhammer(world, hammer, surface, FIRST_STEP_FRAME - 1, scenario.timeline)
-    keep_breaking(scene, _breaking(scenario.connections))
+    joints = scenario.joints
+    keep_breaking(scene, _breaking(scenario.connections, joints[0].strength))
     keep_changes(scene, scenario.changes)
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
@@ -73,7 +74,7 @@ def _build(
         for row in model.fixed.nonzero()[0]:
             shards[row].rigid_body.type = "PASSIVE"
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
-        set_joints(made, scenario.connections.joints, model.joint_of_connection, scenario.time.step)
+        set_joints(made, joints, model.joint_of_connection, scenario.time.step)
         if model.stiffness is None:
             forget_elasticity(scene)
         else:
@@ -106,12 +107,12 @@ def _all_data() -> Iterator[bpy.types.ID]:
         yield from kind
 
 
-def _breaking(settings: ConnectionSettings) -> Breaking:
-    if settings.material is None:
+def _breaking(settings: ConnectionSettings, strength: Strength | None) -> Breaking:
+    if strength is None:
         return Breaking(warm_up_s=settings.warm_up_s, warm_up_damping=settings.warm_up_damping)
     share, elongation = settings.ductile_share, settings.ductile_elongation_m
     ductility = Ductility(share, elongation) if share > 0.0 else None
-    return Breaking(MATERIALS[settings.material], settings.warm_up_s, ductility, settings.warm_up_damping)
+    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping)
 
 
 def last_frame(scenario: Scenario) -> int:

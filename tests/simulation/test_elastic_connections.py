@@ -301,7 +301,7 @@ def test_a_span_rests_in_blender_as_it_does_without(blender, tmp_path, elastic_s
     elastic_span = replace(elastic_span, connections=replace(elastic_span.connections, between=between))
     summary = run(elastic_span, tmp_path / "run")
     model = build_model(elastic_span)
-    rest = model_at_rest(model, elastic_span.connections.joints)
+    rest = model_at_rest(model, elastic_span.joints)
     # Blender keeps places in single precision, and Bullet puts its margin around hulls.
     assert summary["elasticity"]["sag_m"] == pytest.approx(sag_m(model, rest), rel=1e-3)
     assert summary["elasticity"]["frequency_hz"] == pytest.approx(rest.frequency_hz, rel=1e-3)

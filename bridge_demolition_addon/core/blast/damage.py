@@ -48,6 +48,7 @@ def ring_radii(
     level_m: float = 0.0,
     thresholds: Sequence[Threshold] = THRESHOLDS,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
+    pressure_factor: float = 1.0,
 ) -> np.ndarray:
     """Return the radii of the rings around the charges, on plan at a level, within which a threshold is reached.
 
@@ -64,6 +65,8 @@ def ring_radii(
         The thresholds.
     model : BlastModel
         Where the waves come from.
+    pressure_factor : float
+        Factor on their pressures.
 
     Returns
     -------
@@ -74,7 +77,7 @@ def ring_radii(
     for row, threshold in enumerate(thresholds):
         for column, charge in enumerate(charges):
             reach = stand_off_for_overpressure(
-                threshold.overpressure_pa, charge.tnt_for_pressure_kg, charge.burst, model
+                threshold.overpressure_pa / pressure_factor, charge.tnt_for_pressure_kg, charge.burst, model
             )
             height = charge.place_m[2] - level_m
             radii[row, column] = np.sqrt(max(reach * reach - height * height, 0.0))

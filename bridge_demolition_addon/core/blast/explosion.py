@@ -141,6 +141,7 @@ class Explosion:
             model=settings.model,
             loading=settings.loading,
             constant_decay=settings.constant_decay,
+            pressure_factor=settings.pressure_factor,
         )
         self._pulses.put(columns, pulses)
         self._stand_offs[:, columns], self._directions[:, columns] = stand_offs, directions

@@ -81,6 +81,7 @@ def blast_pulses(
     model: BlastModel = BlastModel.KINGERY_BULMASH,
     loading: Loading = Loading.INCIDENT,
     constant_decay: float | None = None,
+    pressure_factor: float = 1.0,
 ) -> Pulses:
     """Return the pulses of charges on bodies.
 
@@ -98,6 +99,8 @@ def blast_pulses(
         Which of their pressures loads the bodies.
     constant_decay : float or None
         One decay for all pulses, such as `REPORT_DECAY`; None solves each from peak, duration and impulse.
+    pressure_factor : float
+        Factor on the pressures. Impulses grow with it, times and decays stay.
 
     Raises
     ------
@@ -113,6 +116,7 @@ def blast_pulses(
     stand_offs = checked(stand_offs_m, "stand-off", "m")
     masses, delays = checked(tnt_kg, "charge", "kg of TNT"), checked(delays_s, "delay", "s")
     _check_shapes(stand_offs, masses, delays, bursts)
+    checked(pressure_factor, "pressure factor", "no unit")
     if constant_decay is not None:
         checked(constant_decay, "decay", "no unit")
     pulses = Pulses(*(np.zeros(stand_offs.shape) for _ in range(4)))
@@ -127,7 +131,7 @@ def blast_pulses(
             duration, decay = friedlander.fitted(peak, duration, impulse)
         else:
             decay = np.full(peak.shape, constant_decay)
-        pulses.put(columns, Pulses(wave.arrival_time_s + delays[columns], peak, duration, decay))
+        pulses.put(columns, Pulses(wave.arrival_time_s + delays[columns], pressure_factor * peak, duration, decay))
     return pulses
 
 

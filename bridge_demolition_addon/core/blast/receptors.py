@@ -68,6 +68,7 @@ def loads_at(
     place_m: Sequence[float],
     charges: Sequence[Charge],
     model: BlastModel = BlastModel.KINGERY_BULMASH,
+    pressure_factor: float = 1.0,
 ) -> PlaceLoads:
     """Return the loads of charges, at least one of them above 0 kg, at a position (3,), m.
 
@@ -80,9 +81,10 @@ def loads_at(
     bursts = [charge.burst for charge in charges]
     by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
     by_impulse = np.array([charge.tnt_kg for charge in charges])
-    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, model=model)
+    settings = {"model": model, "pressure_factor": pressure_factor}
+    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, **settings)
     times = _times(pulses)
-    impulses = blast_pulses(stand_offs, by_impulse, delays, bursts, model=model).impulses_pa_s
+    impulses = blast_pulses(stand_offs, by_impulse, delays, bursts, **settings).impulses_pa_s
     pressures = pressure_at(pulses, times[:, None]).sum(axis=1)
     return PlaceLoads(
         distance_m=float(stand_offs.min()),
@@ -96,7 +98,10 @@ def loads_at(
 
 
 def peak_overpressures(
-    points_m: np.ndarray, charges: Sequence[Charge], model: BlastModel = BlastModel.KINGERY_BULMASH
+    points_m: np.ndarray,
+    charges: Sequence[Charge],
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    pressure_factor: float = 1.0,
 ) -> np.ndarray:
     """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.
 
@@ -106,7 +111,7 @@ def peak_overpressures(
     for charge in charges:
         stand_offs = distance(points_m, np.array(charge.place_m))
         wave = blast_wave(stand_offs, charge.tnt_for_pressure_kg, charge.burst, model)
-        peaks = np.maximum(peaks, wave.peak_overpressure_pa)
+        peaks = np.maximum(peaks, pressure_factor * wave.peak_overpressure_pa)
     return peaks
 
 

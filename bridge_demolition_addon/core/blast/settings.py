@@ -42,6 +42,13 @@ class BlastSettings(Table):
         default=Loading.INCIDENT.value,
         choices=tuple(loading.value for loading in Loading),
     )
+    pressure_factor: float = key(
+        "Factor on all pressures, and so on all impulses; times and the vibration of the ground stay. Tests scatter "
+        "about the curves: a study may draw it.",
+        default=1.0,
+        above=0,
+        at_most=100,
+    )
     shielding: bool = key(
         "Whether shards that stand behind others get less, as rays from the charge find out.", default=False
     )

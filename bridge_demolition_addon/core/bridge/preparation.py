@@ -32,7 +32,7 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
     GeometryError
         A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball.
     """
-    of_bridge = bridge_members(scenario.bridge) if scenario.bridge else ()
+    of_bridge = bridge_members(scenario.weighed_bridge) if scenario.bridge else ()
     if not scenario.geometry:
         return PreparedMembers(of_bridge, ())
     from_files, repairs = geometry_members(scenario.geometry)

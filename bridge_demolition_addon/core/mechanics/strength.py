@@ -57,6 +57,10 @@ class Strength:
         """Strength from numbers in N/mm²."""
         return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * each for each in (compression, tension, shear, torsion, bending)))
 
+    def times(self, factor: float) -> Strength:
+        """All strengths times a factor above 0; with a factor of 1 the same object."""
+        return self if factor == 1.0 else Strength(*(factor * getattr(self, each.name) for each in fields(self)))
+
 
 MATERIALS = {
     "concrete": Strength.in_n_mm2(compression=35.0, tension=3.5, shear=0.9, torsion=3.5, bending=3.5),

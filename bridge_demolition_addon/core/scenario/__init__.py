@@ -14,6 +14,7 @@ from .connections import ConnectionBetween, ConnectionSettings
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
+from .materials import Material
 from .recording import PictureSettings, RecordingSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
@@ -41,6 +42,7 @@ __all__ = [
     "Girders",
     "Ground",
     "Jackhammer",
+    "Material",
     "MemberFracture",
     "Neighbour",
     "PictureSettings",

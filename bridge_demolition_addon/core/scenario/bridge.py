@@ -159,7 +159,8 @@ class Bridge(Table):
         **SIZE,
     )
     density_kg_m3: float | None = key(
-        "Density of all members that have none of their own. Give this or `mass_kg`.",
+        "Density of all members that have none of their own. Give this or `mass_kg`, or neither where the material of "
+        "your own that `connections.material` names has a density.",
         default=None,
         unit="kg/m³",
         above=0,
@@ -222,7 +223,8 @@ class Bridge(Table):
         return self.girders.number * self.girder_spacing_m if self.girders else self.deck.width_m
 
     def _check_together(self) -> None:
-        check_exactly_one(self, "density_kg_m3", "mass_kg")
+        if self.density_kg_m3 is not None and self.mass_kg is not None:
+            check_exactly_one(self, "density_kg_m3", "mass_kg")
         if self.spans_m > FARTHEST_M:
             raise ScenarioError(
                 f"bridge.span_lengths_m add up to {self.spans_m:g}: expected at most {FARTHEST_M:g} (m)"

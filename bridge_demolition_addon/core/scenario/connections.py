@@ -1,14 +1,16 @@
 """Which shards are connected, how, and what breaks a connection: for all of them, and between certain members."""
 
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import ClassVar, Self
 
-from ..elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
+from ..elasticity.section_stiffness import ElasticModuli
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
-from ..mechanics.strength import MATERIALS
-from ..schema import LARGEST_INTEGER, Table, check_exactly_one, key
+from ..mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
+from ..schema import LARGEST_INTEGER, Table, check_exactly_one, expected, key
 from ..units import STANDARD_GRAVITY_M_S2
+from .materials import MODULUS, POISSON, Material, moduli, strengths
 
 _SPRINGS = {
     "move": ("stiffness_n_m", "damping_ns_m"),
@@ -102,8 +104,7 @@ STRENGTH_KEYS = ("breaking_force_n", "breaking_force_kgf", "material")
 ELASTIC_TYPES = ("FIXED", "GENERIC", "GENERIC_SPRING")
 """Kinds of connections that can be elastic: those whose rows Bullet lets be told what to expect."""
 
-_PA = 1e6
-"""1 N/mm² in Pa."""
+_OWN_MATERIAL = "the name of one of `[[materials]]`"
 
 _JOINT = tuple(item.name for item in fields(JointSettings))
 
@@ -131,19 +132,17 @@ class ConnectionBetween(JointSettings):
         "`breaking_force_kgf`.",
         default=None,
         choices=tuple(MATERIALS),
+        or_else=_OWN_MATERIAL,
     )
     elastic_modulus_n_mm2: float | None = key(
         "Modulus of elasticity, where connections are elastic, if it is not the material's.",
         default=None,
-        unit="N/mm²",
-        above=0,
-        at_most=1e7,
+        **MODULUS,
     )
     poisson_ratio: float | None = key(
         "Poisson's ratio, where connections are elastic, if it is not the material's.",
         default=None,
-        at_least=0,
-        at_most=0.49,
+        **POISSON,
     )
 
     @property
@@ -216,6 +215,14 @@ class ConnectionSettings(JointSettings):
         f"`{MATERIAL_OF_LARGE_MODELS}`.",
         default=None,
         choices=tuple(MATERIALS),
+        or_else=_OWN_MATERIAL,
+    )
+    strength_factor: float = key(
+        "Factor on all strengths and breaking forces, also on those between certain members: for a bridge that is "
+        "weaker or stronger throughout, which a study may draw.",
+        default=1.0,
+        above=0,
+        at_most=100,
     )
     stiffness: str = key(
         "Whether connections hold bodies rigidly, so that redundant ones share a load as the solver leaves it "
@@ -227,15 +234,12 @@ class ConnectionSettings(JointSettings):
     elastic_modulus_n_mm2: float | None = key(
         "Modulus of elasticity, with `stiffness` `elastic`, if it is not the material's.",
         default=None,
-        unit="N/mm²",
-        above=0,
-        at_most=1e7,
+        **MODULUS,
     )
     poisson_ratio: float | None = key(
         "Poisson's ratio, with `stiffness` `elastic`, if it is not the material's.",
         default=None,
-        at_least=0,
-        at_most=0.49,
+        **POISSON,
     )
     damping_ratio: float | None = key(
         "Damping of the first frequency as a share of the critical one, with `stiffness` `elastic`; 0.05 where it is "
@@ -279,18 +283,31 @@ class ConnectionSettings(JointSettings):
         """Return whether connections give way."""
         return self.stiffness == "elastic"
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Return the joint of connections that follow no rule, then that of each rule."""
+    def joints(self, materials: Sequence[Material] = ()) -> tuple[Joint, ...]:
+        """Return the joint of connections that follow no rule, then that of each rule.
+
+        Parameters
+        ----------
+        materials
+            The user's own.
+
+        Raises
+        ------
+        ScenarioError
+            A material is unknown, or does not say how it deforms.
+        """
+        known = {name: each.times(self.strength_factor) for name, each in strengths(materials).items()}
+        self._check_materials(known)
+        factor = self.strength_factor
         own = Joint(
             self.type,
             self.free or (),
             self.springs,
-            self.breaking_force_newton,
-            MATERIALS.get(self.material),
-            _moduli(self, self.material) if self.is_elastic else None,
+            _times(factor, self.breaking_force_newton),
+            known.get(self.material),
+            _moduli(self, materials) if self.is_elastic else None,
         )
-        return (own, *(_joint_between(own, rule) for rule in self.between))
+        return (own, *(_joint_between(own, rule, factor, known, materials) for rule in self.between))
 
     def with_strength(self, shards: int) -> Self:
         """Return the settings of a bridge in so many shards: large ones need no strength.
@@ -356,6 +373,12 @@ class ConnectionSettings(JointSettings):
                     "connections break by stress, not by one force"
                 )
 
+    def _check_materials(self, known: Collection[str]) -> None:
+        for each in (self, *self.between):
+            if each.material is not None and each.material not in known:
+                item = next(item for item in fields(each) if item.name == "material")
+                raise each.unexpected("material", expected(item))
+
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
         """Check that a key is given for the methods that need it, and for no others."""
         is_given, is_needed = getattr(self, name) is not None, self.method in methods
@@ -363,22 +386,37 @@ class ConnectionSettings(JointSettings):
             raise self.unexpected(name, f'{wanted if is_needed else "none"} with method "{self.method}"')
 
 
-def _joint_between(own: Joint, rule: ConnectionBetween) -> Joint:
+def _joint_between(
+    own: Joint,
+    rule: ConnectionBetween,
+    factor: float,
+    known: Mapping[str, Strength],
+    materials: Sequence[Material],
+) -> Joint:
     kind = rule.type or own.type
     free, springs = (rule.free or (), rule.springs) if rule.changes_joint else (own.free, own.springs)
-    force, strength = rule.breaking_force_newton, MATERIALS.get(rule.material)
+    force, strength = _times(factor, rule.breaking_force_newton), known.get(rule.material)
     if force is None and strength is None:
         force, strength = own.breaking_force_n, own.strength
-    moduli = _moduli(rule, rule.material, own.moduli) if own.moduli else None
-    return Joint(kind, free, springs, force, strength, moduli)
+    own_moduli = _moduli(rule, materials, own.moduli) if own.moduli else None
+    return Joint(kind, free, springs, force, strength, own_moduli)
+
+
+def _times(factor: float, force_n: float | None) -> float | None:
+    return None if force_n is None else factor * force_n
 
 
 def _moduli(
-    settings: ConnectionSettings | ConnectionBetween, material: str | None, others: ElasticModuli | None = None
+    settings: ConnectionSettings | ConnectionBetween,
+    materials: Sequence[Material],
+    others: ElasticModuli | None = None,
 ) -> ElasticModuli:
     """Moduli that are given, or those of a material, or of the other connections where it is not given."""
-    known = ELASTIC_MODULI[material] if material else others
     young, poisson = settings.elastic_modulus_n_mm2, settings.poisson_ratio
+    if young is not None and poisson is not None:
+        return ElasticModuli(young * NEWTON_PER_SQUARE_MILLIMETRE, poisson)
+    known = moduli(materials, settings.material) if settings.material else others
     return ElasticModuli(
-        known.young_pa if young is None else young * _PA, known.poisson if poisson is None else poisson
+        known.young_pa if young is None else young * NEWTON_PER_SQUARE_MILLIMETRE,
+        known.poisson if poisson is None else poisson,
     )

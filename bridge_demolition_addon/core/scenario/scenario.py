@@ -1,12 +1,13 @@
 """A whole scenario, made of its tables."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
-from ..schema import LARGEST_INTEGER, ROUNDING, Table, key, shown
+from ..mechanics.joint import Joint
+from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
 from ..timing.timeline import Timeline
 from .ball import Ball, BallHit
 from .bodies import Ground, ShardSettings, Support
@@ -15,6 +16,7 @@ from .connections import ConnectionSettings
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
+from .materials import Material, check_materials
 from .recording import PictureSettings, RecordingSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening, check_times
@@ -39,6 +41,7 @@ class Scenario(Table):
     geometry: tuple[Geometry, ...] = ()
     ground: Ground = field(default_factory=Ground)
     fracture: FractureSettings
+    materials: tuple[Material, ...] = ()
     connections: ConnectionSettings
     supports: tuple[Support, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
@@ -64,6 +67,23 @@ class Scenario(Table):
         return Timeline.of(frame_s, self.time.duration_s, slow_motions)
 
     @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Return the joint of connections that follow no rule of `connections.between`, then that of each rule."""
+        return self.connections.joints(self.materials)
+
+    @property
+    def weighed_bridge(self) -> Bridge | None:
+        """Return the bridge with the density of its material, where it gives neither a density nor its mass."""
+        if self.bridge is None or self.bridge.density_kg_m3 is not None or self.bridge.mass_kg is not None:
+            return self.bridge
+        return replace(self.bridge, density_kg_m3=self._material_density_kg_m3)
+
+    @property
+    def _material_density_kg_m3(self) -> float | None:
+        named = {each.name: each.density_kg_m3 for each in self.materials}
+        return named.get(self.connections.material)
+
+    @property
     def changes(self) -> tuple[Change, ...]:
         """Return all removals, saw cuts and weakenings."""
         return (*self.removals, *self.saw_cuts, *self.weakenings)
@@ -71,6 +91,10 @@ class Scenario(Table):
     def _check_together(self) -> None:
         self._check_charges()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
+        check_materials(self.materials)
+        _ = self.joints  # refuses materials that are unknown, or do not say how they deform
+        if self.bridge and self._material_density_kg_m3 is None:
+            check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
         if self.bridge is None and not self.geometry:
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
         for ball in (self.ball, *self.ball.hits) if self.ball else ():

@@ -103,7 +103,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         stiffness = connection_stiffness(
             connections,
             moments,
-            scenario.connections.joints,
+            scenario.joints,
             joint_of_connection,
             shards,
             fractured.points_m,

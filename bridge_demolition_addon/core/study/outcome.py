@@ -182,8 +182,9 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         found[zone_output(zone.name, "entered")] = bool(watched.entries)
         found[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
     charges = [each for each in scenario.charges if each.mass_kg > 0.0] if scenario.blast.explosion else []
+    model = BlastModel(scenario.blast.model)
     for neighbour in scenario.neighbours:
-        loads = loads_at(neighbour.place_m, charges, BlastModel(scenario.blast.model)) if charges else None
+        loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None
         found[neighbour_output(neighbour.name, "pressure_kPa")] = loads.peak_pa / 1e3 if loads else 0.0
         found[neighbour_output(neighbour.name, "vibration_mm_s")] = loads.peak_velocity_m_s * 1e3 if loads else 0.0
     return found

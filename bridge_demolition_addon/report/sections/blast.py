@@ -22,23 +22,32 @@ def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
     charges = tuple(charge for charge in scenario.charges if charge.mass_kg > 0.0)
     if not charges:
         return None
-    model = BlastModel(scenario.blast.model)
+    model, factor = BlastModel(scenario.blast.model), scenario.blast.pressure_factor
     blocks: list[Block] = []
     if not scenario.blast.explosion:
         blocks.append(Paragraph("The charges did not go off in this run: this is what they would do.", is_notice=True))
+    if factor != 1.0:
+        blocks.append(Paragraph(f"All pressures are taken times blast.pressure_factor, {factor:g}.", is_notice=True))
     blocks += [_charge_table(charges), _totals(charges)]
     blocks.append(
         Picture(
-            partial(overpressure_map, charges=charges, bridge=bridge, neighbours=scenario.neighbours, model=model),
+            partial(
+                overpressure_map,
+                charges=charges,
+                bridge=bridge,
+                neighbours=scenario.neighbours,
+                model=model,
+                pressure_factor=factor,
+            ),
             "Peak overpressure on the ground, the largest that any one charge gives by itself; where waves meet, it "
             f"can be more. Rings up to that of {WIDEST_PA / 1e3:g} kPa; those of less are in the table. Free field: "
             "nothing hides the ground, and no wall sends anything back.",
             140.0,
         )
     )
-    blocks.append(_ring_table(charges, model))
+    blocks.append(_ring_table(charges, model, factor))
     if scenario.neighbours:
-        loads = [(each.name, loads_at(each.place_m, charges, model)) for each in scenario.neighbours]
+        loads = [(each.name, loads_at(each.place_m, charges, model, factor)) for each in scenario.neighbours]
         blocks += _neighbour_blocks(loads)
     else:
         blocks.append(
@@ -87,8 +96,8 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
     return facts("Total charge and charge per delay", rows, "charge_per_delay")
 
 
-def _ring_table(charges: Sequence[Charge], model: BlastModel) -> DataTable:
-    radii = ring_radii(charges, 0.0, THRESHOLDS, model).max(axis=1)
+def _ring_table(charges: Sequence[Charge], model: BlastModel, pressure_factor: float) -> DataTable:
+    radii = ring_radii(charges, 0.0, THRESHOLDS, model, pressure_factor).max(axis=1)
     columns = (
         Column("overpressure (kPa)", "overpressure_kPa", ".2f"),
         Column("damage", "damage"),

@@ -125,11 +125,12 @@ def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
 
 
 def _breaking_text(run: Run) -> str:
-    settings = run.scenario.connections
+    settings, joint = run.scenario.connections, run.scenario.joints[0]
     others = "; differently between some members, see the scenario" if settings.between else ""
-    if settings.breaking_force_newton is not None:
-        return f"at one force, {settings.breaking_force_newton / 1e3:.1f} kN{others}"
-    return f"by the strength of {settings.material}{others}"
+    if joint.breaking_force_n is not None:
+        return f"at one force, {joint.breaking_force_n / 1e3:.1f} kN{others}"
+    times = f"{settings.strength_factor:g} times " if settings.strength_factor != 1.0 else ""
+    return f"by {times}the strength of {settings.material}{others}"
 
 
 def _range_text(low: float, high: float, unit: str) -> str:

@@ -22,6 +22,7 @@ from ...core.display.colour_scale import colours
 from ...core.display.contours import ContourFrame, ContourSettings
 from ...core.display.force_arrows import arrows, body_forces, connection_forces, contact_forces
 from ...scene.blast.charges import charges_of
+from ...scene.blast.settings import blast_of
 from ...simulation.blender_events import contours_of
 from ..viewport import covered_px
 from . import view as contour_view
@@ -100,10 +101,11 @@ def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
 def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
     """Return a ring at height 0 as lines (2 p, 3) float, m, and its radius for each charge whose damage gets there."""
     charges, number = charges_of(scene), int(scene.bda.ring_damage)
-    key = (charges, number)
+    factor = blast_of(scene).pressure_factor
+    key = (charges, number, factor)
     if key not in _rings:
         _rings.clear()
-        _rings[key] = ring_radii(charges, 0.0, [THRESHOLDS[number]])[0]
+        _rings[key] = ring_radii(charges, 0.0, [THRESHOLDS[number]], pressure_factor=factor)[0]
     angles = np.linspace(0.0, 2.0 * math.pi, _RING_POINTS + 1)
     circle = np.column_stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)))
     rings = []

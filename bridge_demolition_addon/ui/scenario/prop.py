@@ -7,6 +7,7 @@ it, ``use_`` and its name; a list of tables is a collection with the index of it
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import MISSING, Field
 from functools import cache
 from pathlib import Path
@@ -197,6 +198,8 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     rule, kind = key_of(item), value_type(item)
     if kind is bool:
         return BoolProperty(default=bool(default), **words)
+    if rule.choices and rule.or_else:
+        return StringProperty(default=default or rule.choices[0], search=_choices_shown(rule), **words)
     if rule.choices and kind is str:
         items = [(each, each, "") for each in rule.choices]
         return EnumProperty(items=items, default=default or rule.choices[0], **words)
@@ -206,6 +209,11 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     if is_written_out(item):
         return StringProperty(default="" if default is None else toml_value(default), **words)
     return _number_property(item, default, words)
+
+
+def _choices_shown(rule: Key) -> Callable[[Any, bpy.types.Context, str], list[str]]:
+    """Return what Blender asks for the choices of a key that takes other texts as well."""
+    return lambda _group, _context, typed: [each for each in rule.choices if typed.casefold() in each.casefold()]
 
 
 def _number_property(item: Field, default: Any, words: dict[str, str]) -> Any:

@@ -23,6 +23,7 @@ _PARENTS = {
     "pictures": "BDA_PT_scenario",
     "geometry": "BDA_PT_bridge",
     "supports": "BDA_PT_bridge",
+    "materials": "BDA_PT_connections",
     "ground": "BDA_PT_shards",
     "blast": "BDA_PT_explosion",
     "recording": "BDA_PT_handler",

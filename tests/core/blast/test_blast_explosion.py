@@ -39,6 +39,17 @@ def test_steps_of_any_length_add_up_to_the_impulse_of_the_table(steps):
     assert total[0] == pytest.approx([IMPULSE_AT_5_PA_S, 0.0, 0.0], rel=2e-4)
 
 
+@pytest.mark.parametrize("options", [{}, {"model": "kinney-graham", "constant_decay": 1.0}, {"loading": "reflected"}])
+def test_twice_the_pressure_is_twice_the_impulse_at_the_same_times(options):
+    charges = charge((0, 0, 0)), charge((2, 2, 0), 3.0, delay=0.01)
+    whole, twice = (explosion(*charges, pressure_factor=factor, **options) for factor in (1.0, 2.0))
+    for start, end in pairwise(np.linspace(0.0, 0.1, 20)):
+        one, other = (each.loads(start, end, CENTRES, UPRIGHT) for each in (whole, twice))
+        np.testing.assert_array_equal(other.impulses_ns, 2.0 * one.impulses_ns)
+        np.testing.assert_array_equal(other.peaks_pa, 2.0 * one.peaks_pa)
+        np.testing.assert_array_equal((other.bodies, other.charges), (one.bodies, one.charges))
+
+
 def test_a_charge_finds_the_bodies_where_they_are_when_it_detonates():
     blast = explosion(charge((0, 0, 0)), charge((0, 0, 0), delay=0.5))
     first = blast.loads(0.0, 0.4, CENTRES, UPRIGHT)

@@ -112,3 +112,5 @@ def test_rings_on_plan_of_several_charges():
     assert radii[:, 3].tolist() == [0.0, 0.0]
     assert ring_radii(charges, 30.0, wanted)[:, 1].tolist() == [glass, houses]
     assert ring_radii([], 0.0).shape == (9, 0)
+    twice = ring_radii(charges, 0.0, wanted, pressure_factor=2.0)
+    assert twice[0, 0] == stand_off_for_overpressure(0.5 * 1.03e3, 8.0)

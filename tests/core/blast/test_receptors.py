@@ -69,3 +69,14 @@ def test_peaks_on_the_ground_are_those_of_the_charge_that_gives_most():
     points = np.array([[10.0, 0.0, 0.0], [90.0, 0.0, 0.0]])
     peaks = peak_overpressures(points, [charge(0.0, 8.0), charge(100.0, 8.0)])
     assert peaks == pytest.approx([31.30e3, 31.30e3], rel=1e-3)
+
+
+def test_a_factor_on_pressures_leaves_times_and_the_ground_alone():
+    charges, place = [charge(10.0, 8.0), charge(-10.0, 8.0, 0.05)], (30.0, 5.0, 0.0)
+    one, twice = loads_at(place, charges), loads_at(place, charges, pressure_factor=2.0)
+    assert (twice.peak_pa, twice.impulse_pa_s) == (2.0 * one.peak_pa, 2.0 * one.impulse_pa_s)
+    assert (twice.arrival_s, twice.peak_velocity_m_s) == (one.arrival_s, one.peak_velocity_m_s)
+    points = np.array([place, (50.0, 0.0, 0.0)])
+    np.testing.assert_array_equal(
+        peak_overpressures(points, charges, pressure_factor=2.0), 2.0 * peak_overpressures(points, charges)
+    )

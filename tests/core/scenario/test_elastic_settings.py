@@ -21,7 +21,7 @@ def test_moduli_are_those_of_the_material_unless_others_are_given():
             ConnectionBetween(members=("pier", "pier"), elastic_modulus_n_mm2=5000.0),
             ConnectionBetween(members=("deck", "pier"), type="GENERIC", free=("turn y",)),
         ),
-    ).joints
+    ).joints()
     assert own.moduli == ElasticModuli(34e9, 0.1)
     assert steel.moduli == ELASTIC_MODULI["steel"]
     assert soft.moduli == ElasticModuli(5e9, 0.1)
@@ -33,7 +33,7 @@ def test_every_material_with_strengths_has_moduli():
 
 
 def test_rigid_connections_have_no_moduli():
-    assert all(each.moduli is None for each in replace(ELASTIC, stiffness="rigid").joints)
+    assert all(each.moduli is None for each in replace(ELASTIC, stiffness="rigid").joints())
 
 
 @pytest.mark.parametrize(

@@ -223,8 +223,8 @@ def test_values_outside_their_limits_are_refused(table, values, text):
     [
         (BRIDGE, {"mass_kg": 1}, "bridge.density_kg_m3 and bridge.mass_kg are given together: expected exactly one"),
         (
-            BRIDGE,
-            {"density_kg_m3": None},
+            SCENARIO,
+            {"bridge": replace(BRIDGE, density_kg_m3=None)},
             "bridge.density_kg_m3 and bridge.mass_kg are all missing: expected exactly one",
         ),
         (CONNECTIONS, {"breaking_force_n": 1}, "breaking_force_kgf are given together: expected exactly one of"),

@@ -109,7 +109,7 @@ def test_joints_take_over_what_is_not_given():
             between("pier", "ground", material="steel"),
         ),
     )
-    joints = settings.joints
+    joints = settings.joints()
     assert [joint.type for joint in joints] == ["GENERIC", "GENERIC", "FIXED", "GENERIC", "GENERIC"]
     assert [joint.free for joint in joints] == [("turn y",), ("move x", "turn y"), (), ("turn y",), ("turn y",)]
     assert [joint.breaking_force_n for joint in joints] == [None, None, None, pytest.approx(980.665), None]
@@ -126,7 +126,7 @@ def test_springs_are_taken_over_together_or_not_at_all():
         breaking_force_n=1.0,
         between=(between("deck", "deck", breaking_force_n=2.0), between("pier", "deck", type="FIXED")),
     )
-    own, same, fixed = settings.joints
+    own, same, fixed = settings.joints()
     assert own.springs == same.springs == Springs(stiffness_n_m=1e6)
     assert own.free == same.free == ("move z",)
     assert (fixed.free, fixed.springs) == ((), Springs())
