@@ -20,8 +20,7 @@ _STRENGTH = {"unit": "N/mm²", "above": 0}
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Material(Table):
     """A material of your own, which `connections.material` and `connections.between.material` may name: strengths that
-    were measured on this bridge, or that a study draws. Those that come with the add-on have a source each, see
-    [strengths](connections.md)."""
+    were measured on this bridge, or that a study draws."""
 
     table: ClassVar[str] = "materials"
 
