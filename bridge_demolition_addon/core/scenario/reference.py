@@ -42,7 +42,12 @@ Tables are merged key by key. Values and lists of tables (`[[...]]`) replace tho
 
 def scenario_reference() -> str:
     """Return every table and key of a scenario file with its default, limits and meaning, in Markdown."""
-    return "\n".join([INTRODUCTION, *_section(Scenario, required=True)])
+    return reference(INTRODUCTION, Scenario)
+
+
+def reference(introduction: str, root: type[Table]) -> str:
+    """Return every table and key of a file that holds a table, after an introduction, in Markdown."""
+    return "\n".join([introduction, *_section(root, required=True)])
 
 
 def _section(table_class: type[Table], *, required: bool, many: bool = False) -> Iterator[str]:
