@@ -7,7 +7,7 @@ it, ``use_`` and its name; a list of tables is a collection with the index of it
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Iterable
 from dataclasses import MISSING, Field
 from functools import cache
 from pathlib import Path
@@ -199,7 +199,11 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     if kind is bool:
         return BoolProperty(default=bool(default), **words)
     if rule.choices and rule.or_else:
-        return StringProperty(default=default or rule.choices[0], search=_choices_shown(rule), **words)
+        return StringProperty(
+            default=default or rule.choices[0],
+            search=lambda group, _context, typed: materials_shown(group, rule.choices, typed),
+            **words,
+        )
     if rule.choices and kind is str:
         items = [(each, each, "") for each in rule.choices]
         return EnumProperty(items=items, default=default or rule.choices[0], **words)
@@ -211,9 +215,10 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     return _number_property(item, default, words)
 
 
-def _choices_shown(rule: Key) -> Callable[[Any, bpy.types.Context, str], list[str]]:
-    """Return what Blender asks for the choices of a key that takes other texts as well."""
-    return lambda _group, _context, typed: [each for each in rule.choices if typed.casefold() in each.casefold()]
+def materials_shown(group: bpy.types.PropertyGroup, choices: Iterable[str], typed: str) -> list[str]:
+    """Return the materials to propose for what was typed: those of a key, and the user's own."""
+    own = (each.name for each in group.id_data.bda.scenario.materials)
+    return [each for each in (*choices, *own) if typed.casefold() in each.casefold()]
 
 
 def _number_property(item: Field, default: Any, words: dict[str, str]) -> Any:

@@ -5,6 +5,7 @@ from typing import get_args, get_origin
 import pytest
 
 import bridge_demolition_addon
+from bridge_demolition_addon.core.mechanics.strength import MATERIALS
 from bridge_demolition_addon.core.scenario import Charge, Scenario
 from bridge_demolition_addon.core.schema import (
     holds_many,
@@ -14,7 +15,13 @@ from bridge_demolition_addon.core.schema import (
     subtable_fields,
     value_type,
 )
-from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, label_of, registered_group
+from bridge_demolition_addon.ui.scenario.prop import (
+    all_tables,
+    group_name,
+    label_of,
+    materials_shown,
+    registered_group,
+)
 
 KEYS = [(table, item) for table in all_tables() for item in key_fields(table)]
 NAMES = [f"{table.table}.{item.name}" for table, item in KEYS]
@@ -88,7 +95,7 @@ def test_every_number_has_its_unit_and_limits(key):
 def test_choices_are_a_menu(key):
     table, item = key
     choices = item.metadata["key"].choices
-    if choices and value_type(item) is str:
+    if choices and value_type(item) is str and not item.metadata["key"].or_else:
         assert tuple(property_of(table, item.name).enum_items.keys()) == choices
 
 
@@ -107,3 +114,16 @@ def test_names_of_one_group_do_not_meet():
             names += [item.name, item.name + "_index"] if holds_many(item) else [item.name]
         names += ["use_" + item.name for item in (*key_fields(table), *subtable_fields(table)) if is_optional(item)]
         assert len(set(names)) == len(names)
+
+
+def test_materials_of_the_users_own_are_proposed_beside_the_others():
+    import bpy
+
+    scenario = bpy.context.scene.bda.scenario
+    scenario.materials.add().name = "my concrete"
+    found = materials_shown(scenario.connections, tuple(MATERIALS), "CONC")
+    assert found == [*(name for name in MATERIALS if "concrete" in name), "my concrete"]
+    scenario.connections.material = "my concrete"
+    assert scenario.connections.material == "my concrete"
+    scenario.materials.clear()
+    scenario.connections.property_unset("material")
