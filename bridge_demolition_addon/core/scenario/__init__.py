@@ -7,6 +7,7 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
+from ..mechanics.materials import Material
 from .ball import Ball, BallCable, BallHit
 from .bodies import Ground, ShardSettings, Support
 from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
@@ -14,7 +15,6 @@ from .connections import ConnectionBetween, ConnectionSettings
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
-from .materials import Material
 from .recording import PictureSettings, RecordingSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone

@@ -7,10 +7,10 @@ from typing import ClassVar, Self
 from ..elasticity.section_stiffness import ElasticModuli
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
+from ..mechanics.materials import MODULUS, POISSON, Material, moduli, strengths
 from ..mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 from ..schema import LARGEST_INTEGER, Table, check_exactly_one, expected, key
 from ..units import STANDARD_GRAVITY_M_S2
-from .materials import MODULUS, POISSON, Material, moduli, strengths
 
 _SPRINGS = {
     "move": ("stiffness_n_m", "damping_ns_m"),

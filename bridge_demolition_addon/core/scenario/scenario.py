@@ -7,6 +7,7 @@ from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
 from ..mechanics.joint import Joint
+from ..mechanics.materials import Material, check_materials
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
 from ..timing.timeline import Timeline
 from .ball import Ball, BallHit
@@ -16,7 +17,6 @@ from .connections import ConnectionSettings
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
-from .materials import Material, check_materials
 from .recording import PictureSettings, RecordingSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening, check_times

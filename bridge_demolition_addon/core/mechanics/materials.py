@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
-from ..mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 from ..schema import Table, key
+from .strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 
 MODULUS = {"unit": "N/mm²", "above": 0, "at_most": 1e7}
 """Unit and limits of a modulus of elasticity."""
