@@ -5,6 +5,7 @@ from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.debris import zone_of
+from bridge_demolition_addon.report.study.document import study_document
 from bridge_demolition_addon.report.write import document_of
 
 
@@ -28,6 +29,13 @@ def told(folder):
     """What the report of a run says; all its pictures are drawn and laid out."""
     run = read_run(folder)
     document = document_of(run, "0", zone_of(run))
+    assert drawings(document)
+    return Told(document)
+
+
+def told_of_study(runs):
+    """What the report of a study says; all its pictures are drawn and laid out."""
+    document = study_document(runs, "0")
     assert drawings(document)
     return Told(document)
 

@@ -44,6 +44,8 @@ _MAPS_ABREAST = 2
 _MAP_TITLE_MM, _MAP_LEGEND_MM, _HIGHEST_MAPS_MM = 20.0, 10.0, 220.0
 """What title and labels of one of the maps beside each other need, their legend, and what fits on a page."""
 
+_SHORTEST_MAP_MM, _TALLEST_MAP_MM = 75.0, 150.0
+
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
 
@@ -51,7 +53,7 @@ def debris_map(
     figure: FigureBase, results: Results, debris: Debris, zones: Sequence[Zone] = (), *, trajectories: bool = False
 ) -> None:
     """Draw where the debris lies, where the bridge stood and, if asked for, the paths of the shards' centres."""
-    axes = _plan_axes(figure)
+    axes = plan_axes(figure)
     draw_zones(axes, zones)
     shards = [ring for hull in plan_hulls(results, debris.bodies, -1) for ring in outlines(hull)]
     axes.add_collection(PolyCollection(shards, facecolors="0.78", edgecolors="0.45", linewidths=0.3))
@@ -70,13 +72,13 @@ def debris_map(
         axes.annotate("", last, first, arrowprops=_ARROW)
         box = {"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "black", "linewidth": 0.6}
         axes.annotate(str(number), last, ha="center", va="center", fontsize=6, bbox=box)
-    _fit(axes, figure)
-    _name_zones(axes, figure, zones)
+    fit(axes, figure)
+    name_zones(axes, figure, zones)
 
 
 def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> None:
     """Draw how high the debris lies, in plan."""
-    axes = _plan_axes(figure)
+    axes = plan_axes(figure)
     xs, ys = heights.xs_m, heights.ys_m
     half = (xs[1] - xs[0]) / 2.0
     extent = (xs[0] - half, xs[-1] + half, ys[0] - half, ys[-1] + half)
@@ -85,21 +87,21 @@ def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> N
         heights.heights_m, extent=extent, origin="lower", cmap="Greys", vmin=0.0, vmax=max(top, 0.1), aspect="equal"
     )
     draw_area(axes, outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
-    _fit(axes, figure)
+    fit(axes, figure)
     figure.colorbar(image, ax=axes, label="height above the ground (m)", shrink=0.8)
 
 
 def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone] = ()) -> None:
     """Draw the areas that make up the exclusion zone."""
-    axes = _plan_axes(figure)
+    axes = plan_axes(figure)
     draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone")
     draw_zones(axes, zones)
     draw_area(axes, zone.drop, facecolor="0.82", edgecolor="black", linewidth=0.8, linestyle=":", label="designed drop")
     style = {"facecolor": "none", "edgecolor": "0.3", "hatch": "....", "linewidth": 0.8}
     draw_area(axes, zone.debris, **style, label="predicted debris")
     draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
-    _fit(axes, figure)
-    _name_zones(axes, figure, zones)
+    fit(axes, figure)
+    name_zones(axes, figure, zones)
     _dimension(axes, zone)
 
 
@@ -143,6 +145,12 @@ def _bounds_of(runs: Sequence[tuple[str, Debris]]) -> tuple[np.ndarray, np.ndarr
     return low - room, high + room
 
 
+def map_height_mm(bounds: Sequence[float]) -> float:
+    """Return the height of a map of an area with these bounds at the full width of a page, with axes and legend."""
+    width, height = bounds[2] - bounds[0], bounds[3] - bounds[1]
+    return float(np.clip(25.0 + 150.0 * height / max(width, 1e-9), _SHORTEST_MAP_MM, _TALLEST_MAP_MM))
+
+
 def draw_area(axes: Axes, area: CrossSection, label: str | None = None, **style: Any) -> None:
     """Draw an area with its holes; nothing where it is empty."""
     rings = outlines(area)
@@ -159,7 +167,7 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
         axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
 
 
-def _name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
+def name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
     """Write each zone's name where no other name is, if there is such a place at its sides."""
     letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes, figure)
     style = {"fontsize": _NAME_POINTS, "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}, "zorder": 5}
@@ -194,7 +202,8 @@ def _metres_per_mm(axes: Axes, figure: FigureBase) -> float:
     return float((shown / drawn_mm).max())
 
 
-def _plan_axes(figure: FigureBase) -> Axes:
+def plan_axes(figure: FigureBase) -> Axes:
+    """Return axes in metres along and across the road, at one scale."""
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="box")
     axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
@@ -203,7 +212,7 @@ def _plan_axes(figure: FigureBase) -> Axes:
     return axes
 
 
-def _fit(axes: Axes, figure: FigureBase) -> None:
+def fit(axes: Axes, figure: FigureBase) -> None:
     """Show all that was drawn, with a legend below it."""
     corners = [axes.dataLim.get_points()]
     corners += [patch.get_extents().transformed(axes.transData.inverted()).get_points() for patch in axes.patches]

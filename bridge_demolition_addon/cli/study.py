@@ -14,21 +14,11 @@ from ..core.signals import Interrupted, signals_noted
 from ..core.study.conclusions import Conclusions
 from ..core.study.draws import draw_of, inputs_of
 from ..core.study.file import SEED, Study, read_study
+from ..core.study.files import AGAIN_FOLDER, CONCLUSIONS_FILE, DRAW_FOLDER, RUNS_FILE, SHEET_FILE
 from ..core.study.runs_table import DONE
 from ..studies.draw_process import Limits
 from ..studies.engine import Engine
-from ..studies.folder import (
-    AGAIN_FOLDER,
-    CONCLUSIONS_FILE,
-    DRAW_FOLDER,
-    RUNS_FILE,
-    SHEET_FILE,
-    TRIED_AGAIN,
-    StudyFolder,
-    end_in,
-    study_in,
-    versions_of,
-)
+from ..studies.folder import TRIED_AGAIN, StudyFolder, end_in, study_in, versions_of
 from ..studies.local import LocalProcesses
 from ..studies.study_run import StudyRun
 from .progress import Progress, progress_on

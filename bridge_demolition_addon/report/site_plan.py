@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from ..core.geometry.plan_areas import outlines, signed_area
 from ..core.scenario import Site
 
 _CLOSED = 1
+_MOST_LETTERS = 31
 
 
 def write_dxf(path: Path, layers: Mapping[str, CrossSection]) -> None:
@@ -26,15 +28,23 @@ def write_dxf(path: Path, layers: Mapping[str, CrossSection]) -> None:
     """
     lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1009", "0", "ENDSEC"]
     lines += ["0", "SECTION", "2", "ENTITIES"]
-    for name, area in layers.items():
+    for layer, area in zip(_layer_names(layers), layers.values(), strict=True):
         for ring in outlines(area):
-            layer = name.upper().replace(" ", "_")
             lines += ["0", "POLYLINE", "8", layer, "66", "1", "70", str(_CLOSED), "10", "0", "20", "0", "30", "0"]
             for x, y in ring:
                 lines += ["0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0"]
             lines += ["0", "SEQEND", "8", layer]
     lines += ["0", "ENDSEC", "0", "EOF"]
     write_whole_text(path, "\n".join(lines) + "\n", encoding="ascii", newline="\r\n")
+
+
+def _layer_names(names: Iterable[str]) -> list[str]:
+    """Return names as release 12 may have them, of 31 letters, digits, hyphens and underlines, each another."""
+    found: list[str] = []
+    for number, name in enumerate(names, start=1):
+        layer = re.sub(r"[^A-Z0-9-]+", "_", name.upper()).strip("_")[:_MOST_LETTERS]
+        found.append(f"{layer[: _MOST_LETTERS - 4]}_{number}" if layer in found or not layer else layer)
+    return found
 
 
 def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) -> None:

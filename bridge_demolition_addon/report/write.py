@@ -22,7 +22,7 @@ from .document.pdf import write_pdf
 from .run_folder import Run, read_run
 from .sections.blast import blast_section
 from .sections.collapse import collapse_section
-from .sections.cover import cover_section, scenario_section, trust_section
+from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, zone_of
 from .sections.forces import force_section, logged_section
 from .site_plan import write_dxf, write_geojson
@@ -115,7 +115,7 @@ def document_of(
         Whether the map of the debris shows the paths of the shards.
     """
     debris = None if run.results is None else debris_of(run.results)
-    sections = [cover_section(run, version, debris), trust_section(run)]
+    sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
     if run.results is not None and len(run.results.inventory.of_kind("shard")):
         sections.append(debris_section(run, debris, trajectories=trajectories))
         sections.append(exclusion_section(zone, run, plans))

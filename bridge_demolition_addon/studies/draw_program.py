@@ -20,15 +20,12 @@ from ..core.results.files import BLEND_FILE, FORCE_CHART, RESULTS_FILE
 from ..core.scenario import Scenario
 from ..core.scenario.file import scenario_from_text
 from ..core.sequence.checked_model import checked_model
+from ..core.study.files import OUTLINES_FILE, RUN_FOLDER
 from ..core.study.outcome import outcome_of
 from ..core.study.settings import StudySettings
 from ..core.toml_tables import table_of_document, toml_document
 from .service import Service
 from .versions import versions_with
-
-OUTLINES_FILE = "outlines.npz"
-RUN_FOLDER = "run"
-"""In the folder of a draw, where more than its outcome is kept."""
 
 _ROOT = Path(__file__).resolve().parents[2]
 

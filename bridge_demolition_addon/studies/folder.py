@@ -20,13 +20,9 @@ from ..core.folder_lock import LOCK_FILE, FolderLock, check_unlocked
 from ..core.reading import MEGABYTE, file_text
 from ..core.results.files import SCENARIO_FILE
 from ..core.study.file import Study, read_study
+from ..core.study.files import DRAW_FOLDER, OUTCOME_FILE, STUDY_FILE, VERSIONS_FILE
 from ..core.study.runs_table import KILLED, OUT_OF_MEMORY, STATUSES
 from .draw_process import End
-
-STUDY_FILE, VERSIONS_FILE = "study.toml", "versions.json"
-DRAW_FOLDER, AGAIN_FOLDER = "draws", "again"
-RUNS_FILE, SHEET_FILE, CONCLUSIONS_FILE = "runs.csv", "runs.xlsx", "study.json"
-OUTCOME_FILE = "outcome.json"
 
 _PART = ".part"
 TRIED_AGAIN = (KILLED, OUT_OF_MEMORY)

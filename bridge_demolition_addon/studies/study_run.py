@@ -14,11 +14,12 @@ from ..core.scenario.file import scenario_text
 from ..core.study.conclusions import Conclusions, conclusions
 from ..core.study.draws import Draw, draw_of, inputs_of
 from ..core.study.file import Study
+from ..core.study.files import CONCLUSIONS_FILE, RUNS_FILE, SHEET_FILE
 from ..core.study.runs_sheet import write_sheet
 from ..core.study.runs_table import REFUSED, Row, RunsTable, write_runs
 from .draw_process import End
 from .engine import Engine, Task
-from .folder import CONCLUSIONS_FILE, RUNS_FILE, SHEET_FILE, StudyFolder
+from .folder import StudyFolder
 
 _LOOKED_UP_AT_A_TIME = 200
 """Draws that are looked up before whoever asks for a step is answered."""
@@ -111,15 +112,7 @@ class StudyRun:
 
     def write_conclusions(self) -> Conclusions:
         """Write what follows from all draws, and return it; there have to be all of them."""
-        settings = self._study.settings
-        found = conclusions(
-            self.table(),
-            runs=settings.runs,
-            quantile=settings.quantile,
-            confidence=settings.confidence,
-            rank=settings.rank,
-            criteria=[each.output for each in self._study.criteria],
-        )
+        found = conclusions(self._study, self.table())
         text = json.dumps(found.as_json() | {"versions": dict(self._engine.versions)}, indent=2)
         write_whole_text(self._folder.path / CONCLUSIONS_FILE, text + "\n")
         return found

@@ -8,6 +8,8 @@ C. Spearman (1904), The proof and measurement of association between two things,
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 
@@ -23,3 +25,15 @@ def rank_correlation(first: np.ndarray, second: np.ndarray) -> float:
     one, other = (ranks - ranks.mean() for ranks in (ranks_of(first), ranks_of(second)))
     size = np.sqrt(np.square(one).sum() * np.square(other).sum())
     return float((one * other).sum() / size) if size > 0.0 else float("nan")
+
+
+def correlation_by_chance(pairs: int) -> float:
+    """Return the size that rank correlations of so many pairs, at least 2, stay below by chance in 19 cases of 20.
+
+    Of quantities that have nothing to do with each other they scatter by 1 / √(n - 1) (Kendall and Gibbons 1990, Rank
+    Correlation Methods, 5th edition), and nearly as a normal variable.
+    """
+    return min(1.0, _TWO_SIDED_95 / math.sqrt(pairs - 1.0))
+
+
+_TWO_SIDED_95 = 1.959964

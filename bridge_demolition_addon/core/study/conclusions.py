@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..errors import OutputError
+from .file import Study
 from .runs_table import REACH, RunsTable
 from .statements import Chance, LimitsAtOnce, ReachLimit, as_json, chance_of, limits_at_once, reach_limit
+
+AT_ONCE = (REACH, "largest_throw_m")
+"""Outputs for which limits are to hold together: as many as the fewest runs of a study by default allow."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,28 +52,8 @@ class Conclusions:
         }
 
 
-def conclusions(
-    table: RunsTable,
-    *,
-    runs: int,
-    quantile: float,
-    confidence: float,
-    rank: int,
-    criteria: Sequence[str] = (),
-    at_once: Sequence[str] = (),
-) -> Conclusions:
-    """Return the conclusions of a study.
-
-    Parameters
-    ----------
-    table
-        All of its runs.
-    runs, quantile, confidence, rank
-        What was fixed beforehand.
-    criteria
-        Names of outputs that say whether a run met something.
-    at_once
-        Names of outputs for which limits are to hold together: the worse, the larger.
+def conclusions(study: Study, table: RunsTable) -> Conclusions:
+    """Return the conclusions of a study from the table of all its runs.
 
     Raises
     ------
@@ -79,15 +62,20 @@ def conclusions(
     ScenarioError
         The runs are too few for what was asked.
     """
-    if len(table) != runs:
-        raise OutputError(f"{len(table)} of {runs} runs are there: a study says nothing before all of them are")
-    met = [table.met(name) for name in criteria]
+    settings = study.settings
+    if len(table) != settings.runs:
+        raise OutputError(
+            f"{len(table)} of {settings.runs} runs are there: a study says nothing before all of them are"
+        )
+    confidence = settings.confidence
+    met = [table.met(each.output) for each in study.criteria]
     return Conclusions(
         statuses=dict(sorted(Counter(row.status for row in table.rows).items())),
-        reach=reach_limit(table.largest(REACH), quantile, confidence, rank),
+        reach=reach_limit(table.largest(REACH), settings.quantile, confidence, settings.rank),
         criteria=tuple(
-            chance_of(f"met the criterion {name}", each, confidence) for name, each in zip(criteria, met, strict=True)
+            chance_of(f"met the criterion {criterion.name}", each, confidence)
+            for criterion, each in zip(study.criteria, met, strict=True)
         ),
         success=chance_of("met all criteria", np.all(met, axis=0), confidence) if met else None,
-        at_once=limits_at_once({name: table.largest(name) for name in at_once}, quantile, confidence),
+        at_once=limits_at_once({name: table.largest(name) for name in AT_ONCE}, settings.quantile, confidence),
     )

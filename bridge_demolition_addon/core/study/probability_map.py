@@ -33,8 +33,8 @@ class ProbabilityMap:
         Where on the plan.
     hits : (rows, columns) int
         Runs in which debris covered a part of a cell. A run that did not finish hit everything.
-    runs
-        How many there were.
+    runs, unfinished
+        How many there were, and how many of them did not finish.
     confidence
         Of the limit of each cell by itself.
     """
@@ -42,6 +42,7 @@ class ProbabilityMap:
     cells: PlanCells
     hits: np.ndarray
     runs: int
+    unfinished: int
     confidence: float
 
     @property
@@ -56,8 +57,8 @@ class ProbabilityMap:
         return upper_limit(counts, self.runs, self.confidence)[of.reshape(self.hits.shape)]
 
     def resolves(self, probability: float) -> bool:
-        """Return whether so many runs can show that a place is hit with less than this probability."""
-        return self.runs >= self.runs_for(probability)
+        """Return whether the runs show of any place, such as one far away, that they hit it with no more than this."""
+        return float(upper_limit(self.unfinished, self.runs, self.confidence)) <= probability
 
     def runs_for(self, probability: float) -> int:
         """Return how many runs it takes to show so of a place that none of them hits."""
@@ -91,11 +92,11 @@ def probability_map(
         return None
     low, high = np.min([box[0] for box in corners], axis=0), np.max([box[1] for box in corners], axis=0)
     cells = PlanCells.over(low, high, _MOST_CELLS)
-    hits, runs = np.zeros((cells.rows, cells.columns), int), 0
+    hits, runs, unfinished = np.zeros((cells.rows, cells.columns), int), 0, 0
     for rings in swept:
         hits += 1 if rings is None else cells.touched(rings)
-        runs += 1
-    return ProbabilityMap(cells, hits, runs, confidence)
+        runs, unfinished = runs + 1, unfinished + (rings is None)
+    return ProbabilityMap(cells, hits, runs, unfinished, confidence)
 
 
 def _box(rings: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

@@ -100,7 +100,7 @@ class ReachLimit:
             )
         debris = f"debris of {least_mass_kg:g} kg or more" if least_mass_kg > 0.0 else "debris"
         most = f"all but {self.farther}" if self.farther else "all of them"
-        ended = f", {self.unfinished} of which did not finish" if self.unfinished else ""
+        ended = f", {self._unfinished_in_words}" if self.unfinished else ""
         added = "a buffer has to be added"
         if buffer_m is not None:
             added = f"the buffer of {buffer_m:g} m is added, {rounded_up(self.limit_m + buffer_m, '0.1')} m in all"
@@ -112,6 +112,12 @@ class ReachLimit:
             "scatters; it does not cover what the model leaves out, such as pieces smaller than a shard, for which "
             f"{added}."
         )
+
+    @property
+    def _unfinished_in_words(self) -> str:
+        if self.unfinished < self.farther:
+            return f"{self.unfinished} of which did not finish"
+        return "which did not finish" if self.unfinished == 1 else "none of which finished"
 
     @property
     def spread_sentence(self) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from ...core.debris.throws import Debris
 from ...core.results.arrays import Results
 from ...core.results.collapse import rest_of
+from ...core.scenario import Scenario
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import Run
@@ -42,9 +43,13 @@ LIMITS = (
     "Where and how a bridge breaks depends on its connections. One breaking force for all of them makes the result "
     "depend on how finely the bridge is cut.",
     "Soil, friction of bearings, and pressures of blast behind or inside members are not modelled.",
-    "One run is one possible course of events. Another seed, another number of shards or another strength shows how "
-    "much of it is chance: run several before relying on a distance.",
     "Nothing here has been calibrated against a measured demolition.",
+)
+
+
+ONE_RUN = (
+    "One run is one possible course of events. Another seed, another number of shards or another strength shows how "
+    "much of it is chance: run a study before relying on a distance."
 )
 
 
@@ -59,20 +64,20 @@ def cover_section(run: Run, version: str, debris: Debris | None) -> Section:
     return Section("The run", tuple(blocks))
 
 
-def trust_section(run: Run) -> Section:
-    """Return where the numbers come from, and how far to trust them."""
+def trust_section(scenario: Scenario | None, *more: str) -> Section:
+    """Return where the numbers come from, and how far to trust them, with more words on their limits."""
     modelled = (
         "a bridge of rigid shards that connections hold together until they break, contact with friction, gravity"
     )
-    if run.scenario and run.scenario.ball:
+    if scenario and scenario.ball:
         modelled += ", a wrecking ball"
-    if run.scenario and run.scenario.charges and run.scenario.blast.explosion:
+    if scenario and scenario.charges and scenario.blast.explosion:
         modelled += ", the air blast of charges on the outsides of the shards"
     blocks: list[Block] = [
         Paragraph(f"What is modelled: {modelled}."),
         facts("Where the numbers come from", SOURCES),
         facts("What has been checked, against what and how closely it agrees", TRUST),
-        *(Paragraph(text) for text in LIMITS),
+        *(Paragraph(text) for text in (*LIMITS, *more)),
     ]
     return Section("What is modelled, and how far to trust it", tuple(blocks))
 

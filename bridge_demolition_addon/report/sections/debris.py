@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from ...charts.histories import throw_distribution
-from ...charts.plan_maps import debris_map, exclusion_map, pile_map
+from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
 from ...core.debris.exclusion import ExclusionZone, exclusion_zone
 from ...core.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
 from ...core.debris.zones import ZoneWatch, watch_zone
@@ -22,8 +22,6 @@ from ..run_folder import Run
 
 NAMED = 10
 """Largest throws in the table."""
-
-_SHORTEST_MAP_MM, _TALLEST_MAP_MM = 75.0, 150.0
 
 
 def debris_section(run: Run, debris: Debris, *, trajectories: bool) -> Section:
@@ -74,7 +72,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
         Picture(
             partial(exclusion_map, zone=zone, zones=run.scenario.zones),
             "Exclusion zone in plan, with its reach beyond the bridge to each side.",
-            _map_height(zone.whole.bounds()),
+            map_height_mm(zone.whole.bounds()),
         ),
         facts("Exclusion zone", rows, "exclusion_zone"),
         Paragraph(f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners.csv."),
@@ -131,7 +129,7 @@ def _debris_blocks(
             partial(debris_map, results=results, debris=debris, zones=zones, trajectories=trajectories),
             "Debris at the end in plan. Arrows and numbers: the largest throws, from where a shard was to where it "
             "lies.",
-            _map_height(bounds),
+            map_height_mm(bounds),
         ),
         facts("Debris at the end", rows, "debris"),
         Picture(partial(pile_map, heights=heights, outline=debris.outline), "Height of the debris.", 85.0),
@@ -243,9 +241,3 @@ def _zone_row(results: Results, watch: ZoneWatch) -> tuple:
         watch.mass_within_kg / 1e3,
         len(watch.there_before),
     )
-
-
-def _map_height(bounds: Sequence[float]) -> float:
-    """Return the height of a map of an area with these bounds, with room for axes and legend, mm."""
-    width, height = bounds[2] - bounds[0], bounds[3] - bounds[1]
-    return float(np.clip(25.0 + 150.0 * height / max(width, 1e-9), _SHORTEST_MAP_MM, _TALLEST_MAP_MM))

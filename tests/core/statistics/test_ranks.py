@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 from scipy.stats import rankdata, spearmanr
+from scipy.stats import t as student
 
-from bridge_demolition_addon.core.statistics.ranks import rank_correlation, ranks_of
+from bridge_demolition_addon.core.statistics.ranks import correlation_by_chance, rank_correlation, ranks_of
 
 RANDOM = np.random.default_rng(6)
 
@@ -35,3 +36,22 @@ def test_the_form_of_a_curve_does_not_matter():
 
 def test_what_never_changes_is_not_correlated():
     assert math.isnan(rank_correlation(np.ones(9), RANDOM.random(9)))
+
+
+@pytest.mark.parametrize("pairs", [20, 93])
+def test_what_is_not_connected_stays_within_chance_in_19_cases_of_20(pairs):
+    generator = np.random.default_rng(pairs)
+    found = [abs(rank_correlation(*generator.random((2, pairs)))) for _ in range(4000)]
+    # The normal approximation is off by half a percent at 20 pairs; the rest is the scatter of 4000 cases.
+    assert np.mean(np.array(found) <= correlation_by_chance(pairs)) == pytest.approx(0.95, abs=0.005 + 3.3 * 0.00345)
+
+
+@pytest.mark.parametrize("pairs", [93, 1000])
+def test_the_edge_of_chance_is_where_scipy_has_one_case_in_twenty(pairs):
+    edge = correlation_by_chance(pairs)
+    statistic = edge * math.sqrt((pairs - 2) / (1.0 - edge**2))
+    assert 2.0 * student.sf(statistic, pairs - 2) == pytest.approx(0.05, abs=0.001)
+
+
+def test_two_pairs_show_nothing():
+    assert correlation_by_chance(2) == 1.0

@@ -3,61 +3,55 @@
 
 import json
 
+import numpy as np
 import pytest
+from study_folders import told_row, told_study
 
-from bridge_demolition_addon.core.errors import OutputError, ScenarioError
+from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.study.conclusions import conclusions
-from bridge_demolition_addon.core.study.runs_table import Row, RunsTable
+from bridge_demolition_addon.core.study.runs_table import RunsTable
 
-ASKED = {"runs": 93, "quantile": 0.95, "confidence": 0.95, "rank": 2}
+STUDY = told_study()
 
 
 def table(runs=93, crashed=()):
-    """Runs that reach 1 m, 2 m and so on; the first ten bring the span down, and every second leaves the pier."""
     return RunsTable(
-        tuple(
-            Row(number, "crashed", {"scenario.seed": number}, {})
-            if number in crashed
-            else Row(
-                number,
-                "done",
-                {"scenario.seed": number},
-                {"reach_m": float(number), "span down": number <= 10, "pier stands": number % 2 == 0},
-            )
-            for number in range(1, runs + 1)
-        )
+        tuple(told_row(STUDY, number, "crashed" if number in crashed else "done") for number in range(1, runs + 1))
     )
 
 
 def test_a_study_says_how_far_and_how_likely():
-    said = conclusions(table(), **ASKED, criteria=("span down", "pier stands"), at_once=("reach_m",))
-    assert (said.statuses, said.reach.limit_m) == ({"done": 93}, 92.0)
-    assert [(each.what, each.happened) for each in said.criteria] == [
-        ("met the criterion span down", 10),
-        ("met the criterion pier stands", 46),
+    said = conclusions(STUDY, table())
+    reaches_m = [row.outputs["reach_m"] for row in table().rows]
+    assert (said.statuses, said.reach.limit_m) == ({"done": 93}, sorted(reaches_m)[-2])
+    met = [[row.outputs[each.output] for row in table().rows] for each in STUDY.criteria]
+    assert [each.happened for each in said.criteria] == np.sum(met, axis=1).tolist()
+    assert [each.what for each in said.criteria][:2] == [
+        "met the criterion mid span down",
+        "met the criterion road stays free",
     ]
-    assert (said.success.what, said.success.happened) == ("met all criteria", 5)
-    assert said.at_once.ranks == {"reach_m": 2}
+    assert said.success.happened == np.all(met, axis=0).sum() < 93
+    assert said.at_once.limits["reach_m"] == max(reaches_m)
 
 
 def test_a_run_that_crashed_reaches_without_end_and_meets_nothing():
-    said = conclusions(table(crashed=(2, 3)), **ASKED, criteria=("span down", "pier stands"))
+    everything_met = [number for number, row in enumerate(table().rows, start=1) if row.outputs["success"]]
+    crashed = everything_met[:2]
+    said, before = conclusions(STUDY, table(crashed=crashed)), conclusions(STUDY, table())
     assert said.statuses == {"crashed": 2, "done": 91}
     assert said.as_json()["reach"]["limit_m"] is None
-    assert [each.happened for each in (*said.criteria, said.success)] == [8, 45, 4]
+    assert [each.happened + 2 for each in said.criteria] == [each.happened for each in before.criteria]
+    assert said.success.happened == before.success.happened - 2
 
 
 def test_conclusions_are_json():
-    text = json.dumps(conclusions(table(crashed=(5,)), **ASKED).as_json(), allow_nan=False)
+    bare = told_study(criteria=())
+    rows = tuple(told_row(bare, number, "killed" if number == 5 else "done") for number in range(1, 94))
+    text = json.dumps(conclusions(bare, RunsTable(rows)).as_json(), allow_nan=False)
     assert json.loads(text)["success"] is None
 
 
 @pytest.mark.parametrize("runs", [0, 92, 94])
 def test_no_conclusion_is_drawn_before_all_runs_are_there(runs):
     with pytest.raises(OutputError, match=f"{runs} of 93 runs are there"):
-        conclusions(table(runs), **ASKED)
-
-
-def test_runs_that_are_too_few_conclude_nothing():
-    with pytest.raises(ScenarioError, match=r"study\.runs is 20: expected at least 93"):
-        conclusions(table(20), **ASKED | {"runs": 20})
+        conclusions(STUDY, table(runs))

@@ -55,7 +55,16 @@ def test_a_run_that_did_not_finish_reaches_without_end():
     limit = reach_limit(reaches_m, 0.95, 0.95, 2)
     farthest_m = np.delete(REACHES_M, 7).max()
     assert (limit.unfinished, limit.farther, limit.limit_m) == (1, 1, farthest_m)
-    assert "in all but 1, 1 of which did not finish." in limit.sentence(INPUTS, 0.0, None)
+    assert "in all but 1, which did not finish." in limit.sentence(INPUTS, 0.0, None)
+
+
+@pytest.mark.parametrize(
+    "unfinished, words", [(1, "all but 2, 1 of which did not finish."), (2, "all but 2, none of which finished.")]
+)
+def test_it_is_said_how_many_of_the_farthest_did_not_finish(unfinished, words):
+    reaches_m = np.arange(124.0)
+    reaches_m[:unfinished] = np.inf
+    assert words in reach_limit(reaches_m, 0.95, 0.95, 3).sentence(INPUTS, 0.0, None)
 
 
 def test_too_many_unfinished_runs_leave_no_limit():

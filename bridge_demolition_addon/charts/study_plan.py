@@ -1,0 +1,58 @@
+"""The plan of a study: how likely debris is where, the limit around the bridge, zones and neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from manifold3d import CrossSection
+from matplotlib.figure import FigureBase
+
+from ..core.scenario import Neighbour, Zone
+from .plan_maps import draw_area, draw_zones, fit, name_zones, plan_axes
+from .study_charts import LIMIT_COLOUR
+from .style import plain
+
+_SHADES = ("0.92", "0.78", "0.58")
+"""Of areas from the largest, where debris is rare, to the smallest."""
+
+
+def study_plan(
+    figure: FigureBase,
+    bridge: CrossSection,
+    likely: Mapping[str, CrossSection],
+    limits: Mapping[str, CrossSection],
+    zones: Sequence[Zone] = (),
+    neighbours: Sequence[Neighbour] = (),
+) -> None:
+    """Draw the plan of a study.
+
+    Parameters
+    ----------
+    figure
+        Where to.
+    bridge
+        Its plan before.
+    likely
+        Where debris is at least so likely, by what the legend says: up to three areas, from the largest to the
+        smallest.
+    limits
+        The limit around the bridge, and around that what is added to it, by what the legend says.
+    zones, neighbours
+        Of the site.
+    """
+    axes = plan_axes(figure)
+    for shade, (label, area) in zip(_SHADES[-len(likely) :] if likely else (), likely.items(), strict=True):
+        draw_area(axes, area, facecolor=shade, edgecolor="0.35", linewidth=0.5, label=plain(label))
+    draw_zones(axes, zones)
+    draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
+    for number, (label, area) in enumerate(limits.items()):
+        style = {"linewidth": 1.8, "linestyle": "-"} if not number else {"linewidth": 1.0, "linestyle": (0, (6, 2))}
+        draw_area(axes, area, fill=False, edgecolor=LIMIT_COLOUR, label=plain(label), **style)
+    if neighbours:
+        places = np.array([each.place_m[:2] for each in neighbours])
+        axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
+        for each, place in zip(neighbours, places, strict=True):
+            axes.annotate(plain(each.name), place, (4, 4), textcoords="offset points", fontsize=7)
+    fit(axes, figure)
+    name_zones(axes, figure, zones)

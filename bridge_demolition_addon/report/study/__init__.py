@@ -1,0 +1,1 @@
+"""The report of a study: what many runs say of the next one."""

@@ -1,0 +1,151 @@
+"""What matters: each output of a study against each input that varied."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import fields
+from functools import partial
+
+import numpy as np
+
+from ...charts.study_charts import (
+    InputPanel,
+    correlation_map,
+    correlation_map_height_mm,
+    output_against_inputs,
+    output_panels_height_mm,
+)
+from ...core.statistics.ranks import correlation_by_chance, rank_correlation
+from ...core.study.distributions import Distribution
+from ...core.study.file import Variation
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
+from .study_runs import StudyRuns, shown
+
+_PANELS_AT_ONCE = 20
+"""What fits on a page."""
+
+
+def varied_section(runs: StudyRuns) -> Section:
+    """Return what varied, and how."""
+    columns = (
+        Column("key", "key"),
+        Column("distribution", "distribution"),
+        Column("lowest drawn", "lowest", ".5g"),
+        Column("median", "median", ".5g"),
+        Column("highest", "highest", ".5g"),
+    )
+    rows = [_varied_row(runs, each) for each in runs.study.variations]
+    words = (
+        "All inputs are drawn independently of each other, anew for each run. The seed of the fracture, which decides "
+        "how the shards are cut, is drawn as well."
+    )
+    blocks: list[Block] = [Paragraph(words)]
+    blocks += [DataTable("varied", "What varied", columns, rows)] if rows else []
+    return Section("What varied", tuple(blocks))
+
+
+def influence_section(runs: StudyRuns) -> Section | None:
+    """Return which inputs matter for which outputs; None where nothing but the seed varied, or too little finished."""
+    finished = int(runs.table.done.sum())
+    if not runs.varied or not runs.numbers or finished < 3:
+        return None
+    by_chance = correlation_by_chance(finished)
+    words = (
+        f"Each dot is one of the {finished} runs that finished. The rank correlation is 1 where an output always rises "
+        "with an input, and -1 where it always falls. Of inputs that do not matter at all one in twenty has by chance "
+        f"more than {by_chance:.2f} either way; larger ones are in bold. Small ones may hide an input that pushes both "
+        "ways: look at the dots. What no input explains is chance: the fracture, and the course of a collapse."
+    )
+    blocks: list[Block] = [Paragraph(words)]
+    if cells := correlations_of(runs):
+        inputs, outputs = (list(dict.fromkeys(column)) for column in list(zip(*cells, strict=True))[:2])
+        values = {(one, other): value for one, other, value in cells}
+        picture = partial(
+            correlation_map,
+            inputs=[shown(name) for name in inputs],
+            outputs=[shown(name) for name in outputs],
+            correlations=np.array([[values.get((one, other), math.nan) for other in outputs] for one in inputs]),
+            by_chance=by_chance,
+        )
+        title = "Rank correlation of each output with each input, in the order of the strongest."
+        blocks.append(Picture(picture, title, correlation_map_height_mm(len(inputs))))
+    for output in runs.numbers:
+        blocks += _panels(runs, output)
+    return Section("What matters", tuple(blocks))
+
+
+def correlations_of(runs: StudyRuns) -> list[tuple[str, str, float]]:
+    """Return inputs, outputs and their rank correlations, as far as both change, the strongest first."""
+    found = [
+        (one, other, _correlation(runs, one, other))
+        for one in runs.varied
+        if runs.table.input(one).dtype == float
+        for other in (*runs.numbers, *runs.criteria)
+    ]
+    return sorted((cell for cell in found if math.isfinite(cell[2])), key=lambda cell: -abs(cell[2]))
+
+
+def correlation_table(runs: StudyRuns) -> DataTable:
+    """Return all rank correlations, for their CSV file."""
+    columns = (
+        Column("input", "input"),
+        Column("output", "output"),
+        Column("rank correlation", "rank_correlation", ".2f"),
+    )
+    return DataTable("rank_correlations", "Rank correlations", columns, correlations_of(runs))
+
+
+def _varied_row(runs: StudyRuns, variation: Variation) -> tuple:
+    values = runs.table.input(variation.key.name) if variation.key.name in runs.table.inputs else np.zeros(0)
+    name = type(variation.distribution).__name__.lower()
+    given = ", ".join(_settings(variation.distribution))
+    factor = ", as a factor" if variation.factor else ""
+    if values.dtype == object or not len(values):
+        return shown(variation.key.name), f"{name}: {given}{factor}", None, None, None
+    drawn = float(values.min()), float(np.median(values)), float(values.max())
+    return shown(variation.key.name), f"{name}: {given}{factor}", *drawn
+
+
+def _settings(distribution: Distribution) -> Iterator[str]:
+    """Yield what a distribution was given, in words."""
+    for each in fields(distribution):
+        value = getattr(distribution, each.name)
+        if value != each.default:
+            yield f"{each.name.replace('_', ' ')} {_words(value)}"
+
+
+def _words(value: object) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(_words, value))
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _correlation(runs: StudyRuns, name: str, output: str) -> float:
+    values = runs.table.output(output)
+    if values.dtype == object:  # truths
+        values = np.array([math.nan if value is None else float(bool(value)) for value in values])
+    known = runs.table.done & np.isfinite(values)
+    if known.sum() < 3:
+        return math.nan
+    return rank_correlation(runs.table.input(name)[known], values[known])
+
+
+def _panels(runs: StudyRuns, output: str) -> list[Picture]:
+    known = runs.table.done & np.isfinite(runs.table.output(output))
+    values = runs.table.output(output)[known]
+    panels = []
+    for name in runs.varied:
+        drawn = runs.table.input(name)
+        correlation = None if drawn.dtype == object else _correlation(runs, name, output)
+        panels.append(InputPanel(shown(name), drawn[known], correlation))
+    panels.sort(key=lambda panel: -abs(panel.correlation or 0.0))
+    pages = [panels[first : first + _PANELS_AT_ONCE] for first in range(0, len(panels), _PANELS_AT_ONCE)]
+    return [
+        Picture(
+            partial(output_against_inputs, label=shown(output), values=values, panels=page),
+            f"{shown(output)} against what varied.",
+            output_panels_height_mm(len(page)),
+        )
+        for page in pages
+    ]

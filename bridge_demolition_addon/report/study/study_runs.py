@@ -1,0 +1,163 @@
+"""A study with its runs, as its report looks at it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ...core.debris.exclusion import widened
+from ...core.geometry.plan_areas import outlines
+from ...core.study.conclusions import Conclusions, conclusions
+from ...core.study.criteria import Criterion
+from ...core.study.file import SEED, Study
+from ...core.study.probability_map import ProbabilityMap, probability_map
+from ...core.study.runs_table import REACH, RunsTable
+
+
+@dataclass(frozen=True, eq=False)
+class StudyRuns:
+    """A study, its runs, and what follows from them.
+
+    Attributes
+    ----------
+    name : str
+        Of its folder.
+    study : Study
+        What was asked.
+    table : RunsTable
+        All draws that are there.
+    swept : iterable
+        Of each row of the table the outlines (k, 2) of all that debris covered at any time, None where the run did not
+        finish; it can be gone through again and again.
+    bridge : CrossSection
+        What the bridge covered at first, in any of the runs.
+    pictures : dict
+        Rendered pictures of draws that were run once more, by number and by what they show.
+    """
+
+    name: str
+    study: Study
+    table: RunsTable
+    swept: Iterable[Sequence[np.ndarray] | None]
+    bridge: CrossSection
+    pictures: Mapping[int, Mapping[str, Path]]
+
+    @cached_property
+    def said(self) -> Conclusions | None:
+        """What the study says; None before all of its runs are there."""
+        return conclusions(self.study, self.table) if len(self.table) == self.study.settings.runs else None
+
+    @cached_property
+    def map(self) -> ProbabilityMap | None:
+        """How likely debris is where; None where nothing moved."""
+        return probability_map(self.swept, self.study.settings.confidence, outlines(self.bridge))
+
+    @property
+    def criteria(self) -> tuple[str, ...]:
+        """Names of outputs that say whether a run met a criterion."""
+        return tuple(each.output for each in self.study.criteria)
+
+    @property
+    def reaches_m(self) -> np.ndarray:
+        """Reach (n,) of each run, infinity where it did not finish."""
+        return self.table.largest(REACH)
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """Names of all inputs but the seed, which has no order."""
+        return tuple(name for name in self.table.inputs if name != SEED)
+
+    @property
+    def words_of_varied(self) -> list[str]:
+        """What varied, as the study names it: a key of all tables of a list only once."""
+        return [vary.key for vary in self.study.settings.vary] + ["the seed of the fracture"]
+
+    @cached_property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of all outputs that are numbers, not all of them the same."""
+        of_numbers = [name for name in self.table.outputs if self.table.output(name).dtype == float]
+        return tuple(name for name in of_numbers if len(np.unique(_finite(self.table.output(name)))) > 1)
+
+    @property
+    def buffer_m(self) -> float | None:
+        """What the scenario adds for what the model leaves out; None where it says nothing."""
+        exclusion = self.study.scenario.exclusion
+        return exclusion.buffer_m if exclusion else None
+
+    @cached_property
+    def limit(self) -> CrossSection | None:
+        """The bridge's plan with the limit around it; None without one."""
+        if self.said is None or not np.isfinite(self.said.reach.limit_m):
+            return None
+        return widened(self.bridge, self.said.reach.limit_m)
+
+    @property
+    def hull_corners(self) -> int:
+        """How many corners the convex hull of all that debris covered has; 0 where it covered nothing."""
+        hull = CrossSection()
+        for rings in self.swept:
+            if rings:
+                hull = CrossSection.hull_points(np.concatenate([*outlines(hull), *rings]))
+        return sum(map(len, outlines(hull)))
+
+    @property
+    def median_row(self) -> int | None:
+        """Row of the run with the median reach, of an even number of runs the lower one; None where none finished."""
+        order = self._order
+        return int(order[(len(order) - 1) // 2]) if len(order) else None
+
+    @property
+    def worst_row(self) -> int | None:
+        """Row of the run with the largest reach of those that finished; None where none did."""
+        return int(self._order[-1]) if len(self._order) else None
+
+    @property
+    def _order(self) -> np.ndarray:
+        order = np.argsort(self.reaches_m, kind="stable")
+        return order[np.isfinite(self.reaches_m[order])]
+
+
+def shown(name: str) -> str:
+    """Return the name of an input or output as people read it: its unit in brackets, of a criterion only its own."""
+    if name.startswith(_CRITERION):
+        return name.removeprefix(_CRITERION).strip('"')
+    name = re.sub(r'"[^"]*"|\.', lambda found: " " if found[0] == "." else found[0], name)
+    for ending, unit in _UNITS.items():
+        if name.endswith(ending):
+            return f"{name.removesuffix(ending).replace('_', ' ')} ({unit})"
+    return name.replace("_", " ")
+
+
+_CRITERION = f"{Criterion.table}."
+
+_UNITS = {
+    "_n_mm2": "N/mm²",
+    "_kg_m3": "kg/m³",
+    "_mm_s": "mm/s",
+    "_m_s2": "m/s²",
+    "_m_s": "m/s",
+    "_newton": "N",
+    "_degrees": "°",
+    "_deg": "°",
+    "_kpa": "kPa",
+    "_m2": "m²",
+    "_m3": "m³",
+    "_kg": "kg",
+    "_ms": "ms",
+    "_mm": "mm",
+    "_N": "N",
+    "_J": "J",
+    "_m": "m",
+    "_s": "s",
+}
+"""Endings of names, longer ones before those that end like them."""
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    return values[np.isfinite(values)]

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the report of a study says, from runs whose every number is known."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from manifold3d import CrossSection
+from scipy.stats import spearmanr
+from study_folders import BRIDGE, TOLD_SCENARIO, told_debris, told_runs, told_study
+from told_reports import told_of_study
+
+from bridge_demolition_addon.core.geometry.plan_areas import outlines
+from bridge_demolition_addon.report.study.influence import correlation_table
+from bridge_demolition_addon.report.study.plan import layers
+from bridge_demolition_addon.report.study.study_runs import shown
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return told_runs()
+
+
+@pytest.fixture(scope="module")
+def told(runs):
+    return told_of_study(runs)
+
+
+def test_the_first_section_begins_with_the_statement(runs, told):
+    second = np.sort(runs.reaches_m)[-2]
+    assert told.notices[0].startswith(
+        'In 93 independent runs, in which charges.mass_kg, charges."mid pier".delay_ms, shards.friction, '
+        "connections.type and the seed of the fracture were drawn from the distributions of this study, debris "
+        f"stayed within {np.ceil(10.0 * second) / 10.0:.1f} m of the bridge's plan in all but 1. With 95 % confidence "
+        "at least 95 % of such runs stay within it."
+    )
+    assert told.titles[0] == "What this study says"
+
+
+def test_before_all_runs_are_there_nothing_is_said():
+    told = told_of_study(told_runs(there=60))
+    assert told.notices[0].startswith("60 of 93 runs are there: the study says nothing before all of them are")
+    assert not any(" confidence at least " in text for text in told.paragraphs)
+    assert "limit" not in told.column("study_areas", "area")
+
+
+def test_the_first_run_alone_can_be_reported():
+    told = told_of_study(told_runs(there=1))
+    assert told.notices[0].startswith("1 of 93 runs")
+    assert told.column("study_areas", "area")[0] == "bridge"
+
+
+def test_runs_that_did_not_finish_are_named_and_count():
+    told = told_of_study(told_runs(ends={17: "crashed", 60: "timed_out"}))
+    assert told.notices[0].startswith("These runs set no limit: 2 of 93 did not finish")
+    assert "2 of 93 runs did not finish: 17 (crashed), 60 (timed out)." in told.notices
+    assert "limit" not in told.column("study_areas", "area")
+    assert any(text.startswith("Where the probability is below 5 % cannot be said: 2 runs") for text in told.paragraphs)
+
+
+def test_a_study_of_which_nothing_finished_has_a_report():
+    runs = told_runs(ends=dict.fromkeys(range(1, 94), "crashed"))
+    told = told_of_study(runs)
+    assert told.notices[0].startswith("These runs set no limit: 93 of 93 did not finish")
+    assert "The median and the worst draw" not in told.titles
+
+
+def test_runs_that_still_moved_are_counted(told):
+    assert any(text.startswith("3 runs were not at rest") for text in told.notices)
+
+
+def test_areas_are_those_that_geometry_gives(runs, told):
+    limit_m, buffer_m = runs.said.reach.limit_m, TOLD_SCENARIO.exclusion.buffer_m
+    areas = dict(zip(told.column("study_areas", "area"), told.column("study_areas", "area_m2"), strict=True))
+    length, width = 28.0, 8.0
+    for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + buffer_m)):
+        # A rectangle with a band around it (Steiner); the circles of its corners are polygons of 64 sides.
+        exact = length * width + 2.0 * (length + width) * around_m + np.pi * around_m**2
+        assert areas[name] == pytest.approx(exact, rel=2e-3)
+        assert areas[name] < exact
+    assert areas["bridge"] == pytest.approx(length * width)
+    assert areas["zone Road <1> $2$"] == pytest.approx(52.0 * 8.0)
+
+
+def test_the_plan_holds_every_run_but_the_farthest(runs):
+    area = layers(runs)["limit"]
+    outside = [CrossSection(list(rings)) - area for rings in runs.swept]
+    # Polygons of circles lie within them by 0.1 % of the radius.
+    assert sum(each.area() > 0.5 for each in outside) == 1
+
+
+def test_likely_places_are_within_rarer_ones(runs):
+    found = layers(runs)
+    assert (found["probability above 50 %"] - found["probability above 5 %"]).is_empty()
+    assert "probability above 1 %" not in found  # it takes 299 runs
+    assert found["probability above 50 %"].area() > 24.0 * 6.0 - 1e-6  # what every run covers
+
+
+def test_many_runs_resolve_what_is_rare():
+    runs = told_runs(told_study(runs=310, criteria=()))
+    assert "probability above 1 %" in layers(runs)
+
+
+def test_rank_correlations_are_those_of_scipy(runs):
+    table = correlation_table(runs)
+    assert table.rows[0][0] == 'charges."span 1".mass_kg'
+    values = {name: [row.inputs[name] for row in runs.table.rows] for name in runs.varied}
+    for one, other, found in table.rows:
+        outputs = [row.outputs[other] for row in runs.table.rows]
+        known = [row for row, value in enumerate(outputs) if value is not None]
+        pairs = np.array([(values[one][row], float(outputs[row])) for row in known])
+        assert found == pytest.approx(spearmanr(*pairs.T).statistic, abs=1e-12)
+    sizes = [abs(row[2]) for row in table.rows]
+    assert sizes == sorted(sizes, reverse=True)
+    assert not any(row[0] == "connections.type" for row in table.rows)
+
+
+def test_criteria_have_their_limits(runs, told):
+    assert told.column("criteria", "criterion") == [*(each.name for each in runs.study.criteria), "all of them"]
+    assert told.column("criteria", "met")[0] == 93
+    at_least, at_most = told.column("criteria", "at_least_percent"), told.column("criteria", "at_most_percent")
+    assert at_least[0] == pytest.approx(100.0 * 0.05 ** (1.0 / 93.0)) and at_most[0] == 100.0
+
+
+def test_a_study_without_criteria_or_variations_says_so():
+    told = told_of_study(told_runs(told_study(vary=(), criteria=())))
+    assert any(text.startswith("The study names no [[criteria]]") for text in told.paragraphs)
+    assert "What matters" not in told.titles
+    assert "in which the seed of the fracture was drawn" in told.notices[0]
+
+
+def test_the_median_and_the_worst_draw_are_those_of_the_reach(runs, told):
+    reaches_m = runs.reaches_m
+    headings = [column.heading for column in told.tables["median_and_worst"].columns]
+    median, worst = np.argsort(reaches_m)[46] + 1, np.argmax(reaches_m) + 1
+    assert headings == ["", f"median, draw {median}", f"worst, draw {worst}"]
+
+
+def test_draws_are_listed_from_the_farthest(runs, told):
+    assert told.column("farthest_draws", "run") == (np.argsort(-runs.reaches_m, kind="stable") + 1).tolist()
+
+
+def test_a_scenario_without_a_site_has_a_plan():
+    bare = replace(TOLD_SCENARIO, zones=(), neighbours=(), exclusion=None, site=None, charges=())
+    vary = (replace(told_study().settings.vary[2]),)
+    told = told_of_study(told_runs(told_study(scenario=bare, vary=vary, criteria=())))
+    assert told.notices[0].endswith("for which a buffer has to be added.")
+    assert "limit and buffer" not in told.column("study_areas", "area")
+
+
+def test_runs_that_moved_nothing_have_a_limit_of_nought():
+    runs = told_runs(told_study(criteria=()))
+    rows = tuple(replace(row, outputs=dict.fromkeys(row.outputs, 0.0)) for row in runs.table.rows)
+    still = replace(runs, table=type(runs.table)(rows), swept=[() for _ in rows])
+    told = told_of_study(still)
+    assert "debris stayed within 0.0 m of the bridge's plan in all of them" in told.notices[0]
+    assert still.hull_corners == 0
+
+
+def test_the_made_up_runs_reach_as_far_as_they_say(runs):
+    # The fixture itself: what the tests above stand on.
+    for row in runs.table.rows[:20]:
+        low, high = np.array(BRIDGE.bounds()).reshape(2, 2)
+        corners = np.concatenate(told_debris(row))
+        beyond = np.maximum(low - corners, corners - high).max()
+        assert beyond == pytest.approx(row.outputs["reach_m"], abs=1e-4)
+    assert outlines(runs.bridge)
+
+
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        ("reach_m", "reach (m)"),
+        ('charges."mid. pier".mass_kg', 'charges "mid. pier" mass (kg)'),
+        ("largest_force_N", "largest force (N)"),
+        ('criteria."road stays free"', "road stays free"),
+        ("broken", "broken"),
+        ("spans.1.lost_share", "spans 1 lost share"),
+    ],
+)
+def test_names_are_shown_with_their_units(name, words):
+    assert shown(name) == words
