@@ -7,15 +7,20 @@ import numpy as np
 from manifold3d import CrossSection
 from places import EXAMPLES
 
+from bridge_demolition_addon.core.array_files.archive import write_archive
 from bridge_demolition_addon.core.geometry.plan_areas import outlines, united
 from bridge_demolition_addon.core.scenario import Exclusion, Neighbour, Site, Zone
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.study.criteria import Criterion
-from bridge_demolition_addon.core.study.draws import inputs_of
+from bridge_demolition_addon.core.study.draws import draw_of, inputs_of
 from bridge_demolition_addon.core.study.file import study_of
-from bridge_demolition_addon.core.study.runs_table import Row, RunsTable
+from bridge_demolition_addon.core.study.files import OUTLINES_FILE, RUNS_FILE
+from bridge_demolition_addon.core.study.outcome import Outlines
+from bridge_demolition_addon.core.study.runs_table import Row, RunsTable, write_runs
 from bridge_demolition_addon.core.study.settings import StudySettings, Vary
 from bridge_demolition_addon.report.study.study_runs import StudyRuns
+from bridge_demolition_addon.studies.draw_process import End
+from bridge_demolition_addon.studies.folder import StudyFolder
 
 TOLD_SCENARIO = replace(
     read_scenario(EXAMPLES / "two_spans_13m_explosives.toml"),
@@ -92,3 +97,19 @@ def told_runs(study=None, *, there=None, ends=None):
     rows = [told_row(study, number, (ends or {}).get(number, "done")) for number in range(1, study.settings.runs + 1)]
     rows = tuple(rows[:there])
     return StudyRuns("told", study, RunsTable(rows), [told_debris(row) for row in rows], BRIDGE, {})
+
+
+def keep_study(path, runs):
+    """The folder of a study with its runs, kept by what keeps them."""
+    versions = {"program": "of tests"}
+    with StudyFolder(path, runs.study, versions) as folder:
+        for row, swept in zip(runs.table.rows, runs.swept, strict=True):
+            address = draw_of(runs.study, row.number).address(versions)
+            part = folder.work_folder(address)
+            part.mkdir(parents=True)
+            if swept is not None:
+                kept = Outlines(tuple(outlines(runs.bridge)), (), tuple(swept))
+                write_archive(part / OUTLINES_FILE, kept.arrays())
+            folder.keep(address, row.inputs, End(row.status, "", row.outputs))
+        write_runs(runs.table, path / RUNS_FILE)
+    return path

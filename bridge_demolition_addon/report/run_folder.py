@@ -149,7 +149,7 @@ def read_run(folder: Path) -> Run:
         ball=_ball(summary, results, scenario),
         logged_forces=logged,
         logged_breaks=_logged_breaks(folder, shortcomings) if results is None else None,
-        pictures=_pictures(folder, shortcomings),
+        pictures=pictures_in(folder, shortcomings),
         shortcomings=tuple(shortcomings),
     )
 
@@ -257,8 +257,8 @@ def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
         return None
 
 
-def _pictures(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
-    """Return those of the rendered pictures that are there and whole."""
+def pictures_in(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
+    """Return those of the rendered pictures of a run that are there and whole; of each other it is said why not."""
     found = {}
     for name in PICTURES:
         path = folder / PICTURE_FOLDER / f"{name}.png"

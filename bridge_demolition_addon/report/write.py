@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Protocol
+
+from manifold3d import CrossSection
 
 from ..core.debris.exclusion import ExclusionZone
 from ..core.debris.throws import debris_of
 from ..core.errors import OutputError, text_of
 from ..core.folder_lock import FolderLock
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..core.scenario import Site
 from ..core.scenario.file import scenario_text
+from ..core.study.files import PLAN_DXF, PLAN_GEOJSON, REPORT_FOLDER
 from .comparison import comparison
 from .document.blocks import DataTable, Document, write_tables
 from .document.drawings import drawings
@@ -26,6 +31,10 @@ from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_sect
 from .sections.debris import corner_table, debris_section, exclusion_section, zone_of
 from .sections.forces import force_section, logged_section
 from .site_plan import write_dxf, write_geojson
+from .study.document import study_document
+from .study.influence import correlation_table
+from .study.plan import layers
+from .study.study_folder import is_study, read_study_runs
 
 _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (1, 2))
 """Of an extension inside Blender, and of the project's own folder."""
@@ -70,15 +79,58 @@ def write_report(
     """
     if output is None and len(folders) > 1:
         raise OutputError("several runs are compared in a folder of their own: give one with --output")
+    if studies := [folder for folder in folders if is_study(folder)]:
+        if len(folders) > 1:
+            raise OutputError(f"{studies[0]}: is the folder of a study, whose report is made by itself")
+        return write_study_report(folders[0], output, progress=progress)
     progress.stage("reading the results" if len(folders) == 1 else f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
     target = folders[0] if output is None else output
+    with _written_to(target):
+        if len(runs) > 1:
+            return _written(comparison(runs, add_on_version()), target, progress)
+        return _write_one(runs[0], target, trajectories, progress)
+
+
+def write_study_report(folder: Path, output: Path | None = None, *, progress: Progress) -> list[Path]:
+    """Write the report of a study.
+
+    Parameters
+    ----------
+    folder
+        Of the study.
+    output
+        Where the report goes, made if it is new; by default into a folder of its own in that of the study.
+    progress
+        Shows stages, pictures and pages.
+
+    Returns
+    -------
+    list of Path
+        All files written.
+
+    Raises
+    ------
+    OutputError
+        The folder holds no run of a study, something cannot be written, or another report is being written there.
+    """
+    progress.stage("reading the runs of the study")
+    runs = read_study_runs(folder)
+    target = folder / REPORT_FOLDER if output is None else output
+    with _written_to(target):
+        progress.stage("evaluating the runs")
+        plans = _write_areas(layers(runs), runs.study.scenario.site, target / PLAN_DXF, target / PLAN_GEOJSON)
+        document = study_document(runs, add_on_version(), [path.name for path in plans])
+        return [*_written(document, target, progress, correlation_table(runs)), *plans]
+
+
+@contextmanager
+def _written_to(target: Path) -> Iterator[None]:
+    """Have a folder to write a report to, and say so where that fails."""
     try:
         target.mkdir(parents=True, exist_ok=True)
         with FolderLock(target):
-            if len(runs) > 1:
-                return _written(comparison(runs, add_on_version()), target, progress)
-            return _write_one(runs[0], target, trajectories, progress)
+            yield
     except OSError as error:
         read = isinstance(error, FileNotFoundError) and not Path(error.filename or target).is_relative_to(target)
         cleared = ": a folder was cleared meanwhile, as by a run that has begun in it; make the report again"
@@ -141,18 +193,22 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
 
 
 def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
-    layers = {
+    areas = {
         "exclusion zone": zone.whole,
         "predicted debris": zone.debris,
         "designed drop": zone.drop,
         "bridge": zone.plan,
     }
-    plans = [target / DXF_FILE]
-    write_dxf(plans[0], layers)
-    if run.scenario.site:
-        plans.append(target / GEOJSON_FILE)
-        write_geojson(plans[1], layers, run.scenario.site)
-    return plans
+    return _write_areas(areas, run.scenario.site, target / DXF_FILE, target / GEOJSON_FILE)
+
+
+def _write_areas(areas: Mapping[str, CrossSection], site: Site | None, dxf: Path, geojson: Path) -> list[Path]:
+    """Write areas for a site plan, and return the files; in degrees only where the site is known."""
+    write_dxf(dxf, areas)
+    if site is None:
+        return [dxf]
+    write_geojson(geojson, areas, site)
+    return [dxf, geojson]
 
 
 def _written(document: Document, target: Path, progress: Progress, *only_as_file: DataTable) -> list[Path]:

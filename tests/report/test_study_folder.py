@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of a study from its folder: its files, read back, and folders that are no study's."""
+
+import csv
+import json
+import re
+import shutil
+from base64 import b64encode
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.image import imsave
+from run_folders import flying_shards, keep_run
+from study_folders import TOLD_SCENARIO, VARIED, keep_study, told_runs, told_study
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.core.study.runs_table import read_runs
+from bridge_demolition_addon.report.study.study_folder import read_study_runs
+from bridge_demolition_addon.report.write import write_report, write_study_report
+
+ASKED = {"quantile": 0.5, "confidence": 0.75, "rank": 2}
+FILES = {"report.html", "report.pdf", "study_plan.dxf", "study_plan.geojson", "tables"}
+
+
+def small_runs(runs=8, **ends):
+    return told_runs(told_study(runs=runs, vary=VARIED[1:3], **ASKED), **ends)
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory):
+    """The folder of a study of eight runs, one of which crashed, and the files of its report."""
+    folder = keep_study(tmp_path_factory.mktemp("studies") / "told", small_runs(12, ends={3: "crashed"}))
+    return folder, write_report([folder], None, progress=Silence())
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return keep_study(tmp_path / "told", small_runs())
+
+
+def test_the_report_lies_in_a_folder_of_its_own(kept):
+    folder, written = kept
+    assert {path.name for path in (folder / "report").iterdir()} >= FILES
+    assert all(path.is_relative_to(folder / "report") and path.is_file() for path in written)
+
+
+def test_what_is_read_is_what_was_kept(kept):
+    folder, _ = kept
+    runs, known = read_study_runs(folder), small_runs(12, ends={3: "crashed"})
+    assert runs.study.text == known.study.text
+    assert runs.reaches_m.tolist() == known.reaches_m.tolist()
+    assert runs.bridge.area() == pytest.approx(known.bridge.area())
+    for found, expected in zip(runs.swept, known.swept, strict=True):
+        assert (found is None) == (expected is None)
+        for ring, other in zip(found or (), expected or (), strict=True):
+            np.testing.assert_allclose(ring, other, atol=1e-5)  # single precision
+
+
+def test_the_page_begins_with_the_statement_and_needs_nothing_else(kept):
+    text = (kept[0] / "report" / "report.html").read_text(encoding="utf-8")
+    first = text.index("In 12 independent runs")
+    assert first < text.index("<figure>") and text.index('<p class="notice">') < first
+    assert "<script" not in text and not re.search(r'(?:src|href)="(?!data:|#)', text)
+    assert "<b>& $5$" not in text and "&lt;b&gt;&amp; $5$" in text
+
+
+def test_tables_are_files_with_all_digits(kept):
+    tables = kept[0] / "report" / "tables"
+    assert {path.stem for path in tables.iterdir()} >= {
+        *("study", "study_areas", "criteria", "varied", "rank_correlations", "median_and_worst", "farthest_draws")
+    }
+    with (tables / "farthest_draws.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert (rows[0]["run"], rows[0]["status"], rows[0]["reach_m"]) == ("3", "crashed", "")
+    reaches = {row.number: row.outputs.get("reach_m") for row in read_runs(kept[0] / "runs.csv").rows}
+    assert [float(row["reach_m"]) for row in rows[1:]] == [reaches[int(row["run"])] for row in rows[1:]]
+
+
+def test_site_plans_have_the_limit_and_the_zones(kept):
+    content = json.loads((kept[0] / "report" / "study_plan.geojson").read_text(encoding="utf-8"))
+    names = [feature["properties"]["name"] for feature in content["features"]]
+    assert names[-3:] == ["bridge", "zone Road <1> $2$", "zone yard"]
+    assert "probability above 50 %" in names
+    layers = set(
+        re.findall(r"^8\r\n(.*)\r$", (kept[0] / "report" / "study_plan.dxf").read_bytes().decode("ascii"), re.M)
+    )
+    assert {"BRIDGE", "ZONE_ROAD_1_2", "ZONE_YARD", "PROBABILITY_ABOVE_50"} <= layers
+
+
+def test_the_limit_is_drawn_where_it_is_said(folder):
+    write_study_report(folder, progress=Silence())
+    content = json.loads((folder / "report" / "study_plan.geojson").read_text(encoding="utf-8"))
+    areas = {feature["properties"]["name"]: feature["properties"]["area_m2"] for feature in content["features"]}
+    limit_m = sorted(read_study_runs(folder).reaches_m)[-2]
+    for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + 5.0)):
+        exact = 28.0 * 8.0 + 2.0 * 36.0 * around_m + np.pi * around_m**2
+        assert areas[name] == pytest.approx(exact, rel=2e-3)
+
+
+def test_the_same_folder_gives_the_same_files(folder, tmp_path):
+    for name in ("one", "other"):
+        write_study_report(folder, tmp_path / name, progress=Silence())
+    assert not (folder / "report").exists()
+    for path in (tmp_path / "one").rglob("*"):
+        if path.is_file():
+            assert path.read_bytes() == (tmp_path / "other" / path.relative_to(tmp_path / "one")).read_bytes()
+
+
+def test_pictures_of_the_worst_draw_are_shown_once_it_was_run_again(folder):
+    runs = read_study_runs(folder)
+    worst = runs.table.rows[runs.worst_row].number
+    pictures = folder / "again" / str(worst) / "frames"
+    pictures.mkdir(parents=True)
+    imsave(pictures / "after.png", np.full((9, 16, 3), 0.5))
+    (pictures / "before.png").write_text("no picture")
+    write_study_report(folder, progress=Silence())
+    text = (folder / "report" / "report.html").read_text(encoding="utf-8")
+    assert b64encode((pictures / "after.png").read_bytes()).decode("ascii") in text
+    assert f"Worst draw, {worst}, with a reach of" in text and ": before." not in text
+
+
+def test_a_study_without_a_site_has_no_degrees(tmp_path):
+    bare = told_runs(told_study(runs=8, vary=(), scenario=replace(TOLD_SCENARIO, site=None), **ASKED))
+    folder = keep_study(tmp_path / "bare", bare)
+    write_study_report(folder, progress=Silence())
+    assert not (folder / "report" / "study_plan.geojson").exists()
+
+
+def test_bda_report_writes_it(folder, capsys):
+    main(["report", str(folder)])
+    assert str(folder / "report" / "report.pdf") in capsys.readouterr().out
+
+
+def refused(folder, *more):
+    with pytest.raises(OutputError) as caught:
+        write_report([folder, *more], folder / "new", progress=Silence())
+    assert not (folder / "new").exists()
+    return str(caught.value)
+
+
+def test_a_study_without_runs_is_refused(folder):
+    (folder / "runs.csv").unlink()
+    assert "holds no runs.csv yet: go on with the command that started the study" in refused(folder)
+
+
+def test_a_draw_that_was_lost_is_named(folder):
+    lost = next((folder / "draws").iterdir())
+    shutil.rmtree(lost)
+    assert refused(folder).startswith(f"{lost / 'outlines.npz'}: expected what debris covered in a run (no such file)")
+
+
+def test_a_draw_that_is_damaged_is_named(folder):
+    damaged = next((folder / "draws").iterdir()) / "outlines.npz"
+    damaged.write_bytes(damaged.read_bytes()[:-40])
+    assert refused(folder).startswith(f"{damaged}: expected what debris covered")
+
+
+def test_a_changed_study_is_refused(folder):
+    text = (folder / "study.toml").read_text(encoding="utf-8")
+    (folder / "study.toml").write_text(text.replace("seed = 5", "seed = 6"), encoding="utf-8")
+    assert "expected what debris covered" in refused(folder)  # its draws are others
+    (folder / "study.toml").write_text(text.replace("[study]", "[studie]"), encoding="utf-8")
+    assert f"{folder / 'study.toml'}: " in refused(folder)
+
+
+def test_damaged_versions_are_refused(folder):
+    (folder / "versions.json").write_text("[1", encoding="utf-8")
+    assert refused(folder).startswith(f"{folder / 'versions.json'}: expected the versions")
+
+
+def test_studies_are_not_compared_with_runs(folder, tmp_path):
+    run = keep_run(tmp_path / "run", flying_shards())
+    assert "is the folder of a study, whose report is made by itself" in refused(folder, run)
