@@ -9,6 +9,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from run_folders import flying_shards, keep_run
+from study_folders import told_runs
 
 from bridge_demolition_addon.charts.style import PAGE_WIDTH_MM
 from bridge_demolition_addon.cli.progress import Silence
@@ -28,6 +29,7 @@ from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.document.html import write_html
 from bridge_demolition_addon.report.document.page import PAGE_MM, Font, width_mm
 from bridge_demolition_addon.report.document.pdf import write_pdf
+from bridge_demolition_addon.report.study.document import study_document
 
 # Letters may be a little wider than their advance.
 SLACK_MM = 0.6
@@ -36,9 +38,12 @@ BEGINNING = "bridge_of_three_long_spans_"
 ENDS = ("near_end", "neighbouring_deck", "between_decks", "mid_span", "without_ball")
 
 
-@pytest.fixture(scope="module", params=["one run", "five runs"])
+@pytest.fixture(scope="module", params=["one run", "five runs", "study"])
 def report(request, tmp_path_factory):
-    """The document of a run with everything in it, or of runs in folders with long names, and its drawings."""
+    """The document of a run with everything in it, of several with long names, or of a study; and its drawings."""
+    if request.param == "study":
+        document = study_document(told_runs(ends={17: "crashed"}), "0", ["study_plan.dxf"])
+        return document, drawings(document)
     folders = [tmp_path_factory.mktemp("runs") / f"{BEGINNING}{end}" for end in ENDS]
     folders = folders[:1] if request.param == "one run" else folders
     for folder in folders:
@@ -87,7 +92,7 @@ def test_nothing_is_beside_the_page_or_over_anything_else(report):
             assert min(over) < SLACK_MM, (number, first, second)
 
 
-def test_no_picture_is_cut_off_and_every_axis_says_what_it_shows(report):
+def test_no_picture_is_cut_off(report):
     _, drawn = report
     assert len(drawn) >= 4
     for picture, figure in drawn.items():
@@ -97,11 +102,29 @@ def test_no_picture_is_cut_off_and_every_axis_says_what_it_shows(report):
         slack = SLACK_MM / 25.4
         assert box.x0 >= -slack and box.y0 >= -slack, picture.title
         assert box.x1 <= size[0] + slack and box.y1 <= size[1] + slack, picture.title
+
+
+@pytest.mark.parametrize("report", ["one run", "five runs"], indirect=True)
+def test_every_axis_of_a_run_says_what_it_shows_with_its_unit(report):
+    _, drawn = report
+    for picture, figure in drawn.items():
         for axes in figure.axes:
             labels = [axes.get_xlabel(), axes.get_ylabel()]
             unit = re.compile(r"\((m|s|ms|kN|kPa|MPa|MJ|%)\)$")
             is_bar = axes.get_label() == "<colorbar>"
             assert sum(bool(unit.search(label)) for label in labels) == (1 if is_bar else 2), (picture.title, labels)
+
+
+@pytest.mark.parametrize("report", ["study"], indirect=True)
+def test_every_axis_of_a_study_says_what_it_shows_or_has_a_neighbour_that_does(report):
+    _, drawn = report
+    for picture, figure in drawn.items():
+        for axes in figure.axes:
+            beside, above = axes.get_shared_y_axes(), axes.get_shared_x_axes()
+            names = [text.get_text() for text in (*axes.get_xticklabels(), *axes.get_yticklabels())]
+            is_named = any(name.startswith("charges") for name in names)  # rows and columns of a map
+            assert is_named or any(each.get_ylabel() for each in beside.get_siblings(axes)), picture.title
+            assert is_named or any(each.get_xlabel() for each in above.get_siblings(axes)), picture.title
 
 
 def test_lines_that_differ_differ_without_colour(report):
