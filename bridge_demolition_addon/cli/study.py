@@ -11,11 +11,13 @@ from pathlib import Path
 
 from ..core.errors import OutputError, SimulationError
 from ..core.signals import Interrupted, signals_noted
-from ..core.study.conclusions import Conclusions
+from ..core.study.conclusions import Conclusions, sentences
 from ..core.study.draws import draw_of, inputs_of
-from ..core.study.file import SEED, Study, read_study
+from ..core.study.file import Study, read_study
 from ..core.study.files import AGAIN_FOLDER, CONCLUSIONS_FILE, DRAW_FOLDER, RUNS_FILE, SHEET_FILE
 from ..core.study.runs_table import DONE
+from ..core.study.statements import verified_sentence
+from ..core.study.verification import chance_of_leaving, holds
 from ..studies.draw_process import Limits
 from ..studies.engine import Engine
 from ..studies.folder import TRIED_AGAIN, StudyFolder, end_in, study_in, versions_of
@@ -53,6 +55,11 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--again", metavar="N", type=_number, help="run draw N of a study once more, and keep everything"
     )
+    parser.add_argument(
+        "--verify",
+        metavar="ZONE",
+        help="say how likely debris leaves this zone of the scenario, from the runs of the study in a folder",
+    )
     parser.set_defaults(execute=execute)
 
 
@@ -60,6 +67,9 @@ def execute(arguments: argparse.Namespace) -> None:
     """Run a study, print what it would be, or run one of its draws once more."""
     if arguments.again is not None:
         _play_again(Path(arguments.study), arguments.again, quiet=arguments.quiet)
+        return
+    if arguments.verify is not None:
+        print(_verified(Path(arguments.study), arguments.verify))
         return
     study = read_study(arguments.study)
     if arguments.check:
@@ -85,8 +95,9 @@ def _run(study: Study, arguments: argparse.Namespace) -> None:
             engine.close()  # before the folder is free for others
             run.write_tables()
         said = run.write_conclusions()
+    report = _report(arguments.output, progress) if arguments.report else []
     if not arguments.quiet:
-        _print_results(study, run, said, arguments.output)
+        _print_results(study, run, said, arguments.output, report)
 
 
 def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
@@ -112,7 +123,16 @@ def _engine(study: Study, arguments: argparse.Namespace) -> Engine:
     return DaskCluster(arguments.dask, limits)
 
 
-def _print_results(study: Study, run: StudyRun, said: Conclusions, output: Path) -> None:
+def _report(output: Path, progress: Progress) -> list[Path]:
+    from ..report.write import write_study_report  # loading matplotlib takes a second
+
+    try:
+        return write_study_report(output, progress=progress)
+    finally:
+        progress.finish()
+
+
+def _print_results(study: Study, run: StudyRun, said: Conclusions, output: Path, report: Sequence[Path]) -> None:
     print()
     for line in sentences(study, said):
         print(line)
@@ -126,19 +146,8 @@ def _print_results(study: Study, run: StudyRun, said: Conclusions, output: Path)
     for name in (RUNS_FILE, SHEET_FILE, CONCLUSIONS_FILE):
         if (output / name).exists():
             print(output / name)
-
-
-def sentences(study: Study, said: Conclusions) -> Iterator[str]:
-    """Yield what a study says, in one sentence each."""
-    exclusion = study.scenario.exclusion
-    settings = study.settings
-    names = [SEED, *(each.key.name for each in study.variations)]
-    yield said.reach.sentence(names, settings.least_mass_kg, exclusion.buffer_m if exclusion else None)
-    yield said.reach.spread_sentence
-    for each in said.criteria:
-        yield each.success_sentence
-    if said.success and len(said.criteria) > 1:
-        yield said.success.success_sentence
+    for path in report:
+        print(path)
 
 
 def _facts(study: Study, arguments: argparse.Namespace) -> Iterator[str]:
@@ -176,6 +185,22 @@ def _play_again(path: Path, number: int, *, quiet: bool) -> None:
         raise SimulationError(f"{output}: draw {number} came to something else than in the study: {differing} differs")
     if not quiet:
         print(f"draw {number} came to the same as in the study, bit by bit: {output}")
+
+
+def _verified(path: Path, name: str) -> str:
+    """Return what the runs of the study in a folder say of a zone of its scenario."""
+    from ..report.study.study_folder import read_study_runs
+
+    runs = read_study_runs(path)
+    settings, zones = runs.study.settings, {zone.name: zone for zone in runs.study.scenario.zones}
+    if len(runs.table) < settings.runs:
+        raise OutputError(f"{path}: {len(runs.table)} of {settings.runs} runs are there: go on with the study first")
+    if name not in zones:
+        known = ", ".join(zones) or "none"
+        raise OutputError(f"--verify {name}: expected a zone from [[zones]] of the scenario, which has {known}")
+    if not holds(zones[name], runs.bridge):
+        raise OutputError(f"--verify {name}: expected a zone that holds the bridge, of which a part is outside")
+    return verified_sentence(chance_of_leaving(zones[name], runs.swept, settings.confidence), settings.quantile)
 
 
 def _jobs(text: str) -> int:

@@ -59,6 +59,18 @@ def test_it_comes_to_the_same_with_a_process_for_each(study, done, tmp_path):
     assert tables_in(tmp_path / "out") == tables_in(done)
 
 
+def test_a_study_that_is_done_gets_its_report_without_a_run(study, done, capsys):
+    before = tables_in(done)
+    assert main(["study", str(study), "--output", str(done), "--report"]) == 0
+    assert tables_in(done) == before
+    printed = capsys.readouterr().out
+    assert f"In {RUNS} independent runs, in which " in printed
+    written = [line for line in printed.splitlines() if line.startswith(str(done / "report"))]
+    assert str(done / "report" / "report.pdf") in written
+    page = (done / "report" / "report.html").read_text(encoding="utf-8")
+    assert f"In {RUNS} independent runs, in which " in page
+
+
 def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):
     status, printed, complained = run_bda("study", done, "--again", 3)
     again = done / "again" / "3"

@@ -17,6 +17,7 @@ from study_folders import TOLD_SCENARIO, VARIED, keep_study, told_runs, told_stu
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.core.scenario import Zone
 from bridge_demolition_addon.core.study.runs_table import read_runs
 from bridge_demolition_addon.report.study.study_folder import read_study_runs
 from bridge_demolition_addon.report.write import write_report, write_study_report
@@ -130,7 +131,7 @@ def test_a_study_without_a_site_has_no_degrees(tmp_path):
 
 
 def test_bda_report_writes_it(folder, capsys):
-    main(["report", str(folder)])
+    assert main(["report", str(folder)]) == 0
     assert str(folder / "report" / "report.pdf") in capsys.readouterr().out
 
 
@@ -174,3 +175,33 @@ def test_damaged_versions_are_refused(folder):
 def test_studies_are_not_compared_with_runs(folder, tmp_path):
     run = keep_run(tmp_path / "run", flying_shards())
     assert "is the folder of a study, whose report is made by itself" in refused(folder, run)
+
+
+@pytest.fixture(scope="module")
+def with_drop_area(tmp_path_factory):
+    """A study whose scenario has a zone around the bridge, 20 m wide, which the farthest run leaves."""
+    zone = Zone(name="drop area", corners_m=((-21, -24), (47, -24), (47, 24), (-21, 24)))
+    scenario = replace(TOLD_SCENARIO, zones=(*TOLD_SCENARIO.zones, zone))
+    return keep_study(tmp_path_factory.mktemp("zones") / "told", told_runs(told_study(scenario=scenario)))
+
+
+def test_a_zone_of_the_scenario_is_verified(with_drop_area, capsys):
+    left = sum(read_study_runs(with_drop_area).reaches_m > 20.0)
+    assert main(["study", str(with_drop_area), "--verify", "drop area"]) == 0
+    printed = capsys.readouterr().out
+    assert left == 2 and printed.startswith("2 of 93 runs left the zone drop area. With 95 % confidence at most 6.62 %")
+    assert "124" not in printed and "59 runs would, of which none leaves it, or 93, of which one does" in printed
+
+
+@pytest.mark.parametrize(
+    "zone, message", [("yard", "expected a zone that holds the bridge"), ("drop", "expected a zone from [[zones]]")]
+)
+def test_other_zones_are_not_verified(with_drop_area, capsys, zone, message):
+    assert main(["study", str(with_drop_area), "--verify", zone]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_study_that_is_not_done_verifies_nothing(tmp_path, capsys):
+    folder = keep_study(tmp_path / "told", small_runs(there=5))
+    assert main(["study", str(folder), "--verify", "yard"]) == 2
+    assert "5 of 8 runs are there" in capsys.readouterr().err

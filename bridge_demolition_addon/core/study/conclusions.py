@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,6 +52,24 @@ class Conclusions:
             "success": self.success and as_json(self.success),
             "at_once": self.at_once and as_json(self.at_once),
         }
+
+
+def words_of_inputs(study: Study) -> list[str]:
+    """Return what varies, as the study names it: a key of all tables of a list only once."""
+    return [vary.key for vary in study.settings.vary] + ["the seed of the fracture"]
+
+
+def sentences(study: Study, said: Conclusions) -> Iterator[str]:
+    """Yield what a study says, the limit of the reach first."""
+    exclusion = study.scenario.exclusion
+    buffer_m = exclusion.buffer_m if exclusion else None
+    yield said.reach.sentence(words_of_inputs(study), study.settings.least_mass_kg, buffer_m)
+    if math.isfinite(said.reach.limit_m):
+        yield said.reach.spread_sentence
+    for each in said.criteria:
+        yield each.success_sentence
+    if said.success and len(said.criteria) > 1:
+        yield said.success.success_sentence
 
 
 def conclusions(study: Study, table: RunsTable) -> Conclusions:

@@ -269,16 +269,19 @@ def limits_at_once(outputs: Mapping[str, np.ndarray], quantile: float, confidenc
     return LimitsAtOnce(quantile, confidence, limits, ranks)
 
 
-def verified_sentence(zone: str, left: Chance, quantile: float) -> str:
-    """Return what fresh runs, none of which the zone was made from, say of it."""
-    meaning = f"{left.harm_sentence} These are fresh runs: neither the zone's shape nor its size was made from them. "
+def verified_sentence(left: Chance, quantile: float) -> str:
+    """Return what runs that left a zone, or did not, say of it; it was fixed before any of them."""
     if left.at_most <= 1.0 - quantile:
-        return f"Zone {zone}: {meaning}So it holds {percent(quantile)} of such runs."
-    needed = [least_runs(quantile, left.confidence, rank) for rank in (1, 2)]
+        meaning = f"So it holds {percent(quantile)} of such runs"
+    else:
+        needed = [least_runs(quantile, left.confidence, rank) for rank in (1, 2)]
+        meaning = (
+            f"That does not show that it holds {percent(quantile)} of them: {needed[0]} runs would, of which none "
+            f"leaves it, or {needed[1]}, of which one does"
+        )
     return (
-        f"Zone {zone}: {meaning}That does not show that it holds {percent(quantile)} of them: {needed[0]} fresh runs "
-        f"would, of which none leaves it, or {needed[1]}, of which one does. Make the zone larger, and verify it with "
-        "draws that are fresh again."
+        f"{left.harm_sentence} {meaning}. This is so where the zone was fixed before these runs; if it was made from a "
+        "study, that has to have had another seed."
     )
 
 
@@ -297,7 +300,8 @@ def shape_sentence(corners: int, quantile: float, confidence: float) -> str:
         f"hull has {corners} corners. Even had their number been fixed beforehand, such a zone would be known to hold "
         f"{percent(quantile)} of other runs, with {percent(confidence)} confidence, only from "
         f"{least_runs(quantile, confidence, corners)} runs on. Take the limit instead, whose shape was fixed before "
-        "the first run, or verify a zone by fresh runs: bda study with --verify ZONE."
+        "the first run, or verify the zone: write it into [[zones]] of the scenario, give the study another seed, and "
+        "ask bda study with --verify what its runs say."
     )
 
 

@@ -11,9 +11,9 @@ from manifold3d import CrossSection
 from ...charts.plan_maps import map_height_mm
 from ...charts.study_plan import study_plan
 from ...core.debris.exclusion import widened
-from ...core.geometry.plan_areas import signed_area
 from ...core.study.probability_map import LEVELS
-from ...core.study.statements import percent, rounded_up, shape_sentence
+from ...core.study.statements import percent, rounded_up, shape_sentence, verified_sentence
+from ...core.study.verification import zone_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from .study_runs import StudyRuns
 
@@ -62,7 +62,7 @@ _AREA_COLUMNS = (
 
 def layers(runs: StudyRuns) -> dict[str, CrossSection]:
     """Return all areas of a study for a site plan by their names, the largest first."""
-    zones = {f"zone {zone.name}": CrossSection([_anticlockwise(zone.corners_m)]) for zone in runs.study.scenario.zones}
+    zones = {f"zone {zone.name}": zone_area(zone) for zone in runs.study.scenario.zones}
     likely = {f"probability above {percent(level)}": area for level, area in likely_areas(runs).items()}
     return {**dict(reversed(limit_areas(runs).items())), **likely, "bridge": runs.bridge, **zones}
 
@@ -109,8 +109,5 @@ def _words(runs: StudyRuns) -> Iterator[str]:
             yield f"Where the probability is below {percent(level)} cannot be said: {why}."
     if corners := runs.hull_corners:
         yield shape_sentence(corners, settings.quantile, settings.confidence)
-
-
-def _anticlockwise(corners_m: Sequence[tuple[float, float]]) -> np.ndarray:
-    corners = np.array(corners_m)
-    return corners if signed_area(corners) > 0.0 else corners[::-1]
+    if runs.said:
+        yield from (verified_sentence(left, settings.quantile) for left in runs.zones_left)

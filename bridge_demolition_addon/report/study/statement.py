@@ -8,7 +8,7 @@ from functools import partial
 
 from ...charts.study_charts import limit_over_runs, reach_distribution
 from ...core.statistics.order_limits import limits_by_runs
-from ...core.study.conclusions import Conclusions
+from ...core.study.conclusions import sentences, words_of_inputs
 from ...core.study.runs_table import DONE
 from ...core.study.statements import LimitsAtOnce, ordinal, percent, rounded_up
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
@@ -21,9 +21,8 @@ def statement_section(runs: StudyRuns, version: str) -> Section:
     if runs.said is None:
         blocks.append(Paragraph(_not_yet(runs), is_notice=True))
     else:
-        sentence = runs.said.reach.sentence(runs.words_of_varied, runs.study.settings.least_mass_kg, runs.buffer_m)
-        blocks.append(Paragraph(sentence, is_notice=True))
-        blocks += [Paragraph(text) for text in _more(runs.said)]
+        first, *others = sentences(runs.study, runs.said)
+        blocks += [Paragraph(first, is_notice=True), *map(Paragraph, others)]
     blocks += [Paragraph(text, is_notice=True) for text in _doubts(runs)]
     blocks.append(facts("The study", list(_study_facts(runs, version)), "study"))
     return Section("What this study says", tuple(blocks))
@@ -68,14 +67,6 @@ def _not_yet(runs: StudyRuns) -> str:
         f"{len(runs.table)} of {runs.study.settings.runs} runs are there: the study says nothing before all of them "
         "are, as their number was fixed beforehand. Go on with the command that started it."
     )
-
-
-def _more(said: Conclusions) -> Iterator[str]:
-    reach = said.reach
-    if math.isfinite(reach.limit_m):
-        yield reach.spread_sentence
-    if said.success:
-        yield f"Success: {said.success.success_sentence}"
 
 
 def _doubts(runs: StudyRuns) -> Iterator[str]:
@@ -126,7 +117,7 @@ def _study_facts(runs: StudyRuns, version: str) -> Iterator[tuple[str, str]]:
                 f"{100.0 * reach.share:.2f} % of runs with {percent(settings.confidence)} confidence"
             ),
         )
-    yield "Varied", ", ".join(runs.words_of_varied)
+    yield "Varied", ", ".join(words_of_inputs(runs.study))
     yield "Seed of the study", str(settings.seed)
     yield "Bridge Demolition Add-on", version
 

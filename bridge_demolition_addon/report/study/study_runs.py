@@ -18,6 +18,8 @@ from ...core.study.criteria import Criterion
 from ...core.study.file import SEED, Study
 from ...core.study.probability_map import ProbabilityMap, probability_map
 from ...core.study.runs_table import REACH, RunsTable
+from ...core.study.statements import Chance
+from ...core.study.verification import chance_of_leaving, holds
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,10 +75,11 @@ class StudyRuns:
         """Names of all inputs but the seed, which has no order."""
         return tuple(name for name in self.table.inputs if name != SEED)
 
-    @property
-    def words_of_varied(self) -> list[str]:
-        """What varied, as the study names it: a key of all tables of a list only once."""
-        return [vary.key for vary in self.study.settings.vary] + ["the seed of the fracture"]
+    @cached_property
+    def zones_left(self) -> list[Chance]:
+        """How likely debris leaves each zone of the scenario that holds the bridge."""
+        zones = [zone for zone in self.study.scenario.zones if holds(zone, self.bridge)]
+        return [chance_of_leaving(zone, self.swept, self.study.settings.confidence) for zone in zones]
 
     @cached_property
     def numbers(self) -> tuple[str, ...]:
