@@ -8,6 +8,7 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
 from numbers import Integral, Real
 from types import NoneType
 from typing import Any, ClassVar, get_args, get_origin
@@ -168,21 +169,25 @@ def is_required(item: Field) -> bool:
     return item.default is MISSING and item.default_factory is MISSING
 
 
+@cache
 def is_optional(item: Field) -> bool:
     """Return whether the value may be None, which leaves a key or table out."""
     return NoneType in get_args(item.type)
 
 
+@cache
 def value_type(item: Field) -> Any:
     """Return the type of a field's value where it is given: ``float`` for ``float | None``."""
     return next(kind for kind in get_args(item.type) if kind is not NoneType) if is_optional(item) else item.type
 
 
+@cache
 def holds_many(item: Field) -> bool:
     """Return whether a field holds a list, of tables or of values."""
     return get_origin(value_type(item)) is tuple
 
 
+@cache
 def subtable_class(item: Field) -> type[Table] | None:
     """Return the dataclass of the table or tables that a field holds, None for a field with a plain value."""
     kind = get_args(value_type(item))[0] if holds_many(item) else value_type(item)

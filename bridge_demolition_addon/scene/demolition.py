@@ -10,13 +10,14 @@ import bpy
 from ..core.blast.settings import Apply
 from ..core.bridge.extent import ground_half_size, surface_height
 from ..core.elasticity.section_stiffness import DAMPING_RATIO
+from ..core.errors import SimulationError
 from ..core.mechanics.strength import Ductility, Strength
 from ..core.scenario import ConnectionSettings, Scenario
 from ..core.structure.model import Model
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
 from .blast.settings import keep_blast
-from .bodies import bodies_of, create_ground, create_shards, mark_member
+from .bodies import bodies_of, create_ground, create_shards, is_marked, mark_member
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
@@ -42,11 +43,34 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     SimulationError
         Blender is not in object mode, which fields need; nothing is left of what was made.
     """
-    settings = scenario.ball
-    surfaces = [surface_height(scenario, model.members, drop.target_m) for drop in settings.drops] if settings else []
-    hammered = [surface_height(scenario, model.members, hammer.path_m[0]) for hammer in scenario.jackhammers]
+    surfaces = _surfaces(scenario, model)
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
-        _build(scene, scenario, model, surfaces, hammered)
+        _build(scene, scenario, model, *surfaces)
+
+
+def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
+    """See that what was built in a scene can be removed and another model built in its place, and change nothing.
+
+    Raises
+    ------
+    GeometryError
+        As `build_demolition`.
+    SimulationError
+        The rigid-body world has bodies that were not built here, and would stay.
+    """
+    if others := [body.name for body in bodies_of(scene) if not is_marked(body)]:
+        raise SimulationError(
+            f"the rigid-body world has {len(others)} bodies that were not built here, such as {others[0]!r}: take them "
+            "out of it, or build in a new scene"
+        )
+    _surfaces(scenario, model)
+
+
+def _surfaces(scenario: Scenario, model: Model) -> tuple[list[float], list[float]]:
+    """Return the heights, m, under the targets of the ball and where jackhammers begin."""
+    drops = scenario.ball.drops if scenario.ball else ()
+    dropped = [surface_height(scenario, model.members, drop.target_m) for drop in drops]
+    return dropped, [surface_height(scenario, model.members, hammer.path_m[0]) for hammer in scenario.jackhammers]
 
 
 def _build(

@@ -33,7 +33,7 @@ class Refusing:
     def poll(cls, context: bpy.types.Context) -> bool:
         reason = (
             (cls.changes_scene and _linked(context))
-            or (cls.changes_objects and _other_mode(context))
+            or (cls.changes_objects and other_mode(context))
             or cls.why_not(context)
         )
         if reason:
@@ -84,15 +84,16 @@ def recording_runs(_context: bpy.types.Context) -> str | None:
     return "A recording runs: unregister its handler first" if running_recording() else None
 
 
+def other_mode(context: bpy.types.Context) -> str | None:
+    """Return a sentence where Blender is in another mode than object mode, else None."""
+    return None if context.mode == "OBJECT" else "Go to object mode first"
+
+
 def _linked(context: bpy.types.Context) -> str | None:
     library = context.scene.library
     if library is None:
         return None
     return f"This scene is linked from {Path(library.filepath).name}: open that file to change it"
-
-
-def _other_mode(context: bpy.types.Context) -> str | None:
-    return None if context.mode == "OBJECT" else "Go to object mode first"
 
 
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:

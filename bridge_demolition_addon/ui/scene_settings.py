@@ -16,8 +16,8 @@ class BDA_PG_settings(ContourProperties, ChargeProperties, bpy.types.PropertyGro
         "Scenario", "Scenario file (TOML) to load or to save; Build Scenario loads one that was not loaded yet"
     )
     loaded_path: StringProperty(options={"HIDDEN"}, description="Scenario file that was loaded or saved last")
-    title: StringProperty(name="Title", description="Title of the scenario that the scene was built from")
     built_scenario: StringProperty(options={"HIDDEN"}, description="The scenario that the scene was built from")
+    built_values: StringProperty(options={"HIDDEN"}, description="What the panels showed when the scene was built")
     output_directory: path_property(
         "Results",
         "Folder for the logs and results of the recording; it is made when the handler is registered",

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
 import bpy
-import numpy as np
 
 from ...core.disk import write_whole_text
-from ...core.errors import DemolitionError, OutputError, ScenarioError, SimulationError
+from ...core.errors import DemolitionError, OutputError, SimulationError
 from ...core.folder_lock import FolderLock
 from ...core.results.files import SCENARIO_FILE
-from ...core.scenario import RecordingSettings, Scenario
-from ...core.scenario.file import scenario_from_text, scenario_text
+from ...core.scenario import RecordingSettings
+from ...core.scenario.file import scenario_text
 from ...core.sequence.rest import Rest
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
 from ...simulation.playback import start_over
@@ -32,10 +30,9 @@ from ...simulation.results_folder import (
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
-from ..scenario.values import scenario_of, table_of
+from ..scenario.built import scenario_to_run
+from ..scenario.values import table_of
 from . import session
-
-_TIME_TO_STOP_AT = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
 
 _contexts: WeakKeyDictionary[Recording, RunContext] = WeakKeyDictionary()
 """What each recording is of."""
@@ -102,7 +99,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     settings = scene.bda
     check_recordable(scene)
     table = table_of(settings.scenario.recording, RecordingSettings)
-    scenario = _scenario_as_recorded(settings)
+    scenario = scenario_to_run(settings)
     keep_shown_blast(scene)
     forces, debris = (
         _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
@@ -119,7 +116,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     _locks[recording] = lock
     if scenario:
         write_whole_text(folder / SCENARIO_FILE, scenario_text(scenario))
-    _contexts[recording] = RunContext.of(scene, settings.title or scene.name, scenario)
+    _contexts[recording] = RunContext.of(scene, scenario.title if scenario else scene.name, scenario)
     return recording
 
 
@@ -189,25 +186,6 @@ def rest_to_stop_at(recording: Recording) -> Rest | None:
     """Return the rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
     scenario = _contexts[recording].scenario
     return rest_watch(scenario) if scenario and scenario.time.stop_at_rest else None
-
-
-def _scenario_as_recorded(settings: bpy.types.PropertyGroup) -> Scenario | None:
-    """What the scene was built from, with the charges and the time to stop at that it has now; None if from nothing."""
-    if not settings.built_scenario:
-        return None
-    built = scenario_from_text(settings.built_scenario)
-    try:
-        now = scenario_of(settings)
-    except ScenarioError:  # panels that were changed since, and would not build: the report is of what was built
-        return built
-    time = replace(built.time, **{name: getattr(now.time, name) for name in _TIME_TO_STOP_AT})
-    recorded = replace(built, charges=now.charges, blast=now.blast, time=time)
-    if not np.array_equal(recorded.timeline.frame_lengths_s, built.timeline.frame_lengths_s):
-        raise ScenarioError(
-            "slow motion was animated for the charges that the scene was built with: remove the demolition and build "
-            "it again; the charges stay where they are"
-        )
-    return recorded
 
 
 def _log_file(path: str, overwrite: bool) -> Path | None:

@@ -1,12 +1,14 @@
 """Operators that simulate a scene in one go, keep it as a bake, and delete the bake."""
 
 import bpy
+from bpy.props import BoolProperty
 
-from ...core.errors import DemolitionError
+from ...core.errors import DemolitionError, SimulationError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing
-from ..operators import Action, Refusing, no_world, recording_runs, refused
+from ..operators import Action, Refusing, no_world, other_mode, recording_runs, refused
+from ..scenario.operator import BDA_OT_build_anew, build
 from . import session
 from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded, withdraw_recording
 
@@ -31,6 +33,12 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
 
     bl_idname = "bda.run"
     bl_label = "Run"
+
+    build_anew: BoolProperty(
+        name="Build Anew",
+        description="Build what the panels show first, in place of what was built before",
+        options={"SKIP_SAVE"},
+    )
 
     why_not = staticmethod(why_not_recorded)
 
@@ -77,6 +85,8 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> bool:
         recording = None
         try:
+            if self.build_anew:
+                self._build(context)
             recording = new_recording(context.scene)
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except (DemolitionError, OSError) as error:
@@ -85,6 +95,12 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
             refused(self, error)
             return False
         return True
+
+    def _build(self, context: bpy.types.Context) -> None:
+        if reason := other_mode(context):
+            raise SimulationError(reason)
+        self.report({"INFO"}, build(context.scene, anew=True))
+        bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _show(self, context: bpy.types.Context) -> None:
         playing = self._playing

@@ -6,6 +6,8 @@ import bpy
 
 from ...simulation.blender_events import running_recording
 from ...simulation.recording.recorder import Recording
+from ..scenario.built import changes
+from ..scenario.ui import draw_changes
 from ..sidebar import SidebarPanel, draw_sentence
 from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
 
@@ -21,11 +23,14 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         column.enabled = recording is None
         column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
         column.prop(settings, "overwrite")
+        if changed := [] if recording else changes(settings):
+            draw_changes(self.layout, context, changed)
         column = self.layout.column(align=True)
         column.operator("bda.register_handler")
         column.operator("bda.unregister_handler")
         column = self.layout.column(align=True)
-        column.operator("bda.run", icon="PLAY")
+        run = column.operator("bda.run", text="Build Anew and Run" if changed else "Run", icon="PLAY")
+        run.build_anew = bool(changed)
         row = column.row(align=True)
         row.operator("bda.bake")
         row.operator("bda.delete_bake")

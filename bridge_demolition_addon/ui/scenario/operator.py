@@ -7,11 +7,12 @@ from ...core.scenario import Scenario
 from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import checked_model
 from ...scene.bodies import Kind, bodies_of, kind_of
-from ...scene.demolition import build_demolition
+from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...simulation.blender_events import contours_of
 from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
 from ..viewport import look_at_selected, select_only
+from .built import forget_built, keep_built, show_built
 from .prop import PRESETS, default_scenario
 from .values import scenario_of, show_scenario
 
@@ -97,7 +98,7 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
         if context.scene.rigidbody_world:
-            return "This scene has a rigid-body world already: remove its demolition first, or use a new scene"
+            return "This scene has a rigid-body world already: build it anew, or use a new scene"
         return None
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -111,17 +112,44 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
         return done
 
     def act(self, context: bpy.types.Context) -> str:
-        settings = context.scene.bda
-        is_new = settings.scenario_path not in ("", settings.loaded_path)
-        scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-        model = checked_model(scenario)
-        build_demolition(context.scene, scenario, model)
-        if is_new:
-            show_scenario(settings, scenario)
-            settings.loaded_path = settings.scenario_path
-        settings.title, settings.total_mass = scenario.title, ""
-        settings.built_scenario = scenario_text(scenario)
-        return f"{len(model.shards)} shards, {len(model.connections)} connections"
+        return build(context.scene)
+
+
+class BDA_OT_build_anew(Action, bpy.types.Operator):
+    """Remove what was built here but the charges, with all changes by hand, and build what the panels show"""
+
+    bl_idname = "bda.build_anew"
+    bl_label = "Build Anew"
+    bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if no_world(context):
+            return "Nothing is built here yet: build the scenario"
+        if context.scene.rigidbody_world.point_cache.is_baked:
+            return "The simulation is baked and only played back: delete the bake first"
+        return recording_runs(context)
+
+    def act(self, context: bpy.types.Context) -> str:
+        if context.screen and context.screen.is_animation_playing:
+            bpy.ops.screen.animation_cancel(restore_frame=False)
+        return build(context.scene, anew=True)
+
+
+class BDA_OT_show_built(Action, bpy.types.Operator):
+    """Set values that have changed since the scene was built back to those that it was built with"""
+
+    bl_idname = "bda.show_built"
+    bl_label = "Show As Built"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return None if context.scene.bda.built_scenario else "Nothing is built here yet: build the scenario"
+
+    def act(self, context: bpy.types.Context) -> None:
+        show_built(context.scene.bda)
 
 
 class _Removal(Action):
@@ -149,7 +177,8 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
             bpy.ops.screen.animation_cancel(restore_frame=False)
         contours_of(scene).forget()
         removed = remove_demolition(scene)
-        scene.bda.built_scenario = scene.bda.title = scene.bda.total_mass = ""
+        forget_built(scene.bda)
+        scene.bda.total_mass = ""
         if scene.rigidbody_world:
             others = len(scene.rigidbody_world.collection.all_objects)
             self.report({"WARNING"}, f"The rigid-body world stays, as it has {others} bodies that were not built here")
@@ -183,10 +212,44 @@ CLASSES = (
     BDA_OT_new_scenario,
     BDA_OT_load_preset,
     BDA_OT_build_scenario,
+    BDA_OT_build_anew,
+    BDA_OT_show_built,
     BDA_OT_remove_demolition,
     BDA_OT_remove_loose_connections,
     BDA_MT_presets,
 )
+
+
+def build(scene: bpy.types.Scene, *, anew: bool = False) -> str:
+    """Build the scenario that the panels show, or that is in a file which was not loaded yet, and say how large it is.
+
+    Parameters
+    ----------
+    scene
+        Where to.
+    anew
+        Whether it takes the place of what was built there before.
+
+    Raises
+    ------
+    DemolitionError
+        The scenario cannot be built; what was there before is as it was.
+    """
+    settings = scene.bda
+    is_new = settings.scenario_path not in ("", settings.loaded_path)
+    scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
+    model = checked_model(scenario)
+    if anew:
+        check_replaceable(scene, scenario, model)
+        contours_of(scene).forget()
+        remove_demolition(scene)
+    build_demolition(scene, scenario, model)
+    if is_new:
+        show_scenario(settings, scenario)
+        settings.loaded_path = settings.scenario_path
+    settings.total_mass = ""
+    keep_built(settings, scenario)
+    return f"{len(model.shards)} shards, {len(model.connections)} connections"
 
 
 def _show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:

@@ -69,12 +69,14 @@ _DECIMALS = 3
 _SMALL_WORDS = {"a", "and", "at", "by", "for", "in", "of", "on", "or", "per", "the", "to"}
 
 
+@cache
 def vector_length(item: Field) -> int | None:
     """Return how many numbers a key holds, None for one that does not hold a fixed number of them."""
     kinds = get_args(value_type(item))
     return len(kinds) if holds_many(item) and set(kinds) == {float} else None
 
 
+@cache
 def is_written_out(item: Field) -> bool:
     """Return whether a key's value is shown as a text in the syntax of TOML: a list that is no vector."""
     return holds_many(item) and vector_length(item) is None

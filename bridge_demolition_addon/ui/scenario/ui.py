@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import Field, dataclass
 from functools import cache
 
@@ -12,6 +12,7 @@ from ...core.scenario import Scenario
 from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from .breaking_note import breaking_note
+from .built import Change, Kept, built_values, change_of, changes_of_table
 from .prop import INDEX, USE, label_of, shown_tables, vector_length
 from .table_list import draw_list
 
@@ -41,13 +42,20 @@ _ELSEWHERE = {"blast.explosion"}
 """Keys that are drawn by hand."""
 
 _LETTERS_OF_VALUE = 9
+_LISTED = 4
+"""Changed values that are listed above the buttons; each is marked in its own panel as well."""
+
+CHANGED = "ERROR"
+"""Icon of values that have changed since the scene was built."""
+
 _PANEL = "BDA_PT_"
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """How a key is drawn: its name and label, and whether it has a check box or several numbers."""
+    """How a key is drawn: its field, name and label, and whether it has a check box or several numbers."""
 
+    item: Field
     name: str
     label: str
     is_optional: bool
@@ -71,9 +79,10 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         row = column.row(align=True)
         row.operator("bda.new_scenario", text="New")
         row.menu("BDA_MT_presets")
-        draw_keys(layout, context, settings.scenario, Scenario)
+        draw_keys(layout, context, settings.scenario, Scenario, built_values(settings))
         column = layout.column(align=True)
         column.operator("bda.build_scenario")
+        column.operator("bda.build_anew")
         column.operator("bda.remove_demolition")
         column.operator("bda.remove_loose_connections")
 
@@ -95,19 +104,24 @@ class _TablePanel(SidebarPanel):
     names: tuple[str, ...]
 
     def draw_header(self, context: bpy.types.Context) -> None:
+        owner = self._owner(context)
         if is_optional(self.item):
-            self.layout.prop(self._owner(context), USE + self.item.name, text="")
+            self.layout.prop(owner, USE + self.item.name, text="")
+        if self._changes(context, owner):
+            self.layout.label(icon=CHANGED)
 
     def draw(self, context: bpy.types.Context) -> None:
-        owner = self._owner(context)
+        owner, kept = self._owner(context), self._kept(context)
         layout = self.layout
         if not self.names and self.item.name in _BUTTONS:
             layout.operator(_BUTTONS[self.item.name])
         if holds_many(self.item):
-            draw_tables(layout, context, owner, self.item)
+            draw_tables(layout, context, owner, self.item, kept)
             return
+        draw_change_of_table(layout, context, owner, self.item, kept)
         layout.enabled = not is_optional(self.item) or getattr(owner, USE + self.item.name)
-        draw_keys(layout, context, getattr(owner, self.item.name), subtable_class(self.item))
+        inner_kept = kept and kept.get(self.item.name)
+        draw_keys(layout, context, getattr(owner, self.item.name), subtable_class(self.item), inner_kept)
         if not self.names and self.item.name == "connections" and (note := breaking_note(owner)):
             draw_sentence(layout, context, note, icon="INFO")
 
@@ -117,34 +131,83 @@ class _TablePanel(SidebarPanel):
             group = getattr(group, name)
         return group
 
+    def _kept(self, context: bpy.types.Context) -> Kept:
+        """Return what was built of the table that this one stands in."""
+        kept = built_values(context.scene.bda)
+        for name in self.names:
+            kept = kept and kept.get(name)
+        return kept
+
+    def _changes(self, context: bpy.types.Context, owner: bpy.types.PropertyGroup) -> bool:
+        kept = self._kept(context)
+        return kept is not None and any(True for _ in changes_of_table(owner, self.item, kept))
+
+
+def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed: Sequence[Change]) -> None:
+    """Draw which values have changed since the scene was built, and what can be done about it."""
+    box = layout.box()
+    draw_sentence(box, context, "Values have changed since this was built:", icon=CHANGED)
+    for each in changed[:_LISTED]:
+        draw_sentence(box, context, f"{each.key}: {each.shown}, built {each.built}", icon="NONE")
+    if len(changed) > _LISTED:
+        box.label(text=f"and {len(changed) - _LISTED} more")
+    row = box.row(align=True)
+    row.operator("bda.build_anew")
+    row.operator("bda.show_built")
+
 
 def draw_keys(
-    layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, table_class: type[Table]
+    layout: bpy.types.UILayout,
+    context: bpy.types.Context,
+    group: bpy.types.PropertyGroup,
+    table_class: type[Table],
+    kept: Kept,
 ) -> None:
-    """Draw the keys of a table, each on a line, or on two where its label is long."""
+    """Draw the keys of a table, each on a line, or on two where its label is long, and what has changed below it."""
     letters = letters_of(context)
     column = layout.column()
     for row in rows_of(table_class):
         _draw_key(column, letters, group, row)
+        if change := change_of(group, table_class, row.item, kept):
+            draw_sentence(column, context, f"built {change.built}", icon=CHANGED)
+
+
+def draw_change_of_table(
+    layout: bpy.types.UILayout,
+    context: bpy.types.Context,
+    group: bpy.types.PropertyGroup,
+    item: Field,
+    kept: Kept,
+) -> None:
+    """Draw whether a table, or another number of tables, was used when the scene was built."""
+    change = None if kept is None else next(changes_of_table(group, item, kept), None)
+    if change and change.key == subtable_class(item).table:
+        draw_sentence(layout, context, f"built {change.built}", icon=CHANGED)
 
 
 def draw_tables(
-    layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, item: Field
+    layout: bpy.types.UILayout,
+    context: bpy.types.Context,
+    group: bpy.types.PropertyGroup,
+    item: Field,
+    kept: Kept,
 ) -> None:
     """Draw a list of tables, and below it the keys and tables of the chosen one."""
     draw_list(layout, group, item)
+    draw_change_of_table(layout, context, group, item, kept)
     tables, index = getattr(group, item.name), getattr(group, item.name + INDEX)
     if index >= len(tables):
         return
-    table_class = subtable_class(item)
-    draw_keys(layout, context, tables[index], table_class)
+    table_class, built = subtable_class(item), (kept or {}).get(item.name) or []
+    kept = built[index] if index < len(built) else None
+    draw_keys(layout, context, tables[index], table_class, kept)
     for inner in shown_tables(table_class):
         box = layout.box()
         box.label(text=label_of(table_class, inner))
         if holds_many(inner):
-            draw_tables(box, context, tables[index], inner)
+            draw_tables(box, context, tables[index], inner, kept)
         else:
-            _draw_inner(box, context, tables[index], inner)
+            _draw_inner(box, context, tables[index], inner, kept)
 
 
 @cache
@@ -152,6 +215,7 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
     """Return how the keys of a table are drawn, in their order."""
     return tuple(
         Row(
+            item=item,
             name=item.name,
             label=label_of(table_class, item),
             is_optional=is_optional(item),
@@ -227,10 +291,15 @@ def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.Propert
 
 
 def _draw_inner(
-    layout: bpy.types.UILayout, context: bpy.types.Context, group: bpy.types.PropertyGroup, item: Field
+    layout: bpy.types.UILayout,
+    context: bpy.types.Context,
+    group: bpy.types.PropertyGroup,
+    item: Field,
+    kept: Kept,
 ) -> None:
+    draw_change_of_table(layout, context, group, item, kept)
     if is_optional(item):
         layout.prop(group, USE + item.name, text="Use")
         if not getattr(group, USE + item.name):
             return
-    draw_keys(layout, context, getattr(group, item.name), subtable_class(item))
+    draw_keys(layout, context, getattr(group, item.name), subtable_class(item), kept and kept.get(item.name))

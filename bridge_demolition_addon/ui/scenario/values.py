@@ -88,15 +88,23 @@ def show_table(group: bpy.types.PropertyGroup, table: Table) -> None:
         setattr(group, item.name, toml_value(value) if is_written_out(item) else value)
     setattr(group, GIVEN, values_text(given))
     for item in shown_tables(type(table)):
-        inner = getattr(table, item.name)
-        if holds_many(item):
-            for each in inner:
-                show_table(getattr(group, item.name).add(), each)
-            continue
-        if is_optional(item):
-            setattr(group, USE + item.name, inner is not None)
-        if inner is not None:
-            show_table(getattr(group, item.name), inner)
+        show_inner(group, item, getattr(table, item.name))
+
+
+def show_inner(group: bpy.types.PropertyGroup, item: Field, inner: Table | tuple[Table, ...] | None) -> None:
+    """Show the table, or the tables, of one field in place of what the group shows of it."""
+    shown_in = getattr(group, item.name)
+    if holds_many(item):
+        shown_in.clear()
+        for each in inner:
+            show_table(shown_in.add(), each)
+        return
+    if is_optional(item):
+        setattr(group, USE + item.name, inner is not None)
+    if inner is None:
+        reset(shown_in)
+    else:
+        show_table(shown_in, inner)
 
 
 def reset(group: bpy.types.PropertyGroup) -> None:
@@ -117,6 +125,24 @@ def shortest(number: float) -> float:
     return float(str(np.float32(number)))
 
 
+def list_of(text: str, name: str, item: Field) -> list:
+    """Return a list from TOML; brackets around it may be left out.
+
+    Raises
+    ------
+    ScenarioError
+        The text is no list; the error says `name`.
+    """
+    for written in (text, f"[{text}]"):
+        try:
+            document = tomllib.loads(f"list = {written}")
+        except (ValueError, RecursionError):
+            continue
+        if list(document) == ["list"] and isinstance(document["list"], list):
+            return document["list"]
+    raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
+
+
 def _inner(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, ...] | None:
     table_class = subtable_class(item)
     inner = getattr(group, item.name)
@@ -130,7 +156,7 @@ def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field
         return None
     value = getattr(group, item.name)
     if is_written_out(item):
-        return _list_of(value, key_name(table_class, item), item)
+        return list_of(value, key_name(table_class, item), item)
     if vector_length(item):
         return tuple(map(_number, value, given or [None] * len(value)))
     return _number(value, given) if value_type(item) is float else value
@@ -140,18 +166,6 @@ def _number(value: float, given: float | None) -> float:
     if not isinstance(value, float):
         return value
     return given if given is not None and np.float32(given) == np.float32(value) else shortest(value)
-
-
-def _list_of(text: str, name: str, item: Field) -> list:
-    """Return a list from TOML; brackets around it may be left out."""
-    for written in (text, f"[{text}]"):
-        try:
-            document = tomllib.loads(f"list = {written}")
-        except (ValueError, RecursionError):
-            continue
-        if list(document) == ["list"] and isinstance(document["list"], list):
-            return document["list"]
-    raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
 
 
 def _charges(settings: bpy.types.PropertyGroup) -> Iterable[Charge]:

@@ -109,7 +109,6 @@ def test_building_takes_what_the_panels_show(extension, settings):
     settings.scenario.title = "Twenty-five"
     extension.ops.bda.build_scenario()
     assert len(extension.context.scene.rigidbody_world.collection.objects) == 27
-    assert settings.title == "Twenty-five"
 
 
 def test_building_loads_a_file_that_was_not_loaded_yet(extension, settings):

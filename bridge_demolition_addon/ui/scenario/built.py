@@ -1,0 +1,235 @@
+"""What a scene was built from, and which values in the panels have changed since.
+
+A run is of what was built. Some values do not take part in building: those that the panels show when the run begins
+count for it. All others are kept as the panels showed them when the scene was built.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import Field, dataclass, replace
+from functools import cache, lru_cache
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.errors import ScenarioError
+from ...core.scenario import Scenario
+from ...core.scenario.file import scenario_from_text, scenario_text
+from ...core.scenario.kept import values_from_text, values_text
+from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, key_of, subtable_class
+from .prop import USE, is_written_out, shown_tables, vector_length
+from .values import list_of, scenario_of, shortest, show_inner
+
+_AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", "zones", "exclusion", "site", "neighbours")
+"""What a run takes of a scenario as it is shown when it begins."""
+
+_TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
+"""The same of its time."""
+
+_LISTED_IN_MESSAGE = 3
+
+Kept = dict[str, Any] | None
+"""Values of a table as its panel showed them when the scene was built; None where there was no such table."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A value that has changed since the scene was built.
+
+    Attributes
+    ----------
+    key
+        Its name in a scenario, such as ``ball.mass_kg``.
+    shown, built
+        What the panel shows now, and what it was built with, in words and with the unit: ``with 10 000 kg``.
+    """
+
+    key: str
+    shown: str
+    built: str
+
+
+def keep_built(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
+    """Keep what a scene was built from, which its panels show."""
+    settings.built_scenario = scenario_text(scenario)
+    settings.built_values = values_text(_values(settings.scenario, Scenario))
+
+
+def forget_built(settings: bpy.types.PropertyGroup) -> None:
+    """Nothing is built any more."""
+    settings.built_scenario = settings.built_values = ""
+
+
+def show_built(settings: bpy.types.PropertyGroup) -> None:
+    """Show what the scene was built from, and leave what counts for the next run as it is shown."""
+    built, group = scenario_from_text(settings.built_scenario), settings.scenario
+    of_run = {name: getattr(group.time, name) for name in _TIME_AS_SHOWN}
+    group.seed = built.seed
+    for item in _built_tables(Scenario):
+        show_inner(group, item, getattr(built, item.name))
+    for name, value in of_run.items():
+        setattr(group.time, name, value)
+    keep_built(settings, built)
+
+
+def built_values(settings: bpy.types.PropertyGroup) -> Kept:
+    """Return all values as they were shown when the scene was built, table by table; None where it was not."""
+    return _parsed(settings.built_values) if settings.built_values else None
+
+
+def changes(settings: bpy.types.PropertyGroup) -> list[Change]:
+    """Return all values that have changed since the scene was built; none where it was not."""
+    kept = built_values(settings)
+    return [] if kept is None else list(changes_in(settings.scenario, Scenario, kept))
+
+
+def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: Kept) -> Iterator[Change]:
+    """Return the values of a table, and of those in it, that are not as they were when the scene was built."""
+    for item in _built_keys(table_class):
+        if change := change_of(group, table_class, item, kept):
+            yield change
+    for item in _built_tables(table_class):
+        yield from changes_of_table(group, item, kept)
+
+
+def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Iterator[Change]:
+    """Return what has changed in the table, or the tables, of one field of a group."""
+    if not counts_in_building(item):
+        return
+    inner_class, then = subtable_class(item), (kept or {}).get(item.name)
+    now = getattr(group, item.name)
+    if holds_many(item):
+        then = then or []
+        if len(now) != len(then):
+            yield Change(inner_class.table, f"a list of {len(now)}", f"with {len(then)} of them")
+        for number, (each, values) in enumerate(zip(now, then, strict=False), start=1):
+            for change in changes_in(each, inner_class, values):
+                yield replace(change, key=f"{change.key} (number {number})")
+        return
+    is_used = not is_optional(item) or getattr(group, USE + item.name)
+    if is_used != (then is not None):
+        yield Change(inner_class.table, *(("used", "without") if is_used else ("not used", "with it")))
+    elif is_used:
+        yield from changes_in(now, inner_class, then)
+
+
+def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, kept: Kept) -> Change | None:
+    """Return how one value differs from what was built; None where it does not, or there was no such table."""
+    if kept is None or not counts_in_building(item):
+        return None
+    now, then = _value(group, item), kept.get(item.name)
+    if now == then or (is_written_out(item) and _listed(now, item) == _listed(then, item)):
+        return None
+    built = "without" if then is None else f"with {_in_words(item, then)}"
+    return Change(key_name(table_class, item), "not given" if now is None else _in_words(item, now), built)
+
+
+@cache
+def counts_in_building(item: Field) -> bool:
+    """Return whether a key or table of a scenario counts when it is built, and later changes do not."""
+    if subtable_class(item) is None:
+        return item.name not in ("title", *_TIME_AS_SHOWN)
+    return item.name not in _AS_SHOWN
+
+
+def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
+    """Return what a scene was built from, with all that a run takes as it is shown; None where it was not built.
+
+    Raises
+    ------
+    ScenarioError
+        A value cannot be used, or has changed since the scene was built.
+    """
+    if not settings.built_scenario:
+        return None
+    built, shown = scenario_from_text(settings.built_scenario), scenario_of(settings)
+    time = replace(built.time, **{name: getattr(shown.time, name) for name in _TIME_AS_SHOWN})
+    to_run = replace(built, time=time, **{name: getattr(shown, name) for name in _AS_SHOWN})
+    if to_run != shown:
+        raise ScenarioError(_sentence(changes(settings)))
+    if not np.array_equal(to_run.timeline.frame_lengths_s, built.timeline.frame_lengths_s):
+        raise ScenarioError("slow motion was animated for the charges that the scene was built with: build it anew")
+    return to_run
+
+
+def _sentence(changed: list[Change]) -> str:
+    listed = [f"{each.key} ({each.shown}, built {each.built})" for each in changed[:_LISTED_IN_MESSAGE]]
+    if len(changed) > _LISTED_IN_MESSAGE:
+        listed.append(f"{len(changed) - _LISTED_IN_MESSAGE} more")
+    what = (
+        f"values have changed since the scene was built: {', '.join(listed)}"
+        if listed
+        else ("the scene was built from other values than the panels show")
+    )
+    return f"{what}; build it anew, or show the values that it was built with"
+
+
+@cache
+def _built_keys(table_class: type[Table]) -> tuple[Field, ...]:
+    return tuple(item for item in key_fields(table_class) if counts_in_building(item))
+
+
+@cache
+def _built_tables(table_class: type[Table]) -> tuple[Field, ...]:
+    return tuple(item for item in shown_tables(table_class) if counts_in_building(item))
+
+
+def _values(group: bpy.types.PropertyGroup, table_class: type[Table]) -> dict[str, Any]:
+    """Return what a group shows of all that counts in building, as JSON can hold it."""
+    found = {item.name: _value(group, item) for item in _built_keys(table_class)}
+    for item in _built_tables(table_class):
+        inner, inner_class = getattr(group, item.name), subtable_class(item)
+        if holds_many(item):
+            found[item.name] = [_values(each, inner_class) for each in inner]
+        elif is_optional(item) and not getattr(group, USE + item.name):
+            found[item.name] = None
+        else:
+            found[item.name] = _values(inner, inner_class)
+    return found
+
+
+def _value(group: bpy.types.PropertyGroup, item: Field) -> Any:
+    """Return what Blender holds of a key; None where it is not used."""
+    is_used, is_vector = _reading(item)
+    if is_used and not getattr(group, is_used):
+        return None
+    value = getattr(group, item.name)
+    return list(value) if is_vector else value
+
+
+@cache
+def _reading(item: Field) -> tuple[str, bool]:
+    """Return the name of the check box of a key, empty where it has none, and whether it is a vector."""
+    return USE + item.name if is_optional(item) else "", vector_length(item) is not None
+
+
+@lru_cache(maxsize=8)
+def _parsed(text: str) -> dict[str, Any]:
+    return values_from_text(text, {})
+
+
+def _listed(text: str | None, item: Field) -> Any:
+    """Return the list that a text in the syntax of TOML says; the text itself where it says none."""
+    if text is None:
+        return None
+    try:
+        return list_of(text, item.name, item)
+    except ScenarioError:
+        return text
+
+
+def _in_words(item: Field, value: Any) -> str:
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, list):
+        text = ", ".join(map(_number, value))
+    else:
+        text = value if isinstance(value, str) else _number(value)
+    unit = key_of(item).unit
+    return f"{text} {unit}" if unit and unit != "1/s" else text
+
+
+def _number(value: float) -> str:
+    return f"{shortest(value):,.7g}".replace(",", " ") if isinstance(value, float) else f"{value:,}".replace(",", " ")
