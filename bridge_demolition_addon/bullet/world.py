@@ -145,6 +145,7 @@ class BulletWorld:
         self._layout = layout or platform_layout()
         self._token = 0
         self._bound: _BoundWorld | None = None
+        self._enabled: tuple[np.ndarray, Places] | None = None  # of the connections that exist
         self._constraint_rows: ConstraintRows | None = None
         self._rows = {connection.session_uid: row for row, connection in enumerate(self.connections)}
         self._threshold_factor, self._holds_connections = 1.0, False
@@ -173,7 +174,7 @@ class BulletWorld:
         dynamics = self._find_dynamics_world()
         if self._is_bound_to(dynamics):
             return WorldState.KNOWN
-        self._bound = self._constraint_rows = None
+        self._bound = self._enabled = self._constraint_rows = None
         if not dynamics:
             return WorldState.ABSENT
         self._bound = self._check(dynamics, depsgraph, to_read)
@@ -366,9 +367,12 @@ class BulletWorld:
 
     def intact(self) -> np.ndarray:
         """Whether each connection (m,) exists and has not broken."""
+        exists = self._bound.exists
+        if self._enabled is None or not np.array_equal(exists, self._enabled[0]):
+            offsets = [self._layout.constraint.enabled]
+            self._enabled = exists.copy(), Places(self._bound.connections[exists], offsets, np.uint8)
         intact = np.zeros(len(self.connections), bool)
-        addresses = self._connection_fields(self._layout.constraint.enabled)
-        intact[self._bound.exists] = (gather_integers(addresses) & 0xFF) != 0
+        intact[exists] = self._enabled[1].copy()[0] != 0
         return intact
 
     def let_broken_collide(self, intact: np.ndarray) -> None:
@@ -403,7 +407,7 @@ class BulletWorld:
             world = self._layout.world
             for field in (world.before_step, world.after_step, world.user_info):
                 write_pointers(self._bound.dynamics + field, 0)
-        self._bound = self._constraint_rows = None
+        self._bound = self._enabled = self._constraint_rows = None
 
     def retire(self, *, bodies_stay: bool = True) -> None:
         """Make a world safe that objects are being taken out of; it must not be simulated any more.

@@ -57,10 +57,13 @@ def contours_of(scene: bpy.types.Scene) -> ContourDisplay:
     return recorded_scene(scene).contours
 
 
-def start_recording(recording: Recording) -> None:
-    """Let a recording follow its scene's timeline, in place of one that may still run."""
+def start_recording(recording: Recording, *, alone: bool = False) -> None:
+    """Let a recording follow its scene's timeline, in place of one that may still run.
+
+    Alone, in a process in which nobody can edit the scene, it need not be guarded against that.
+    """
     stop_recording()
-    recorded_scene(recording.scene).start(recording)
+    recorded_scene(recording.scene).start(recording, alone=alone)
 
 
 def stop_recording() -> Recording | None:

@@ -14,7 +14,7 @@ from ..core.scenario import Scenario
 from ..core.signals import interrupted_afterwards
 from ..core.structure.model import Model
 from ..scene.demolition import build_demolition
-from .playback import play
+from .playback import play_alone
 from .recording.recorder import Recording
 from .run_summary import RunContext, rest_watch, run_summary
 
@@ -52,7 +52,7 @@ def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple
     rest = rest_watch(scenario) if scenario.time.stop_at_rest else None
     recording = Recording(scene, folder, every_substep=scenario.recording.every_substep, loads=False)
     try:
-        play(recording, stop_at=rest)
+        play_alone(recording, stop_at=rest)
         results = recording.results()
         yield results, run_summary(recording, results, context, completed=True)
     finally:

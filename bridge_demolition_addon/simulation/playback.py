@@ -21,6 +21,8 @@ class Playing:
         What follows it, not started yet.
     stop_at
         The rest at which to end before the last frame of the scene, or of its simulation where that ends before.
+    alone
+        Whether nobody can edit the scene meanwhile, so that it need not be guarded against that.
 
     Attributes
     ----------
@@ -39,7 +41,7 @@ class Playing:
         The scene has no frames to play.
     """
 
-    def __init__(self, recording: Recording, stop_at: Rest | None = None):
+    def __init__(self, recording: Recording, stop_at: Rest | None = None, *, alone: bool = False):
         self.recording = recording
         self._rest = stop_at
         self._scene = recording.scene
@@ -53,7 +55,7 @@ class Playing:
         self.done = 0
         self.longest_frame_s = 0.0
         self.seconds = 0.0
-        start_recording(recording)
+        start_recording(recording, alone=alone)
         start_over(self._scene)
 
     @property
@@ -102,15 +104,15 @@ class Playing:
             raise SimulationError("the recording was ended by someone else")
 
 
-def play(recording: Recording, stop_at: Rest | None = None) -> Playing:
-    """Play all frames of the scene of a recording, and end the recording.
+def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
+    """Play all frames of a scene that nobody can edit meanwhile, and end the recording.
 
     Raises
     ------
     DemolitionError
         It ended before its time.
     """
-    playing = Playing(recording, stop_at)
+    playing = Playing(recording, stop_at, alone=True)
     try:
         while not playing.finished:
             playing.step()
@@ -118,7 +120,6 @@ def play(recording: Recording, stop_at: Rest | None = None) -> Playing:
         playing.end()
     if recording.error:
         raise recording.error
-    return playing
 
 
 def start_over(scene: bpy.types.Scene) -> None:

@@ -36,6 +36,7 @@ class RecordedScene:
         self.recording: Recording | None = None
         self.contours = ContourDisplay(scene)
         self._guard = WorldGuard()
+        self._is_alone = False
         self._is_rendered = False
         self._rests = False
 
@@ -49,9 +50,11 @@ class RecordedScene:
         """Whether anything is done in the scene that lasts."""
         return self.recording is not None or self.contours.is_shown or self.stands_still
 
-    def start(self, recording: Recording) -> None:
-        """Record the scene from now on."""
-        self._guard.share(self.scene, recording.world)
+    def start(self, recording: Recording, *, alone: bool = False) -> None:
+        """Record the scene from now on; alone means that nobody can take anything out of it meanwhile."""
+        self._is_alone = alone
+        if not alone:
+            self._guard.share(self.scene, recording.world)
         self._is_rendered = False
         self.recording = recording
         self.contours.follow(recording)
@@ -63,7 +66,8 @@ class RecordedScene:
         if recording and not recording.error:
             recording.close()
             self._guard.release()
-            self.look()
+            if not self._is_alone:
+                self.look()
         return recording
 
     def look(self) -> None:

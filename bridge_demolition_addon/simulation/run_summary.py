@@ -75,10 +75,11 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
 
 def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
     """Digests of what was built, how it moved and what came out, and what it was calculated with."""
+    whole = {"result": result_digest(results)} if recording.has_loads else {}
     return {
         "built": recording.built_digest,
         "motion": motion_digest(results),
-        "result": result_digest(results),
+        **whole,
         "processor": _processor(),
         "system": f"{platform.system()} {platform.machine()}",
         "blender": f"{bpy.app.version_string} {bpy.app.build_hash.decode()}",

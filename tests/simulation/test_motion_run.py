@@ -48,7 +48,7 @@ def test_it_has_the_same_digests(both):
     assert {name: whole["fingerprint"][name] for name in ("built", "motion")} == {
         name: motion["fingerprint"][name] for name in ("built", "motion")
     }
-    assert whole["fingerprint"]["result"] != motion["fingerprint"]["result"]
+    assert "result" not in motion["fingerprint"]  # not all of it is known
 
 
 def test_every_frame_has_the_same_bits(both):

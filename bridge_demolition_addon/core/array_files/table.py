@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import weakref
+from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -161,8 +162,12 @@ def _header(row_type: np.dtype, count: int) -> bytes:
 
 
 def _description(row_type: np.dtype, count: int) -> bytes:
-    described = np.lib.format.dtype_to_descr(row_type)
-    return f"{{'descr': {described!r}, 'fortran_order': False, 'shape': ({count},), }}".encode("latin1")
+    return f"{{'descr': {_described(row_type)}, 'fortran_order': False, 'shape': ({count},), }}".encode("latin1")
+
+
+@lru_cache(maxsize=4)  # every row asks for it
+def _described(row_type: np.dtype) -> str:
+    return repr(np.lib.format.dtype_to_descr(row_type))
 
 
 def _finish(file: BinaryIO, path: Path, unwanted: list[bool]) -> None:

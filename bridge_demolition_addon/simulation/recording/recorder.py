@@ -72,6 +72,8 @@ class Recording:
     distrust : LayoutError or None
         Why Bullet's memory is not read. Then only the motion of bodies is recorded, and the net force on each
         from its change of momentum.
+    has_loads : bool
+        Whether loads are recorded, as given.
     world : BulletWorld
         The world that is recorded.
     inventory : Inventory or None
@@ -97,7 +99,7 @@ class Recording:
         self.error: Exception | None = None
         self.distrust: LayoutError | None = None
         self._every_substep = every_substep
-        self._log_files, self._loads = log_files or LogFiles(), loads
+        self._log_files, self.has_loads = log_files or LogFiles(), loads
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         check_blast(scene, self._bodies)
@@ -268,7 +270,7 @@ class Recording:
     def _reading(self) -> str:
         if self.distrust:
             return READING_OF_MOTION
-        if not self._loads:
+        if not self.has_loads:
             return WITHOUT_LOADS
         return "every sub-step" if self._every_substep else "last sub-step of each frame"
 
@@ -311,7 +313,7 @@ class Recording:
         self._blast = Blast(self.scene, self._bodies, self.inventory, world) if goes_off(self.scene) else None
         self.built_digest = self._digest()
         self._stream = FrameStream(self.folder, self._reading, self.inventory)
-        if self._loads:
+        if self.has_loads:
             charges = [charge.name for charge in self._blast.charges] if self._blast else ()
             self._logs = Logs(self.folder, self.inventory, charges, self._log_files)
 
@@ -401,7 +403,7 @@ class Recording:
             self.inventory,
             self._blast,
             every_substep=self._every_substep,
-            loads=self._loads,
+            loads=self.has_loads,
         )
 
     def _keep(self, frame: Frame, balls: BallHistory) -> None:
