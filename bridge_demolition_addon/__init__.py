@@ -19,5 +19,6 @@ def _interface() -> tuple:
     from .simulation import blender_events
     from .ui import registration, scene_settings
     from .ui.contours import decorator, view
+    from .ui.study import decorator as study_decorator
 
-    return (blender_events, scene_settings, view, registration, decorator)
+    return (blender_events, scene_settings, view, registration, decorator, study_decorator)

@@ -18,12 +18,15 @@ from .results import ui as results_ui
 from .scenario import operator as scenario_operator
 from .scenario import table_list, user_meshes
 from .scenario import ui as scenario_ui
+from .study import operator as study_operator
+from .study import session as study_session
+from .study import ui as study_ui
 
 _OPERATORS = (
     *(scenario_operator, user_meshes, table_list),
-    *(recording_operator, run, log_paths, blast_operator, contour_operator, results_operator),
+    *(recording_operator, run, log_paths, blast_operator, contour_operator, results_operator, study_operator),
 )
-_PANELS = (blast_ui, recording_ui, contour_ui, results_ui)
+_PANELS = (blast_ui, recording_ui, contour_ui, results_ui, study_ui)
 """Below those of the scenario, in the order of the work."""
 
 
@@ -45,7 +48,8 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End a run or recording that goes on, and unregister all classes."""
+    """End a run, recording or study that goes on, and unregister all classes."""
+    study_session.unregister()
     session.unregister()
     for each in reversed(classes()):
         bpy.utils.unregister_class(each)

@@ -3,14 +3,17 @@
 import bpy
 from bpy.props import BoolProperty, PointerProperty, StringProperty
 
+from ..core.scenario import Scenario
+from ..core.study.settings import StudySettings
 from .blast.prop import ChargeProperties
 from .contours.prop import ContourProperties
 from .scenario import prop as scenario_properties
 from .sidebar import path_property
+from .study.prop import StudyProperties
 
 
-class BDA_PG_settings(ContourProperties, ChargeProperties, bpy.types.PropertyGroup):
-    """Settings that the panels show; the group of the scenario is added when it is made."""
+class BDA_PG_settings(ContourProperties, ChargeProperties, StudyProperties, bpy.types.PropertyGroup):
+    """Settings that the panels show; the groups of scenario and study are added when they are made."""
 
     scenario_path: path_property(
         "Scenario", "Scenario file (TOML) to load or to save; Build Scenario loads one that was not loaded yet"
@@ -34,7 +37,10 @@ class BDA_PG_settings(ContourProperties, ChargeProperties, bpy.types.PropertyGro
 
 def register() -> None:
     """Give every scene its settings."""
-    BDA_PG_settings.__annotations__["scenario"] = PointerProperty(type=scenario_properties.register())
+    scenario_properties.register()
+    for name, table in (("scenario", Scenario), ("study", StudySettings)):
+        group = scenario_properties.registered_group(scenario_properties.group_name(table))
+        BDA_PG_settings.__annotations__[name] = PointerProperty(type=group)
     bpy.utils.register_class(BDA_PG_settings)
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
 

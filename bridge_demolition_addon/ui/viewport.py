@@ -1,9 +1,12 @@
-"""Selecting objects, and what the 3D view looks at."""
+"""Selecting objects, what the 3D view looks at, and drawing in it."""
 
 from collections.abc import Iterable
 
 import bpy
+import gpu
+import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
+from gpu_extras.batch import batch_for_shader
 
 _MOST_COVERED = 0.8
 """Share of the view that the sidebar may cover before the rest is too narrow to show anything in."""
@@ -41,3 +44,29 @@ def covered_px(context: bpy.types.Context, kind: str) -> float:
     region = next((each for each in context.area.regions if each.type == kind), None)
     covers = region and context.preferences.system.use_region_overlap and region.width > 1
     return float(region.width) if covers else 0.0
+
+
+def draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, width_px: float) -> None:
+    """Draw lines (2 k, 3) in the 3D view that is drawn just now."""
+    if not len(lines):
+        return
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    batch = batch_for_shader(shader, "LINES", {"pos": lines.astype(np.float32)})
+    shader.bind()
+    shader.uniform_float("viewportSize", (context.region.width, context.region.height))
+    shader.uniform_float("lineWidth", width_px * context.preferences.system.ui_scale)
+    shader.uniform_float("color", colour)
+    batch.draw(shader)
+
+
+def draw_triangles(triangles: np.ndarray, colours: np.ndarray) -> None:
+    """Draw triangles (3 k, 3) with a colour (3 k, 4) at each corner, which lets what is behind it shine through."""
+    if not len(triangles):
+        return
+    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
+    content = {"pos": triangles.astype(np.float32), "color": colours.astype(np.float32)}
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("LESS_EQUAL")
+    batch_for_shader(shader, "TRIS", content).draw(shader)
+    gpu.state.depth_test_set("NONE")
+    gpu.state.blend_set("NONE")

@@ -24,7 +24,7 @@ from ...core.display.force_arrows import arrows, body_forces, connection_forces,
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
 from ...simulation.blender_events import contours_of
-from ..viewport import covered_px
+from ..viewport import covered_px, draw_lines
 from . import view as contour_view
 
 _FONT, _FONT_PX = 0, 12.0
@@ -131,10 +131,10 @@ def _draw_in_space(context: bpy.types.Context) -> None:
     scene = context.scene
     contour_view.follow_later(scene)
     for name, lines in vector_lines(scene).items():
-        _draw_lines(context, lines, _VECTOR_COLOURS[name], _VECTOR_WIDTH_PX)
+        draw_lines(context, lines, _VECTOR_COLOURS[name], _VECTOR_WIDTH_PX)
     if scene.bda.show_rings:
         for lines, _ in ring_lines(scene):
-            _draw_lines(context, lines, _RING_COLOUR, _VECTOR_WIDTH_PX)
+            draw_lines(context, lines, _RING_COLOUR, _VECTOR_WIDTH_PX)
 
 
 def _draw_on_screen(context: bpy.types.Context) -> None:
@@ -216,18 +216,6 @@ def _draw_ring_labels(context: bpy.types.Context) -> None:
     damage = THRESHOLDS[int(context.scene.bda.ring_damage)].damage
     for lines, radius in ring_lines(context.scene):
         _write_at(context, lines[0], f"{damage}: {radius:.1f} m")
-
-
-def _draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, width_px: float) -> None:
-    if not len(lines):
-        return
-    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    batch = batch_for_shader(shader, "LINES", {"pos": lines.astype(np.float32)})
-    shader.bind()
-    shader.uniform_float("viewportSize", (context.region.width, context.region.height))
-    shader.uniform_float("lineWidth", width_px * context.preferences.system.ui_scale)
-    shader.uniform_float("color", colour)
-    batch.draw(shader)
 
 
 def _draw_gradient(left: float, bottom: float, width: float, height: float, settings: ContourSettings) -> None:

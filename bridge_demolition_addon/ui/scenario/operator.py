@@ -132,8 +132,7 @@ class BDA_OT_build_anew(Action, bpy.types.Operator):
         return recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> str:
-        if context.screen and context.screen.is_animation_playing:
-            bpy.ops.screen.animation_cancel(restore_frame=False)
+        stop_playing(context)
         return build(context.scene, anew=True)
 
 
@@ -173,8 +172,7 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
-        if context.screen and context.screen.is_animation_playing:
-            bpy.ops.screen.animation_cancel(restore_frame=False)
+        stop_playing(context)
         contours_of(scene).forget()
         removed = remove_demolition(scene)
         forget_built(scene.bda)
@@ -238,18 +236,47 @@ def build(scene: bpy.types.Scene, *, anew: bool = False) -> str:
     settings = scene.bda
     is_new = settings.scenario_path not in ("", settings.loaded_path)
     scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-    model = checked_model(scenario)
+    built = build_and_show(scene, scenario, is_shown=not is_new, anew=anew)
+    settings.loaded_path = settings.scenario_path
+    return built
+
+
+def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool = False, anew: bool = False) -> str:
+    """Build a scenario, show it in the panels where it is not yet, and say how large it is.
+
+    Parameters
+    ----------
+    scene
+        Where to.
+    scenario
+        What to build.
+    is_shown
+        Whether the panels show it already.
+    anew
+        Whether it takes the place of what was built there before.
+
+    Raises
+    ------
+    DemolitionError
+        The scenario cannot be built; what was there before is as it was.
+    """
+    settings, model = scene.bda, checked_model(scenario)
     if anew:
         check_replaceable(scene, scenario, model)
         contours_of(scene).forget()
         remove_demolition(scene)
     build_demolition(scene, scenario, model)
-    if is_new:
+    if not is_shown:
         show_scenario(settings, scenario)
-        settings.loaded_path = settings.scenario_path
     settings.total_mass = ""
     keep_built(settings, scenario)
     return f"{len(model.shards)} shards, {len(model.connections)} connections"
+
+
+def stop_playing(context: bpy.types.Context) -> None:
+    """Stop the timeline, if it plays: what is to be removed must not be simulated meanwhile."""
+    if context.screen and context.screen.is_animation_playing:
+        bpy.ops.screen.animation_cancel(restore_frame=False)
 
 
 def _show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:

@@ -25,6 +25,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from ...core.results.files import SCENARIO_FILE
 from ...core.scenario import Charge, Scenario
 from ...core.scenario.file import read_scenario
 from ...core.schema import (
@@ -41,6 +42,7 @@ from ...core.schema import (
     subtable_fields,
     value_type,
 )
+from ...core.study.settings import StudySettings
 from ...core.toml_tables import toml_value
 
 PRESETS = Path(__file__).parent / "presets"
@@ -112,7 +114,8 @@ def group_name(table_class: type[Table]) -> str:
 def all_tables() -> tuple[type[Table], ...]:
     """Return all tables that have a property group, inner ones first."""
     found: list[type[Table]] = []
-    _gather(Scenario, found)
+    for root in (Scenario, StudySettings):
+        _gather(root, found)
     return tuple(found)
 
 
@@ -122,15 +125,15 @@ def default_scenario() -> Scenario:
     return read_scenario(DEFAULT_PRESET)
 
 
-def register() -> type[bpy.types.PropertyGroup]:
-    """Register all groups with Blender and return that of a whole scenario."""
+def register() -> None:
+    """Register all groups with Blender, those of a whole scenario and of a study last."""
     defaults: dict[type[Table], Table] = {}
-    _gather_defaults(default_scenario(), defaults)
+    for each in (default_scenario(), StudySettings(scenario=SCENARIO_FILE)):
+        _gather_defaults(each, defaults)
     groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
     for table_class in all_tables():
         groups[table_class] = _group(table_class, defaults.get(table_class), groups)
         bpy.utils.register_class(groups[table_class])
-    return groups[Scenario]
 
 
 def unregister() -> None:

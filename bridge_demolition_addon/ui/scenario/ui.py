@@ -38,8 +38,8 @@ _PARENTS = {
 _BUTTONS = {"geometry": "bda.add_selected_members", "fracture": "bda.use_paint"}
 """Operators that fill in a table of a scenario."""
 
-_ELSEWHERE = {"blast.explosion"}
-"""Keys that are drawn by hand."""
+_ELSEWHERE = {"blast.explosion", "study.scenario"}
+"""Keys that are drawn by hand, or that the panels stand for."""
 
 _LETTERS_OF_VALUE = 9
 _LISTED = 4

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel Study: a study that runs beside Blender, is paused, stopped and gone on with, and shown."""
+
+import time
+
+import numpy as np
+import pytest
+from scenarios import SHORT_RUN
+
+import bridge_demolition_addon
+from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.core.study.draws import draw_of, inputs_of
+from bridge_demolition_addon.core.study.file import study_of
+from bridge_demolition_addon.core.study.runs_table import read_runs
+from bridge_demolition_addon.core.study.settings import StudySettings, Vary
+from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
+
+PATIENCE_S = 300.0
+
+HEIGHT = Vary(key="ball.drop_height_m", distribution="uniform", lowest=0.05, highest=2.0)
+FEW = StudySettings(
+    scenario="scenario_as_run.toml", runs=3, quantile=0.5, confidence=0.5, rank=1, seed=7, vary=(HEIGHT,)
+)
+
+
+@pytest.fixture
+def panel(extension, tmp_path):
+    """The settings of a scene that shows a small study, with a folder for it."""
+    settings = extension.context.scene.bda
+    show_scenario(settings, SHORT_RUN)
+    show_table(settings.study, FEW)
+    settings.study_directory, settings.study_jobs = str(tmp_path / "study"), 1
+    return settings
+
+
+@pytest.fixture
+def session(panel):
+    from bridge_demolition_addon.ui.study import session
+
+    return session
+
+
+def look_in_until(session, is_over):
+    """Do what Blender's timer does, as there is none without a window."""
+    began = time.monotonic()
+    while not is_over():
+        assert time.monotonic() - began < PATIENCE_S
+        session.look_in()
+        assert session.why_ended() == ""
+        time.sleep(0.05)
+
+
+def ended(session):
+    return lambda: session.study_at_work() is None
+
+
+def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_shown(blender, panel, session, tmp_path):
+    ops = blender.ops.bda
+    assert ops.start_study() == {"FINISHED"}
+    assert not ops.start_study.poll()
+    look_in_until(session, lambda: session.study_at_work().run.done >= 1)
+    assert ops.pause_study() == {"FINISHED"}
+    run = session.study_at_work().run
+    assert not ops.pause_study.poll() and ops.resume_study.poll()
+    # Capacity is one more than the draws at a time: all three may be begun by now, and no more are.
+    assert ops.resume_study() == {"FINISHED"}
+    assert not run.is_paused
+    assert ops.stop_study() == {"FINISHED"}
+    assert session.study_at_work() is None
+    kept = read_runs(tmp_path / "study" / "runs.csv")
+    assert 1 <= len(kept) <= 3
+
+    assert ops.start_study() == {"FINISHED"}
+    look_in_until(session, ended(session))
+    assert session.why_ended() == ""
+    table = read_runs(tmp_path / "study" / "runs.csv")
+    study = study_of(FEW, SHORT_RUN)
+    assert table.rows[: len(kept)] == kept.rows
+    assert [dict(row.inputs) for row in table.rows] == [inputs_of(study, number) for number in (1, 2, 3)]
+    assert {row.status for row in table.rows} == {"done"}
+    assert (tmp_path / "study" / "study.json").exists()
+
+    shown = session.shown_study()
+    farthest = max(row.outputs["reach_m"] for row in table.rows)
+    assert f"within {np.ceil(farthest * 10.0) / 10.0:.1f} m" in shown.sentences[0]
+    # The line goes around the bridge at that distance.
+    bridge, limit = shown.runs.bridge.bounds(), shown.limit_lines
+    assert limit[:, 0].max() == pytest.approx(bridge[2] + farthest, abs=1e-3)
+    assert len(shown.triangles[0]) == len(shown.triangles[1]) > 0
+
+    worst = max(table.rows, key=lambda row: row.outputs["reach_m"])
+    assert ops.open_worst_draw() == {"FINISHED"}
+    assert panel.built_scenario == scenario_text(draw_of(study, worst.number).scenario)
+    assert panel.scenario.ball.drop_height_m == pytest.approx(worst.inputs["ball.drop_height_m"])
+    assert blender.context.scene.rigidbody_world
+    bodies = len(blender.context.scene.rigidbody_world.collection.objects)
+    assert ops.open_worst_draw() == {"FINISHED"}  # in place of what was built
+    assert len(blender.context.scene.rigidbody_world.collection.objects) == bodies
+
+
+def test_a_study_is_shown_from_its_folder(blender, panel, session, tmp_path):
+    blender.ops.bda.start_study()
+    look_in_until(session, ended(session))
+    session.unregister()
+    assert session.shown_study() is None
+    assert blender.ops.bda.show_study() == {"FINISHED"}
+    assert len(session.shown_study().runs.table) == 3
+
+
+def test_a_folder_of_another_study_is_refused_and_kept(blender, panel, session, tmp_path):
+    blender.ops.bda.start_study()
+    blender.ops.bda.stop_study()
+    before = (tmp_path / "study" / "study.toml").read_bytes()
+    panel.study.seed = 8
+    with pytest.raises(RuntimeError, match="was begun with another study or scenario"):
+        blender.ops.bda.start_study()
+    assert (tmp_path / "study" / "study.toml").read_bytes() == before
+    assert session.study_at_work() is None
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (lambda study: setattr(study.vary[0], "key", "ball.height"), "ball.height is unknown"),
+        (lambda study: setattr(study, "quantile", 0.95), "study.runs is 3: expected at least"),
+        (lambda study: setattr(study.vary[0], "lowest", -1.0), r"draws may come to ball\.drop_height_m = -1"),
+    ],
+)
+def test_a_study_that_cannot_run_is_refused_with_a_sentence(blender, panel, session, tmp_path, change, message):
+    change(panel.study)
+    with pytest.raises(RuntimeError, match=message):
+        blender.ops.bda.start_study()
+    assert not (tmp_path / "study").exists()
+    assert session.study_at_work() is None
+
+
+def test_a_folder_without_a_study_is_refused(blender, panel, session, tmp_path):
+    with pytest.raises(RuntimeError, match=r"expected the folder of a study, with study\.toml in it"):
+        blender.ops.bda.show_study()
+    panel.study_directory = ""
+    assert not blender.ops.bda.show_study.poll()
+    assert not blender.ops.bda.start_study.poll()
+    assert not blender.ops.bda.open_worst_draw.poll()
+
+
+def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
+    study = study_of(FEW, SHORT_RUN)
+    (tmp_path / "study.toml").write_text(study.text, encoding="utf-8")
+    (tmp_path / "scenario_as_run.toml").write_text(study.scenario_text, encoding="utf-8")
+    show_table(panel.study, StudySettings(scenario="none.toml"))
+    panel.study_path = str(tmp_path / "study.toml")
+    assert blender.ops.bda.load_study() == {"FINISHED"}
+    from bridge_demolition_addon.ui.study.operator import shown_settings
+
+    assert shown_settings(blender.context).text == study.text
+    panel.study_path = str(tmp_path / "missing.toml")
+    with pytest.raises(RuntimeError, match=r"missing\.toml: no such file"):
+        blender.ops.bda.load_study()
+
+
+def test_the_panel_says_how_far_a_study_is(blender, panel, session):
+    from bridge_demolition_addon.ui.study.ui import course_of
+
+    blender.ops.bda.start_study()
+    assert course_of(session.study_at_work()) == ["0 of 3 draws"]
+    blender.ops.bda.pause_study()
+    assert course_of(session.study_at_work()) == ["0 of 3 draws, paused"]
+    blender.ops.bda.stop_study()
+
+
+def test_switching_the_extension_off_ends_a_study(blender, tmp_path):
+    bridge_demolition_addon.register()
+    from bridge_demolition_addon.ui.study import session
+
+    settings = blender.context.scene.bda
+    show_scenario(settings, SHORT_RUN)
+    show_table(settings.study, FEW)
+    settings.study_directory = str(tmp_path / "study")
+    blender.ops.bda.start_study()
+    session.look_in()
+    bridge_demolition_addon.unregister()
+    assert session.study_at_work() is None
+    # Nobody holds the folder any more.
+    assert read_runs(tmp_path / "study" / "runs.csv") is not None
