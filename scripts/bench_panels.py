@@ -40,7 +40,7 @@ class Layout:
     def prop(self, *_names: object, **_settings: object) -> None:
         pass
 
-    label = menu = prop
+    label = menu = progress = prop
 
     def operator(self, _name: str, **_settings: object) -> SimpleNamespace:
         return SimpleNamespace()
