@@ -17,6 +17,11 @@ IN_A_LINKED_SCENE = {
     "go_to_body": "is not in this scene",
     "make_report": "Choose the folder",
     "open_results": "Nothing was recorded yet",
+    "pause_study": "No study is at work",
+    "resume_study": "No study is paused",
+    "show_study": "Choose the folder of a study first",
+    "start_study": "Choose a folder for the study first",
+    "stop_study": "No study is at work",
     "unregister_handler": "No handler is registered",
 }
 """What buttons say that only look at a scene; all others change it."""

@@ -15,6 +15,7 @@ from bridge_demolition_addon.core.schema import (
     subtable_fields,
     value_type,
 )
+from bridge_demolition_addon.core.study.settings import StudySettings
 from bridge_demolition_addon.ui.scenario.prop import (
     all_tables,
     group_name,
@@ -52,7 +53,9 @@ def tables_within(table):
 
 
 def test_every_table_but_the_charges_has_a_group():
-    assert set(all_tables()) == {Scenario, *tables_within(Scenario)} - {Charge}
+    roots = (Scenario, StudySettings)
+    within = {table for root in roots for table in tables_within(root)}
+    assert set(all_tables()) == {*roots, *within} - {Charge}
 
 
 @pytest.mark.parametrize("key", KEYS, ids=NAMES)
