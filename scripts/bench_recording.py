@@ -7,7 +7,8 @@ order in which they add up: Bullet writes the loads of connections, calls back a
 copied after each. The way of 2019 goes through all objects of the
 file in Python, adds one number per connection to two entries of a dictionary, opens its log for every frame, writes a
 line per body and gives each body one of 200 materials. The number itself, which only a patched Blender of its time
-gave, is replaced here by one that any Blender has; it costs the same to read.
+gave, is replaced here by one that any Blender has; it costs the same to read. Takes some 80 s where the
+bare step takes 0.2 s.
 """
 
 import statistics
@@ -35,8 +36,8 @@ from bridge_demolition_addon.scene.world import START_FRAME
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
-FRAMES = 10
-ROUNDS = 7
+FRAMES = 5
+ROUNDS = 4
 """Of all ways in turn: what else the machine does only ever adds, so that the least of several is the way's own."""
 LEVELS = 200
 

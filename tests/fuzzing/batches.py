@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import queue
+import signal
 import subprocess
 import sys
 import tempfile
@@ -22,7 +23,10 @@ from .players import BLENDER
 from .sequences import Drawn
 
 HANG_S = 900.0
-"""A step that takes longer hangs: a report takes some seconds, and minutes where others use the processors."""
+"""A step that takes longer hangs, even if it does nothing meanwhile."""
+
+BUSY_S = 60.0
+"""A step that keeps the processors busy for longer hangs: a report takes some seconds, whatever else goes on."""
 
 _BARE_TRIES = 10
 """What crashes one time in three survives three tries as often, and ten hardly ever."""
@@ -157,7 +161,7 @@ def _last_line(text: str) -> str:
 @contextmanager
 def _process(player: str, folder: str, bare: bool) -> Iterator[tuple[subprocess.Popen[str], queue.Queue[str]]]:
     """Start a process that plays; its news come through a queue, an empty one where it has ended."""
-    command = [sys.executable, str(_PROGRAM), player, folder, *(["--bare"] if bare else [])]
+    command = [sys.executable, str(_PROGRAM), player, folder, str(BUSY_S), *(["--bare"] if bare else [])]
     environment = {
         "PYTHONPATH": os.pathsep.join(map(str, (TESTS, ROOT))),
         "BLENDER_USER_RESOURCES": str(Path(folder) / "user"),
@@ -213,7 +217,8 @@ def _outcome(process: subprocess.Popen[str], news: queue.Queue[str], drawn: Draw
     except queue.Empty:
         return Outcome(Ending.HANG, tuple(done), _last_words(printed))
     process.wait(HANG_S)
-    return Outcome(Ending.CRASH, tuple(done), f"status {process.returncode}\n{_last_words(printed)}")
+    ending = Ending.HANG if process.returncode == -signal.SIGPROF else Ending.CRASH
+    return Outcome(ending, tuple(done), f"status {process.returncode}\n{_last_words(printed)}")
 
 
 def _last_words(printed: Path) -> str:

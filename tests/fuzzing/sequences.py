@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Iterator, Sequence
@@ -85,10 +86,14 @@ class Player:
         """Leave everything as the next one wants to find it."""
 
 
-def play(player: Player, steps: Sequence[tuple[str, int]], tell: Telling) -> None:
-    """Do steps, and tell of each before it begins and after it, and what went wrong in it."""
+def play(player: Player, steps: Sequence[tuple[str, int]], tell: Telling, *, busy_s: float) -> None:
+    """Do steps, and tell of each before it begins and after it, and what went wrong in it.
+
+    SIGPROF ends the process in a step that keeps the processors busy for longer than `busy_s`.
+    """
     for name, seed in steps:
         tell({"begins": name})
+        signal.setitimer(signal.ITIMER_PROF, busy_s)
         heard = tell.heard_so_far()
         words = wrong = ""
         try:
@@ -102,6 +107,7 @@ def play(player: Player, steps: Sequence[tuple[str, int]], tell: Telling) -> Non
         if any(sign in complaint for sign in SIGNS) and PACKAGE in complaint:
             wrong = wrong or complaint
         tell({"ends": name, "words": words, "wrong": wrong})
+    signal.setitimer(signal.ITIMER_PROF, 0.0)
 
 
 class Telling:

@@ -11,7 +11,7 @@ from manifold3d import Manifold, OpType
 from ..errors import GeometryError
 from .mesh import TriangleMesh
 from .proximity import boxes_that_meet
-from .solids import OVERLAP_TOLERANCE, bodies, from_manifold, hull, to_manifold
+from .solids import OVERLAP_TOLERANCE, bodies, from_manifold, hull, is_film, to_manifold
 
 SHARD_OVERLAP_TOLERANCE = 1e-6
 """Part of the smaller of two shards' volumes that they may have in common at the start: too little to push them."""
@@ -90,7 +90,8 @@ def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[lis
         if not before:
             continue
         rest = Manifold.batch_boolean([solid, *before], OpType.Subtract)
-        shells = [shell for body in bodies(rest, _ROUNDING * solid.volume(), names[index]) for shell in body]
+        left = bodies(rest, _ROUNDING * solid.volume(), names[index])
+        shells = [shell for body in left if not is_film(body) for shell in body]
         if rest.volume() <= _ROUNDING * solid.volume() or not shells:
             raise GeometryError(
                 f"{names[index]}: lies wholly inside members before it; leave it out, or name it first."

@@ -100,6 +100,7 @@ class ForceFields:
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]):
         self._scene = scene
         self._fields = fields_of(scene, bodies)
+        self._names = [field.name for field in self._fields]
         self._pushing: list[tuple[bpy.types.Object, float]] = []
 
     def push(
@@ -119,7 +120,7 @@ class ForceFields:
         Raises
         ------
         SimulationError
-            A field is not part of what Blender evaluates, and would push nothing.
+            A field was deleted, or is not part of what Blender evaluates, and would push nothing.
         """
         self.rest()
         # Blender pushes a rigid body with the strength over the frame rate, whatever its base or the time scale.
@@ -130,8 +131,8 @@ class ForceFields:
             copies = self._evaluated(self._fields[row])
             if not copies:
                 raise SimulationError(
-                    f"force object {self._fields[row].name!r} is switched off or excluded from the view layer: "
-                    "switch it on, or apply the blast directly"
+                    f"force object {self._names[row]!r} is deleted, switched off or excluded from the view layer: "
+                    "build the force objects again or switch it on, or apply the blast directly"
                 )
             for evaluated in copies:
                 evaluated.matrix_world = matrix
@@ -140,12 +141,8 @@ class ForceFields:
             self._pushing.append((self._fields[row], strength))
 
     def still_push(self) -> bool:
-        """Return whether the fields that were to push did so to the end of the frame."""
-        return all(
-            abs(evaluated.field.strength - strength) <= _FLOAT32 * strength
-            for field, strength in self._pushing
-            for evaluated in self._evaluated(field)
-        )
+        """Return whether the fields that were to push are there, and did so to the end of the frame."""
+        return all(self._pushes(*each) for each in self._pushing)
 
     def rest(self) -> None:
         """Let none push."""
@@ -154,9 +151,17 @@ class ForceFields:
                 evaluated.field.strength = 0.0
         self._pushing = []
 
+    def _pushes(self, field: bpy.types.Object, strength: float) -> bool:
+        copies = self._evaluated(field)
+        return bool(copies) and all(abs(each.field.strength - strength) <= _FLOAT32 * strength for each in copies)
+
     def _evaluated(self, field: bpy.types.Object) -> list[bpy.types.Object]:
+        """What Blender evaluates of a field; nothing where the field was deleted."""
         graphs = [layer.depsgraph for layer in self._scene.view_layers if layer.depsgraph]
-        copies = [field.evaluated_get(graph) for graph in graphs]
+        try:
+            copies = [field.evaluated_get(graph) for graph in graphs]
+        except ReferenceError:
+            return []
         return [each for each in copies if each.is_evaluated]  # what a graph leaves out it gives back as it is
 
 

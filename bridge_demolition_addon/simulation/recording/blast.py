@@ -90,11 +90,11 @@ class FieldBlast:
         Raises
         ------
         SimulationError
-            A field was changed while it pushed.
+            A field was changed or deleted while it pushed.
         """
         if not self._fields.still_push():
             raise SimulationError(
-                "a force object was changed while it pushed: leave them alone while the blast goes on"
+                "a force object was changed or deleted while it pushed: leave them alone while the blast goes on"
             )
         if len(self._pushed):
             moves = (centres - self._centres)[self._pushed]

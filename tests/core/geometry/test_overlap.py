@@ -1,12 +1,13 @@
 """Solids that overlap by volumes known by hand."""
 
+import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.shards import fracture
 from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.core.geometry.overlap import hulls, overlaps, separated
-from bridge_demolition_addon.core.geometry.solids import box, union
+from bridge_demolition_addon.core.geometry.solids import bodies, box, to_manifold, union
 
 ROUNDING = 1e-12
 
@@ -69,3 +70,15 @@ def test_solids_that_only_touch_stay_as_they_are():
 def test_a_solid_inside_another_is_refused():
     with pytest.raises(GeometryError, match=r"^bearing: lies wholly inside members before it"):
         separated([box([2, 2, 2]), box([1, 1, 1])], ["pier", "bearing"])
+
+
+def test_films_between_a_solid_and_its_copy_in_single_precision_are_not_left():
+    deck = box([9.1, 4.3, 0.4], [100.7, -2.1, 3.3])
+    copy = TriangleMesh(deck.vertices.astype(np.float32).astype(float), deck.triangles)
+    with pytest.raises(GeometryError, match=r"^deck again: lies wholly inside members before it"):
+        separated([deck, copy], ["deck", "deck again"])
+    wider = union([copy, box([2, 2, 2], [103.0, -2.1, 4.4])])
+    cut, _ = separated([deck, wider], ["deck", "deck and block"])
+    assert len(bodies(to_manifold(cut[1]))) == 1
+    block_above_deck_m3 = 2 * 2 * (5.4 - 3.5)
+    assert cut[1].volume == pytest.approx(block_above_deck_m3, rel=1e-5)  # coordinates have seven digits

@@ -136,10 +136,12 @@ def bowl():
         (mesh([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]], [[0, 1, 2]]), "not finite"),
         (mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "encloses no volume"),
         (mesh(box([2, 2, 1]).vertices * (1, 1, 0), box([2, 2, 1]).triangles), "encloses no volume"),
+        (box([2, 2, 1e-5]), "is thinner than 0.1 mm; give it a thickness, in metres"),
+        (together(box([2, 2, 1]), box([2, 2, 1e-5], [0, 0, 2])), "one of its bodies is thinner than 0.1 mm"),
         (twisted(), "its surface crosses itself near"),
         (bowl(), "is not plane"),
     ],
-    ids=["nothing", "not a number", "one triangle", "flat box", "twisted", "bowl"],
+    ids=["nothing", "not a number", "one triangle", "flat box", "sheet", "box and sheet", "twisted", "bowl"],
 )
 def test_what_cannot_be_repaired_is_refused_with_the_reason(mesh, reason):
     with pytest.raises(GeometryError, match=f"^it: .*{reason}"):

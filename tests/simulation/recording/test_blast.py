@@ -368,6 +368,29 @@ def test_changing_a_force_object_while_it_pushes_ends_the_recording_and_says_so(
     assert "force object was changed" in str(recording.error)
 
 
+@pytest.mark.parametrize(
+    "deleted_at, reason",
+    [(2, "has no force object"), (4, "is deleted, switched off"), (10, "is deleted, switched off")],
+    ids=["before the first frame", "before it pushes", "after it pushed"],
+)
+def test_deleting_force_objects_ends_the_recording_and_says_so(blender, tmp_path, deleted_at, reason):
+    blocks = weightless(frames_per_second=1000, substeps_per_frame=1)
+    pushed = [blocks.block((side * 5.0, 0.0, 0.0), MASS_KG) for side in (1, -1)]
+    set_off(blocks, [charge("a", (0, 0, 0), 1.0)], "fields")
+    fields = force_objects(blocks.scene)
+    start_recording(recording := Recording(blocks.scene, tmp_path))
+    for frame in range(1, 20):
+        if frame == deleted_at:
+            blender.data.objects.remove(fields[pushed[0]])
+        blocks.scene.frame_set(frame)
+    assert reason in str(recording.error)
+    stop_recording()
+    blocks.scene.frame_set(1)
+    assert fields[pushed[1]].evaluated_get(blender.context.evaluated_depsgraph_get()).field.strength == 0.0
+    with pytest.raises(SimulationError, match="has no force object: build the force objects again"):
+        Recording(blocks.scene, tmp_path)
+
+
 @pytest.mark.parametrize("switched_off", ["excluded", "disabled"])
 def test_force_objects_that_would_push_nothing_are_named(blender, tmp_path, switched_off):
     blocks = weightless()
@@ -378,7 +401,7 @@ def test_force_objects_that_would_push_nothing_are_named(blender, tmp_path, swit
         blender.context.view_layer.layer_collection.children["Force objects"].exclude = True
     else:
         field.hide_viewport = True
-    with pytest.raises(SimulationError, match="is switched off or excluded from the view layer"):
+    with pytest.raises(SimulationError, match="is deleted, switched off or excluded from the view layer"):
         blocks.play(tmp_path, 3)
     assert field.field.strength == 0.0
 
