@@ -161,7 +161,7 @@ def draw_keys(
     context: bpy.types.Context,
     group: bpy.types.PropertyGroup,
     table_class: type[Table],
-    kept: Kept,
+    kept: Kept = None,
 ) -> None:
     """Draw the keys of a table, each on a line, or on two where its label is long, and what has changed below it."""
     letters = letters_of(context)
@@ -190,7 +190,7 @@ def draw_tables(
     context: bpy.types.Context,
     group: bpy.types.PropertyGroup,
     item: Field,
-    kept: Kept,
+    kept: Kept = None,
 ) -> None:
     """Draw a list of tables, and below it the keys and tables of the chosen one."""
     draw_list(layout, group, item)

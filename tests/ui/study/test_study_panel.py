@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel Study: a study that runs beside Blender, is paused, stopped and gone on with, and shown."""
 
+import sys
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from places import ROOT
 from scenarios import SHORT_RUN
 
 import bridge_demolition_addon
@@ -14,6 +17,11 @@ from bridge_demolition_addon.core.study.file import study_of
 from bridge_demolition_addon.core.study.runs_table import read_runs
 from bridge_demolition_addon.core.study.settings import StudySettings, Vary
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
+from bridge_demolition_addon.ui.study.ui import CLASSES
+
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from bench_panels import Layout, without_blender
 
 PATIENCE_S = 300.0
 
@@ -158,14 +166,56 @@ def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
         blender.ops.bda.load_study()
 
 
-def test_the_panel_says_how_far_a_study_is(blender, panel, session):
-    from bridge_demolition_addon.ui.study.ui import course_of
+def drawn(blender):
+    """What the panels of a study draw, all of them open: texts of labels, and names of buttons."""
+    found = []
 
+    class Told(Layout):
+        def label(self, **settings):
+            found.append(settings["text"])
+
+        def operator(self, name, **settings):
+            found.append(name)
+            return super().operator(name, **settings)
+
+    system = SimpleNamespace(ui_scale=1.0)
+    context = SimpleNamespace(
+        scene=blender.context.scene,
+        region=SimpleNamespace(width=100_000),  # a sentence on a line
+        preferences=SimpleNamespace(system=system),
+    )
+    for panel in CLASSES:
+        without_blender(panel)(Told(context)).draw(context)
+    return found
+
+
+def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel, session):
+    assert {"bda.start_study", "1  ball.drop_height_m"} <= set(drawn(blender))
     blender.ops.bda.start_study()
-    assert course_of(session.study_at_work()) == ["0 of 3 draws"]
+    running = drawn(blender)
+    assert {"0 of 3 draws", "bda.pause_study", "bda.stop_study"} <= set(running)
+    assert "bda.start_study" not in running
     blender.ops.bda.pause_study()
-    assert course_of(session.study_at_work()) == ["0 of 3 draws, paused"]
-    blender.ops.bda.stop_study()
+    assert {"0 of 3 draws, paused", "bda.resume_study"} <= set(drawn(blender))
+    blender.ops.bda.resume_study()
+    look_in_until(session, ended(session))
+    found = drawn(blender)
+    assert found[-len(session.shown_study().sentences) - 1 : -1] == list(session.shown_study().sentences)
+    assert found[-1] == "bda.open_worst_draw"
+
+
+def test_the_panels_say_why_a_study_ended_before_its_end(blender, panel, session, tmp_path):
+    blender.ops.bda.start_study()
+    draws = tmp_path / "study" / "draws"
+    draws.rename(tmp_path / "elsewhere")
+    draws.write_text("a file where draws are to be kept")
+    began = time.monotonic()
+    while session.study_at_work():
+        assert time.monotonic() - began < PATIENCE_S
+        session.look_in()
+        time.sleep(0.05)
+    assert str(draws) in session.why_ended()
+    assert session.why_ended() in drawn(blender)
 
 
 def test_switching_the_extension_off_ends_a_study(blender, tmp_path):
