@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
-from matplotlib.ticker import PercentFormatter
+from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from .style import line_style, plain
 
@@ -18,6 +18,9 @@ LIMIT_COLOUR = "#b2182b"
 """Of the limit wherever it is drawn."""
 
 PANELS_ABREAST = 4
+MOST_DOTS = 500
+"""More would fill a page with megabytes."""
+
 PANEL_MM = 42.0
 """Height of a row of panels."""
 
@@ -73,7 +76,8 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
     counts = np.arange(1, len(reaches_m) + 1)
     shown = np.unique(np.rint(np.linspace(1, len(reaches_m), min(len(reaches_m), _MOST_POINTS))).astype(int))
     medians = np.array([np.median(reaches_m[:count]) for count in shown])
-    axes.plot(counts, _drawable(reaches_m), ".", color="0.6", markersize=3.0, label="each run")
+    some = slice(None, None, 1 + len(reaches_m) // MOST_DOTS)
+    axes.plot(counts[some], _drawable(reaches_m[some]), ".", color="0.6", markersize=3.0, label="runs")
     _mark_endless(axes, counts, reaches_m, {"marker": "x", "color": "0.3", "label": "runs that did not finish"})
     largest = np.maximum.accumulate(reaches_m)
     axes.step(counts, _drawable(largest), where="post", **line_style(3, 1.0), label="largest so far")
@@ -82,6 +86,7 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
     style = {"color": LIMIT_COLOUR, "linewidth": 1.8, "label": "limit by the runs so far"}
     axes.step(runs, _drawable(limits_m), where="post", **style, **marker)
     _mark_endless(axes, runs, limits_m, {"marker": "^", "color": LIMIT_COLOUR, "label": "no limit by the runs so far"})
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set(xlabel="runs", ylabel="reach (m)", xlim=(0, len(reaches_m) * 1.02))
     axes.set_ylim(bottom=0.0)
     axes.grid(alpha=0.3)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from manifold3d import CrossSection
 from scipy.stats import spearmanr
-from study_folders import BRIDGE, TOLD_SCENARIO, told_debris, told_runs, told_study
+from study_folders import BRIDGE, TOLD_SCENARIO, VARIED, told_debris, told_runs, told_study
 from told_reports import told_of_study
 
 from bridge_demolition_addon.core.geometry.plan_areas import outlines
@@ -66,7 +66,7 @@ def test_a_study_of_which_nothing_finished_has_a_report():
 
 
 def test_runs_that_still_moved_are_counted(told):
-    assert any(text.startswith("3 runs were not at rest") for text in told.notices)
+    assert any(text.startswith("Not everything rested at the end of 3 of 93 runs") for text in told.notices)
 
 
 def test_areas_are_those_that_geometry_gives(runs, told):
@@ -96,9 +96,12 @@ def test_likely_places_are_within_rarer_ones(runs):
     assert found["probability above 50 %"].area() > 24.0 * 6.0 - 1e-6  # what every run covers
 
 
-def test_many_runs_resolve_what_is_rare():
-    runs = told_runs(told_study(runs=310, criteria=()))
+def test_many_runs_resolve_what_is_rare_and_show_some_dots():
+    runs = told_runs(told_study(runs=510, vary=VARIED[2:3], criteria=()))
     assert "probability above 1 %" in layers(runs)
+    told = told_of_study(runs)
+    assert any(text.startswith("Each dot is one of the first 500 of the 510 runs") for text in told.paragraphs)
+    assert len(told.column("farthest_draws", "run")) == 200
 
 
 def test_rank_correlations_are_those_of_scipy(runs):
@@ -175,6 +178,8 @@ def test_the_made_up_runs_reach_as_far_as_they_say(runs):
         ("largest_force_N", "largest force (N)"),
         ('criteria."road stays free"', "road stays free"),
         ("broken", "broken"),
+        ("ball.target_m.1", "ball target 1 (m)"),
+        ("connections.breaking_force_kgf", "connections breaking force (kgf)"),
         ("spans.1.lost_share", "spans 1 lost share"),
     ],
 )

@@ -211,8 +211,8 @@ class Chance:
 
     @property
     def _counted(self) -> str:
-        count = {0: "None", self.runs: "All"}.get(self.happened, str(self.happened))
-        return f"{count} of {self.runs} runs {self.what}"
+        counts = {0: f"None of {self.runs}", self.runs: f"All {self.runs}"}
+        return f"{counts.get(self.happened, f'{self.happened} of {self.runs}')} runs {self.what}"
 
 
 def chance_of(what: str, happened: np.ndarray, confidence: float) -> Chance:

@@ -30,8 +30,11 @@ TEXT, STRONG = Font(9.5), Font(9.5, "bold")
 SMALL, SMALL_STRONG = Font(8.0), Font(8.0, "bold")
 LISTING = Font(7.0, family="monospace")
 SMALLEST_COLUMN_MM = 14.0
-_KEPT_TOGETHER_MM = 120.0
-"""A table that is not higher stays on one page."""
+_KEPT_TOGETHER_MM = 112.0
+"""A table whose rows are not higher stays on one page."""
+
+_ROWS_AT_FOOT = 3
+"""Of a longer table at least so many rows stand below its headings."""
 
 GAP_MM = 3.0
 """Between columns of a table."""
@@ -137,8 +140,9 @@ class _Pages:
         widths = _column_widths([headings, *rows])
         cells = [_wrapped_cells(row, widths, SMALL) for row in rows]
         heading_cells = _wrapped_cells(headings, widths, SMALL_STRONG) if any(headings) else []
-        height = 8.0 + sum(_row_height(row) for row in [heading_cells, *cells])
-        self._need(height if height < _KEPT_TOGETHER_MM else 20.0)
+        heights = [_row_height(row) for row in [heading_cells, *cells]]
+        together = heights if sum(heights) < _KEPT_TOGETHER_MM else heights[: 1 + _ROWS_AT_FOOT]
+        self._need(8.0 + sum(together))
         self.text(table.title, STRONG, after_mm=1.0)
         self._headings(heading_cells, widths, table)
         for row in cells:

@@ -18,6 +18,9 @@ _MOST_DRAWS = 200
 _MOST_INPUTS, _MOST_OUTPUTS = 3, 3
 """Columns that fit on a page, besides that of the reach: the inputs that matter most for it."""
 
+_LARGE = 1e4
+"""Numbers from which on digits after the point are left out."""
+
 _PICTURES = {"before": "before", "impact": "in the course of the run", "after": "at the end"}
 
 
@@ -99,4 +102,6 @@ def _text(value: Any) -> str | None:
         return None
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return f"{value:.5g}" if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return f"{value:.0f}" if abs(value) >= _LARGE else f"{value:.5g}"
+    return str(value)

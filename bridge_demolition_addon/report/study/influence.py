@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from ...charts.study_charts import (
+    MOST_DOTS,
     InputPanel,
     correlation_map,
     correlation_map_height_mm,
@@ -51,8 +52,9 @@ def influence_section(runs: StudyRuns) -> Section | None:
     if not runs.varied or not runs.numbers or finished < 3:
         return None
     by_chance = correlation_by_chance(finished)
+    first = f"first {MOST_DOTS} of the " if finished > MOST_DOTS else ""
     words = (
-        f"Each dot is one of the {finished} runs that finished. The rank correlation is 1 where an output always rises "
+        f"Each dot is one of the {first}{finished} runs that finished. The rank correlation is 1 where an output always rises "
         "with an input, and -1 where it always falls. Of inputs that do not matter at all one in twenty has by chance "
         f"more than {by_chance:.2f} either way; larger ones are in bold. Small ones may hide an input that pushes both "
         "ways: look at the dots. What no input explains is chance: the fracture, and the course of a collapse."
@@ -132,7 +134,7 @@ def _correlation(runs: StudyRuns, name: str, output: str) -> float:
 
 
 def _panels(runs: StudyRuns, output: str) -> list[Picture]:
-    known = runs.table.done & np.isfinite(runs.table.output(output))
+    known = np.flatnonzero(runs.table.done & np.isfinite(runs.table.output(output)))[:MOST_DOTS]
     values = runs.table.output(output)[known]
     panels = []
     for name in runs.varied:

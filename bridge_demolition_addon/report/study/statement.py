@@ -79,8 +79,8 @@ def _doubts(runs: StudyRuns) -> Iterator[str]:
     moving = _still_moving(runs)
     if moving:
         yield (
-            f"{moving} runs were not at rest when their time was over: their debris may have gone on. Give the "
-            "scenario a longer time.duration_s."
+            f"Not everything rested at the end of {moving} of {len(runs.table)} runs: their debris may have gone on. "
+            "Give the scenario a longer time.duration_s."
         )
 
 

@@ -130,13 +130,18 @@ def shown(name: str) -> str:
     """Return the name of an input or output as people read it: its unit in brackets, of a criterion only its own."""
     if name.startswith(_CRITERION):
         return name.removeprefix(_CRITERION).strip('"')
-    name = re.sub(r'"[^"]*"|\.', lambda found: " " if found[0] == "." else found[0], name)
+    name, place = _IN_LIST.fullmatch(name).groups(default="")
+    name = _QUOTED_OR_DOT.sub(lambda found: " " if found[0] == "." else found[0], name)
     for ending, unit in _UNITS.items():
         if name.endswith(ending):
-            return f"{name.removesuffix(ending).replace('_', ' ')} ({unit})"
-    return name.replace("_", " ")
+            return f"{name.removesuffix(ending).replace('_', ' ')}{place.replace('.', ' ')} ({unit})"
+    return f"{name.replace('_', ' ')}{place.replace('.', ' ')}"
 
 
+_IN_LIST = re.compile(r"(.*?)(\.\d+)?")
+"""A name, and the place of a value in a list at its end."""
+
+_QUOTED_OR_DOT = re.compile(r'"[^"]*"|\.')
 _CRITERION = f"{Criterion.table}."
 
 _UNITS = {
@@ -146,6 +151,7 @@ _UNITS = {
     "_m_s2": "m/s²",
     "_m_s": "m/s",
     "_newton": "N",
+    "_kgf": "kgf",
     "_degrees": "°",
     "_deg": "°",
     "_kpa": "kPa",

@@ -102,10 +102,8 @@ def test_criteria_have_limits_of_their_own(happened):
     least = binomtest(happened, 93, alternative="greater").proportion_ci(0.95, method="exact").low
     most = binomtest(happened, 93, alternative="less").proportion_ci(0.95, method="exact").high
     assert (chance.at_least, chance.at_most) == (pytest.approx(least, abs=1e-10), pytest.approx(most, abs=1e-10))
-    count = {0: "None", 93: "All"}.get(happened, "5")
-    assert chance.success_sentence.startswith(
-        f"{count} of 93 runs brought the span down. With 95 % confidence at least"
-    )
+    counted = {0: "None of 93", 5: "5 of 93", 93: "All 93"}[happened]
+    assert chance.success_sentence.startswith(f"{counted} runs brought the span down. With 95 % confidence at least")
 
 
 def test_what_sentences_promise_is_rounded_to_the_side_of_safety():
