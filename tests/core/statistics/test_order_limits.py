@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Limits by rank: published numbers of runs, scipy's own test of a quantile, and what 2 000 ensembles cover."""
 
+import re
+
 import numpy as np
 import pytest
+from places import ROOT
 from scipy.stats import beta, lognorm, quantile_test
 
 from bridge_demolition_addon.core.statistics.order_limits import (
@@ -42,6 +45,15 @@ def tolerance(share):
 )
 def test_least_runs_are_those_of_the_tables(quantile, confidence, runs):
     assert tuple(least_runs(quantile, confidence, rank) for rank in range(1, 6)) == runs
+
+
+def test_the_table_in_the_docs_has_the_least_runs():
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8").replace("*", "")
+    rows = re.findall(r"^\| (0\.\d+) \| (0\.\d+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", text, re.M)
+    assert len(rows) == 8
+    for quantile, confidence, *runs in rows:
+        expected = [least_runs(float(quantile), float(confidence), rank) for rank in range(1, 6)]
+        assert list(map(int, runs)) == expected
 
 
 @pytest.mark.parametrize("outputs, runs", [(1, 59), (2, 93), (3, 124), (4, 153)])
