@@ -54,10 +54,10 @@ def influence_section(runs: StudyRuns) -> Section | None:
     by_chance = correlation_by_chance(finished)
     first = f"first {MOST_DOTS} of the " if finished > MOST_DOTS else ""
     words = (
-        f"Each dot is one of the {first}{finished} runs that finished. The rank correlation is 1 where an output always "
-        "rises with an input, and -1 where it always falls. Of inputs that do not matter at all one in twenty has by "
-        f"chance more than {by_chance:.2f} either way; larger ones are in bold. Small ones may hide an input that "
-        "pushes both ways: look at the dots. What no input explains is chance: the fracture, and the course of a "
+        f"Each dot is one of the {first}{finished} runs that finished. The rank correlation is 1 where an output "
+        "always rises with an input, and -1 where it always falls. Of inputs that do not matter at all one in twenty "
+        f"has by chance more than {by_chance:.2f} either way; larger ones are in bold. Small ones may hide an input "
+        "that pushes both ways: look at the dots. What no input explains is chance: the fracture, and the course of a "
         "collapse."
     )
     blocks: list[Block] = [Paragraph(words)]
