@@ -119,7 +119,7 @@ def blender_command() -> list[str]:
         f"import sys; sys.path += {[str(_PACKAGE.parent), *sys.path]!r}; "
         f"from {_PACKAGE.name}.studies.draw_program import main; main()"
     )
-    return [bpy.app.binary_path, "--background", "--factory-startup", "--python-expr", start]
+    return [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
 
 
 def begin(study: Study, path: Path, jobs: int) -> None:

@@ -166,6 +166,25 @@ def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
         blender.ops.bda.load_study()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="the launcher is a script of Unix")
+def test_draws_run_in_blenders_own_program_where_there_is_one(blender, panel, session, tmp_path):
+    """The launcher takes Blender's arguments as Blender does, and is no Python that knows this package."""
+    launcher = tmp_path / "blender"
+    script = f"import sys; sys.path.remove({str(ROOT)!r}); exec(sys.argv[sys.argv.index('--python-expr') + 1])"
+    launcher.write_text(
+        f'#!/bin/sh\n[ "$1 $2" = "--background --factory-startup" ] || exit 3\n'
+        f'PYTHONPATH={ROOT} exec "{sys.executable}" -c "{script}" "$@"\n'
+    )
+    launcher.chmod(0o755)
+    blender.app.binary_path = str(launcher)
+    try:
+        blender.ops.bda.start_study()
+        look_in_until(session, ended(session))
+    finally:
+        blender.app.binary_path = ""
+    assert [row.status for row in session.shown_study().runs.table.rows] == ["done"] * 3
+
+
 def drawn(blender):
     """What the panels of a study draw, all of them open: texts of labels, and names of buttons."""
     found = []
