@@ -113,7 +113,7 @@ def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
 
 
 def _engine(study: Study, arguments: argparse.Namespace) -> Engine:
-    limits = Limits(study.settings.time_limit_s)
+    limits = Limits(study.settings.time_limit_s, study.settings.memory_limit_mb)
     if arguments.dask is None:
         return LocalProcesses(arguments.jobs or os.cpu_count() or 1, limits)
     if arguments.jobs is not None:

@@ -65,7 +65,7 @@ class Limits:
 
     def __post_init__(self):
         if self.memory_mb is not None and sys.platform != "linux":
-            raise SimulationError("study.memory_limit_MB: the memory of a process can be watched on Linux only")
+            raise SimulationError("study.memory_limit_mb: the memory of a process can be watched on Linux only")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -132,6 +132,13 @@ class StudySettings(Table):
         unit="s",
         above=0,
     )
+    memory_limit_mb: float | None = schema.key(
+        "Memory of a run's process above which it is ended, on Linux; it counts as one of unlimited reach. By default "
+        "none.",
+        default=None,
+        unit="MB",
+        above=0,
+    )
     keep: str = schema.key(
         "What is kept of each run: its `outcome`, its `logs` as well, or `all` that `bda run` keeps.",
         default="outcome",

@@ -89,9 +89,12 @@ class StudyAtWork:
 
     def __init__(self, study: Study, path: Path, jobs: int):
         self.path = path
+        limits = Limits(study.settings.time_limit_s, study.settings.memory_limit_mb)
         versions = versions_with(".".join(map(str, bpy.app.version)))
         self._folder = StudyFolder(path, study, versions)
-        self._engine = LocalProcesses(jobs, Limits(study.settings.time_limit_s), blender_command(), versions)
+        program = bpy.app.binary_path  # empty where Blender is a module of Python
+        command = blender_command(program) if program else draw_command()
+        self._engine = LocalProcesses(jobs, limits, command, versions)
         self.run = StudyRun(study, self._folder, self._engine)
 
     def end(self) -> None:
@@ -108,18 +111,16 @@ class StudyAtWork:
         self.end()
 
 
-def blender_command() -> list[str]:
-    """Return the program of draws and its arguments: this Blender without a window, or Python with Blender's module.
+def blender_command(program: str) -> list[str]:
+    """Return the program of draws and its arguments, run by Blender without a window.
 
     Without preferences Blender knows no extensions and none of their libraries: it is told where they are.
     """
-    if not bpy.app.binary_path:
-        return draw_command()
     start = (
         f"import sys; sys.path += {[str(_PACKAGE.parent), *sys.path]!r}; "
         f"from {_PACKAGE.name}.studies.draw_program import main; main()"
     )
-    return [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
+    return [program, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
 
 
 def begin(study: Study, path: Path, jobs: int) -> None:

@@ -16,6 +16,8 @@ from bridge_demolition_addon.core.study.draws import draw_of, inputs_of
 from bridge_demolition_addon.core.study.file import study_of
 from bridge_demolition_addon.core.study.runs_table import read_runs
 from bridge_demolition_addon.core.study.settings import StudySettings, Vary
+from bridge_demolition_addon.studies.draw_process import DrawProcess, Limits
+from bridge_demolition_addon.studies.versions import versions_with
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
 from bridge_demolition_addon.ui.study.ui import CLASSES
 
@@ -167,7 +169,7 @@ def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the launcher is a script of Unix")
-def test_draws_run_in_blenders_own_program_where_there_is_one(blender, panel, session, tmp_path):
+def test_draws_run_in_blenders_own_program_where_there_is_one(blender, session, tmp_path):
     """The launcher takes Blender's arguments as Blender does, and is no Python that knows this package."""
     launcher = tmp_path / "blender"
     script = f"import sys; sys.path.remove({str(ROOT)!r}); exec(sys.argv[sys.argv.index('--python-expr') + 1])"
@@ -176,13 +178,16 @@ def test_draws_run_in_blenders_own_program_where_there_is_one(blender, panel, se
         f'PYTHONPATH={ROOT} exec "{sys.executable}" -c "{script}" "$@"\n'
     )
     launcher.chmod(0o755)
-    blender.app.binary_path = str(launcher)
+    versions = versions_with(".".join(map(str, blender.app.version)))
+    study = study_of(FEW, SHORT_RUN)
+    request = {"scenario": scenario_text(draw_of(study, 1).scenario), "study": study.text}
+    process = DrawProcess(session.blender_command(str(launcher)), versions, Limits(PATIENCE_S))
     try:
-        blender.ops.bda.start_study()
-        look_in_until(session, ended(session))
+        end = process.play(request, tmp_path / "draw")
     finally:
-        blender.app.binary_path = ""
-    assert [row.status for row in session.shown_study().runs.table.rows] == ["done"] * 3
+        process.close()
+    assert (end.status, end.reason) == ("done", "")
+    assert end.outputs["reach_m"] >= 0.0
 
 
 def drawn(blender):
