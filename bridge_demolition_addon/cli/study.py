@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import closing
@@ -15,7 +16,7 @@ from ..core.study.conclusions import Conclusions, sentences
 from ..core.study.draws import draw_of, inputs_of
 from ..core.study.file import Study, read_study
 from ..core.study.files import AGAIN_FOLDER, CONCLUSIONS_FILE, DRAW_FOLDER, RUNS_FILE, SHEET_FILE
-from ..core.study.runs_table import DONE
+from ..core.study.runs_table import DONE, RunsTable
 from ..core.study.statements import verified_sentence
 from ..core.study.verification import chance_of_leaving, holds
 from ..studies.draw_process import Limits
@@ -29,6 +30,7 @@ from .run import run_with_everything
 _LOOK_EVERY_S = 0.2
 _SHOWN_DRAWS = 5
 _SHOWN_REASONS = 5
+_ROOT = Path(__file__).resolve().parents[2]
 _MOST_JOBS = 1000
 
 
@@ -95,7 +97,7 @@ def _run(study: Study, arguments: argparse.Namespace) -> None:
             engine.close()  # before the folder is free for others
             run.write_tables()
         said = run.write_conclusions()
-    report = _report(arguments.output, progress) if arguments.report else []
+    report = _report(run.table(), arguments.output, progress) if arguments.report else []
     if not arguments.quiet:
         _print_results(study, run, said, arguments.output, report)
 
@@ -123,10 +125,15 @@ def _engine(study: Study, arguments: argparse.Namespace) -> Engine:
     return DaskCluster(arguments.dask, limits)
 
 
-def _report(output: Path, progress: Progress) -> list[Path]:
+def _report(table: RunsTable, output: Path, progress: Progress) -> list[Path]:
+    """Write the report of a study, with pictures of its median and of its worst draw."""
     from ..report.write import write_study_report  # loading matplotlib takes a second
 
     try:
+        for row in dict.fromkeys([table.median_row, table.worst_row]):
+            if row is not None and not (output / AGAIN_FOLDER / str(table.numbers[row])).exists():
+                progress.stage(f"running draw {table.numbers[row]} once more for its pictures")
+                _play_again_elsewhere(output, int(table.numbers[row]))
         return write_study_report(output, progress=progress)
     finally:
         progress.finish()
@@ -163,6 +170,16 @@ def _facts(study: Study, arguments: argparse.Namespace) -> Iterator[str]:
 
 def _shown(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _play_again_elsewhere(path: Path, number: int) -> None:
+    """Run a draw once more in a process of its own, as Blender is never loaded here, and say why if that fails."""
+    start = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {__package__}.main import main; sys.exit(main())"
+    command = [sys.executable, "-c", start, "study", str(path), "--again", str(number), "--quiet"]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    if done.returncode:
+        reason = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
+        print(f"draw {number} has no pictures in the report: {reason}", file=sys.stderr)
 
 
 def _play_again(path: Path, number: int, *, quiet: bool) -> None:

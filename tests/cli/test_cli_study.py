@@ -14,6 +14,7 @@ from study_files import study_file, tables_in
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.study.draws import draw_of
 from bridge_demolition_addon.core.study.file import read_study
+from bridge_demolition_addon.core.study.runs_table import read_runs
 from bridge_demolition_addon.studies.folder import study_in
 
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.3))
@@ -59,16 +60,20 @@ def test_it_comes_to_the_same_with_a_process_for_each(study, done, tmp_path):
     assert tables_in(tmp_path / "out") == tables_in(done)
 
 
-def test_a_study_that_is_done_gets_its_report_without_a_run(study, done, capsys):
+def test_a_study_that_is_done_gets_its_report_with_pictures_of_two_draws(study, done):
     before = tables_in(done)
-    assert main(["study", str(study), "--output", str(done), "--report"]) == 0
+    status, printed, complained = run_bda("study", study, "--output", done, "--report")
+    assert status == 0, complained
     assert tables_in(done) == before
-    printed = capsys.readouterr().out
     assert f"In {RUNS} independent runs, in which " in printed
     written = [line for line in printed.splitlines() if line.startswith(str(done / "report"))]
     assert str(done / "report" / "report.pdf") in written
     page = (done / "report" / "report.html").read_text(encoding="utf-8")
     assert f"In {RUNS} independent runs, in which " in page
+    again = {int(path.name) for path in (done / "again").iterdir()}
+    table = read_runs(done / "runs.csv")
+    assert again >= {int(table.numbers[row]) for row in (table.median_row, table.worst_row)}
+    assert "Median draw, " in page and "Worst draw, " in page
 
 
 def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):

@@ -112,7 +112,7 @@ def test_the_same_folder_gives_the_same_files(folder, tmp_path):
 
 def test_pictures_of_the_worst_draw_are_shown_once_it_was_run_again(folder):
     runs = read_study_runs(folder)
-    worst = runs.table.rows[runs.worst_row].number
+    worst = runs.table.rows[runs.table.worst_row].number
     pictures = folder / "again" / str(worst) / "frames"
     pictures.mkdir(parents=True)
     imsave(pictures / "after.png", np.full((9, 16, 3), 0.5))

@@ -75,6 +75,22 @@ class RunsTable:
         return np.array([row.status == DONE for row in self.rows], bool)
 
     @cached_property
+    def median_row(self) -> int | None:
+        """Row with the median reach of those that finished, of an even number the lower one; None where none did."""
+        return int(self._by_reach[(len(self._by_reach) - 1) // 2]) if len(self._by_reach) else None
+
+    @cached_property
+    def worst_row(self) -> int | None:
+        """Row with the largest reach of those that finished; None where none did."""
+        return int(self._by_reach[-1]) if len(self._by_reach) else None
+
+    @property
+    def _by_reach(self) -> np.ndarray:
+        reaches_m = self.largest(REACH)
+        order = np.argsort(reaches_m, kind="stable")
+        return order[np.isfinite(reaches_m[order])]
+
+    @cached_property
     def inputs(self) -> tuple[str, ...]:
         """Names of all inputs."""
         return _names(row.inputs for row in self.rows)

@@ -26,9 +26,9 @@ _PICTURES = {"before": "before", "impact": "in the course of the run", "after": 
 
 def telling_section(runs: StudyRuns) -> Section | None:
     """Return the median and the worst draw; None where no run finished."""
-    if runs.median_row is None:
+    if runs.table.median_row is None:
         return None
-    median, worst = runs.table.rows[runs.median_row], runs.table.rows[runs.worst_row]
+    median, worst = runs.table.rows[runs.table.median_row], runs.table.rows[runs.table.worst_row]
     columns = (
         Column("", "quantity"),
         Column(f"median, draw {median.number}", "median"),

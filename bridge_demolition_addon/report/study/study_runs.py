@@ -109,22 +109,6 @@ class StudyRuns:
                 hull = CrossSection.hull_points(np.concatenate([*outlines(hull), *rings]))
         return sum(map(len, outlines(hull)))
 
-    @property
-    def median_row(self) -> int | None:
-        """Row of the run with the median reach, of an even number of runs the lower one; None where none finished."""
-        order = self._order
-        return int(order[(len(order) - 1) // 2]) if len(order) else None
-
-    @property
-    def worst_row(self) -> int | None:
-        """Row of the run with the largest reach of those that finished; None where none did."""
-        return int(self._order[-1]) if len(self._order) else None
-
-    @property
-    def _order(self) -> np.ndarray:
-        order = np.argsort(self.reaches_m, kind="stable")
-        return order[np.isfinite(self.reaches_m[order])]
-
 
 def shown(name: str) -> str:
     """Return the name of an input or output as people read it: its unit in brackets, of a criterion only its own."""

@@ -141,7 +141,7 @@ class BDA_OT_open_worst_draw(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         runs, settings = session.shown_study().runs, context.scene.bda
-        row = runs.worst_row
+        row = runs.table.worst_row
         if row is None:
             raise OutputError("No draw of this study finished")
         number = int(runs.table.numbers[row])

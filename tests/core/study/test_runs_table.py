@@ -85,3 +85,14 @@ def test_another_table_is_refused(tmp_path, text, message):
 def test_a_table_that_is_not_there_is_named(tmp_path):
     with pytest.raises(OutputError, match=r"runs\.csv: no such file"):
         read_runs(tmp_path / "runs.csv")
+
+
+def test_the_median_and_the_worst_row_are_of_runs_that_finished():
+    reaches = {1: 4.0, 2: 9.0, 3: None, 4: 1.0, 5: 6.0}
+    rows = [
+        Row(number, "crashed" if reach_m is None else "done", {}, {} if reach_m is None else {"reach_m": reach_m})
+        for number, reach_m in reaches.items()
+    ]
+    table = RunsTable(tuple(rows))
+    assert (table.median_row, table.worst_row) == (0, 1)
+    assert (RunsTable(tuple(rows[2:3])).median_row, RunsTable(()).worst_row) == (None, None)
