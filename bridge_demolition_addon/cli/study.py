@@ -3,34 +3,33 @@
 from __future__ import annotations
 
 import argparse
-import os
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
 from ..core.errors import OutputError, SimulationError
 from ..core.signals import Interrupted, signals_noted
 from ..core.study.conclusions import Conclusions, sentences
-from ..core.study.draws import draw_of, inputs_of
+from ..core.study.draws import draw_of
 from ..core.study.file import Study, read_study
 from ..core.study.files import AGAIN_FOLDER, CONCLUSIONS_FILE, DRAW_FOLDER, RUNS_FILE, SHEET_FILE
 from ..core.study.runs_table import DONE, RunsTable
 from ..core.study.statements import verified_sentence
 from ..core.study.verification import chance_of_leaving, holds
 from ..studies.draw_process import Limits
+from ..studies.draw_program import program_command
 from ..studies.engine import Engine
 from ..studies.folder import TRIED_AGAIN, StudyFolder, end_in, study_in, versions_of
-from ..studies.local import LocalProcesses
+from ..studies.local import LocalProcesses, cores
 from ..studies.study_run import StudyRun
 from .progress import Progress, progress_on
 from .run import run_with_everything
+from .study_check import study_facts
 
 _LOOK_EVERY_S = 0.2
-_SHOWN_DRAWS = 5
 _SHOWN_REASONS = 5
-_ROOT = Path(__file__).resolve().parents[2]
 _MOST_JOBS = 1000
 
 
@@ -75,7 +74,7 @@ def execute(arguments: argparse.Namespace) -> None:
         return
     study = read_study(arguments.study)
     if arguments.check:
-        for line in _facts(study, arguments):
+        for line in study_facts(study, arguments.output, arguments.jobs or cores()):
             print(line)
         return
     if arguments.output is None:
@@ -115,9 +114,9 @@ def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
 
 
 def _engine(study: Study, arguments: argparse.Namespace) -> Engine:
-    limits = Limits(study.settings.time_limit_s, study.settings.memory_limit_mb)
+    limits = Limits.of(study.settings)
     if arguments.dask is None:
-        return LocalProcesses(arguments.jobs or os.cpu_count() or 1, limits)
+        return LocalProcesses(arguments.jobs or cores(), limits)
     if arguments.jobs is not None:
         raise OutputError("--jobs is for this machine: leave it out with --dask, whose workers say how many they take")
     from ..studies.dask_cluster import DaskCluster  # loading Dask takes a second
@@ -157,25 +156,9 @@ def _print_results(study: Study, run: StudyRun, said: Conclusions, output: Path,
         print(path)
 
 
-def _facts(study: Study, arguments: argparse.Namespace) -> Iterator[str]:
-    """Yield lines on draws that there would be."""
-    settings = study.settings
-    yield study.scenario.title
-    yield ""
-    yield f"{settings.runs} draws, of which the first are:"
-    for number in range(1, min(settings.runs, _SHOWN_DRAWS) + 1):
-        values = ", ".join(f"{name} {_shown(value)}" for name, value in inputs_of(study, number).items())
-        yield f"{number:>5}  {values}"
-
-
-def _shown(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
 def _play_again_elsewhere(path: Path, number: int) -> None:
     """Run a draw once more in a process of its own, as Blender is never loaded here, and say why if that fails."""
-    start = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {__package__}.main import main; sys.exit(main())"
-    command = [sys.executable, "-c", start, "study", str(path), "--again", str(number), "--quiet"]
+    command = [*program_command("__main__"), "study", str(path), "--again", str(number), "--quiet"]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     if done.returncode:
         reason = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]

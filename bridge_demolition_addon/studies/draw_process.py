@@ -22,10 +22,11 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
-from ..core.errors import SimulationError
+from ..core.errors import ScenarioError, SimulationError
 from ..core.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT
+from ..core.study.settings import StudySettings
 
 MARK = "bda-draw "
 """What begins the program's own lines on its standard output."""
@@ -63,9 +64,18 @@ class Limits:
     time_s: float | None = None
     memory_mb: float | None = None
 
-    def __post_init__(self):
-        if self.memory_mb is not None and sys.platform != "linux":
-            raise SimulationError("study.memory_limit_mb: the memory of a process can be watched on Linux only")
+    @classmethod
+    def of(cls, settings: StudySettings) -> Self:
+        """Return those of a study.
+
+        Raises
+        ------
+        ScenarioError
+            It limits memory, and this is not Linux.
+        """
+        if settings.memory_limit_mb is not None and sys.platform != "linux":
+            raise ScenarioError("study.memory_limit_mb: memory can be limited on Linux only; leave it out")
+        return cls(settings.time_limit_s, settings.memory_limit_mb)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

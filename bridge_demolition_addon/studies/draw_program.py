@@ -32,7 +32,13 @@ _ROOT = Path(__file__).resolve().parents[2]
 
 def draw_command() -> list[str]:
     """Return the program and its arguments, run by this Python."""
-    start = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {__package__}.draw_program import main; main()"
+    return program_command("studies.draw_program")
+
+
+def program_command(module: str) -> list[str]:
+    """Return what runs `main` of a module of this package by this Python, from any folder; arguments may follow."""
+    package = __package__.rpartition(".")[0]
+    start = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {package}.{module} import main; main()"
     return [sys.executable, "-c", start]
 
 

@@ -173,10 +173,22 @@ def test_a_draw_that_there_is_not_is_refused(done, capsys):
     assert "has draws 1 to 4" in refused(capsys, done, "--again", 5)
 
 
+def test_a_check_goes_by_draws_that_are_done(study, done, capsys):
+    before = tables_in(done)
+    assert main(["study", str(study), "--check", "--output", str(done), "--jobs", "2"]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    ends = [json.loads(path.read_text(encoding="utf-8")) for path in done.glob("draws/*/outcome.json")]
+    mean_s = sum(end["wall_time_s"] for end in ends) / RUNS
+    assert last.startswith(f"{mean_s:.2g} s for a draw and {mean_s * RUNS / 2:.2g} s for all")
+    assert last.endswith("with 2 draws at a time on as many cores: as those that are done")
+    assert tables_in(done) == before
+
+
 def test_a_check_runs_nothing(study, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["study", str(study), "--check"]) == 0
     printed = capsys.readouterr().out
+    assert printed.splitlines()[-1].endswith("to a factor of 3, by the size of the model")
     assert f"{RUNS} draws" in printed
     for number in range(1, RUNS + 1):
         assert str(draw_of(read_study(study), number).inputs["scenario.seed"]) in printed

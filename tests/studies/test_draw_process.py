@@ -11,7 +11,8 @@ import time
 import pytest
 from draw_programs import VERSIONS, begun, program_in, request
 
-from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
+from bridge_demolition_addon.core.study.settings import StudySettings
 from bridge_demolition_addon.studies.draw_process import DRAWS_PER_PROCESS, DrawProcess, Limits
 
 not_on_windows = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
@@ -78,6 +79,19 @@ def test_one_that_takes_too_much_memory_is_ended(program, tmp_path):
     assert play(process, "take memory", tmp_path / "1") == ("out_of_memory", "it took more than 400 MB")
     assert play(process, "nothing", tmp_path / "2") == ("done", "")
     process.close()
+
+
+@pytest.mark.parametrize("limit", [None, 500.0])
+def test_limits_are_those_of_the_study(monkeypatch, limit):
+    settings = StudySettings(scenario="a.toml", time_limit_s=7.0, memory_limit_mb=limit)
+    monkeypatch.setattr(sys, "platform", "linux")
+    assert Limits.of(settings) == Limits(7.0, limit)
+    monkeypatch.setattr(sys, "platform", "darwin")
+    if limit:
+        with pytest.raises(ScenarioError, match=r"study\.memory_limit_mb: memory can be limited on Linux only"):
+            Limits.of(settings)
+    else:
+        assert Limits.of(settings) == Limits(7.0)
 
 
 def test_draws_share_a_process_until_it_is_replaced(process, program, tmp_path):

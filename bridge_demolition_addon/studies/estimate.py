@@ -1,0 +1,48 @@
+"""How long a study takes, before it runs: by its own draws where some are done, or else by the size of its model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import ScenarioError
+from ..core.scenario import Scenario
+from ..core.structure.model import Model
+from ..core.study.draws import draw_of
+from ..core.study.file import Study
+from ..core.study.files import DRAW_FOLDER
+from ..core.study.runs_table import DONE
+from .folder import end_in
+
+FACTOR = 3.0
+"""By how much an estimate from the size of a model may be off: processors differ, and so does what breaks and when."""
+
+_MOST_LOOKED_AT = 20
+
+_PER_PART_S, _ITERATIONS = 2e-6, 20.0
+"""Time for a shard or a connection in a sub-step, and iterations of the solver that take as long as all else of it:
+from the I-235 span and the examples with 50 and 100 iterations, on one core. Thousands of shards take longer each."""
+
+_PER_DRAW_S = 0.5
+
+
+def seconds_by_size(scenario: Scenario, model: Model) -> float:
+    """Return about how long a draw takes on one core, to a factor of `FACTOR`."""
+    time = scenario.time
+    substeps = time.duration_s * time.frames_per_second * time.substeps_per_frame
+    parts = len(model.shards) + len(model.connections)
+    return _PER_DRAW_S + _PER_PART_S * substeps * parts * (1.0 + time.solver_iterations / _ITERATIONS)
+
+
+def seconds_by_draws(study: Study, folder: Path, versions: Mapping[str, str]) -> float | None:
+    """Return how long the first draws of a study took that are done in its folder, in the mean; None without any."""
+    seconds = []
+    for number in range(1, min(study.settings.runs, _MOST_LOOKED_AT) + 1):
+        with suppress(ScenarioError):  # inputs that the scenario cannot have together take no time
+            end = end_in(folder / DRAW_FOLDER / draw_of(study, number).address(versions))
+            if end and end.status == DONE:
+                seconds.append(end.wall_time_s)
+    return float(np.mean(seconds)) if seconds else None
