@@ -89,7 +89,7 @@ class StudyAtWork:
 
     def __init__(self, study: Study, path: Path, jobs: int):
         self.path = path
-        limits = Limits(study.settings.time_limit_s, study.settings.memory_limit_mb)
+        limits = Limits.of(study.settings)
         versions = versions_with(".".join(map(str, bpy.app.version)))
         self._folder = StudyFolder(path, study, versions)
         program = bpy.app.binary_path  # empty where Blender is a module of Python
