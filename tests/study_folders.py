@@ -46,6 +46,7 @@ CRITERIA = (
     Criterion(name="road stays free", kind="zone not entered", zone="Road <1> $2$"),
     Criterion(name="house <5 kPa", kind="pressure below", neighbour="House & $home$", limit_kpa=5.0),
 )
+VERSIONS = {"blender": "of tests", "numpy": "2"}
 BRIDGE = CrossSection.square((28.0, 8.0)).translate((-1.0, -4.0))
 """From (-1, -4) m to (27, 4) m."""
 
@@ -96,15 +97,14 @@ def told_runs(study=None, *, there=None, ends=None):
     study = study or told_study()
     rows = [told_row(study, number, (ends or {}).get(number, "done")) for number in range(1, study.settings.runs + 1)]
     rows = tuple(rows[:there])
-    return StudyRuns("told", study, RunsTable(rows), [told_debris(row) for row in rows], BRIDGE, {})
+    return StudyRuns("told", study, RunsTable(rows), [told_debris(row) for row in rows], BRIDGE, {}, VERSIONS)
 
 
 def keep_study(path, runs):
     """The folder of a study with its runs, kept by what keeps them."""
-    versions = {"program": "of tests"}
-    with StudyFolder(path, runs.study, versions) as folder:
+    with StudyFolder(path, runs.study, runs.versions) as folder:
         for row, swept in zip(runs.table.rows, runs.swept, strict=True):
-            address = draw_of(runs.study, row.number).address(versions)
+            address = draw_of(runs.study, row.number).address(runs.versions)
             part = folder.work_folder(address)
             part.mkdir(parents=True)
             if swept is not None:

@@ -64,6 +64,7 @@ def test_the_page_begins_with_the_statement_and_needs_nothing_else(kept):
     text = (kept[0] / "report" / "report.html").read_text(encoding="utf-8")
     first = text.index("In 12 independent runs")
     assert first < text.index("<figure>") and text.index('<p class="notice">') < first
+    assert "blender of tests, numpy 2" in text
     assert "<script" not in text and not re.search(r'(?:src|href)="(?!data:|#)', text)
     assert "<b>& $5$" not in text and "&lt;b&gt;&amp; $5$" in text
 
@@ -121,6 +122,14 @@ def test_pictures_of_the_worst_draw_are_shown_once_it_was_run_again(folder):
     text = (folder / "report" / "report.html").read_text(encoding="utf-8")
     assert b64encode((pictures / "after.png").read_bytes()).decode("ascii") in text
     assert f"Worst draw, {worst}, with a reach of" in text and ": before." not in text
+
+
+def test_a_study_of_which_nothing_finished_has_a_report(tmp_path):
+    runs = told_runs(told_study(runs=8, vary=(), **ASKED), ends=dict.fromkeys(range(1, 9), "failed"))
+    folder = keep_study(tmp_path / "told", runs)
+    write_study_report(folder, progress=Silence())
+    text = (folder / "report" / "report.html").read_text(encoding="utf-8")
+    assert "These runs set no limit: 8 of 8 did not finish" in text and "there is nothing to draw" in text
 
 
 def test_a_study_without_a_site_has_no_degrees(tmp_path):

@@ -58,13 +58,6 @@ def test_runs_that_did_not_finish_are_named_and_count():
     assert any(text.startswith("Where the probability is below 5 % cannot be said: 2 runs") for text in told.paragraphs)
 
 
-def test_a_study_of_which_nothing_finished_has_a_report():
-    runs = told_runs(ends=dict.fromkeys(range(1, 94), "crashed"))
-    told = told_of_study(runs)
-    assert told.notices[0].startswith("These runs set no limit: 93 of 93 did not finish")
-    assert "The median and the worst draw" not in told.titles
-
-
 def test_runs_that_still_moved_are_counted(told):
     assert any(text.startswith("Not everything rested at the end of 3 of 93 runs") for text in told.notices)
 

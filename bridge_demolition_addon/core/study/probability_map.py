@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from manifold3d import CrossSection
@@ -23,7 +24,7 @@ _MOST_CELLS = 200
 """Along the longer side of the map."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class ProbabilityMap:
     """How often debris was at a place, at any time of a run.
 
@@ -50,7 +51,7 @@ class ProbabilityMap:
         """Shares (rows, columns) of the runs that hit each cell."""
         return self.hits / self.runs
 
-    @property
+    @cached_property
     def upper_limits(self) -> np.ndarray:
         """Upper limits (rows, columns) of the probability that a run hits each cell, after Clopper and Pearson."""
         counts, of = np.unique(self.hits, return_inverse=True)

@@ -31,9 +31,8 @@ def statement_section(runs: StudyRuns, version: str) -> Section:
 def reach_section(runs: StudyRuns) -> Section:
     """Return how far the runs reach, and how their limit settled."""
     settings, reaches_m = runs.study.settings, runs.reaches_m
-    limit = None
-    if runs.limit is not None:
-        limit = runs.said.reach.limit_m, f"{rounded_up(runs.said.reach.limit_m, '0.01')} m"
+    limit_m = runs.limits["limit"][0] if runs.limits else None
+    limit = None if limit_m is None else (limit_m, f"{rounded_up(limit_m, '0.01')} m")
     words = (
         "The reach of a run is the smallest distance from the bridge's first outline in plan that all of its debris, "
         "and every ball, stayed within at all recorded times, in the air included. A run that did not finish counts as "
@@ -119,6 +118,7 @@ def _study_facts(runs: StudyRuns, version: str) -> Iterator[tuple[str, str]]:
         )
     yield "Varied", ", ".join(words_of_inputs(runs.study))
     yield "Seed of the study", str(settings.seed)
+    yield "Run with", ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())
     yield "Bridge Demolition Add-on", version
 
 

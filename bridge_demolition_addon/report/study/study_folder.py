@@ -58,7 +58,8 @@ def read_study_runs(folder: Path) -> StudyRuns:
     table = read_runs(folder / RUNS_FILE)
     if not len(table):
         raise OutputError(f"{folder}: no run of this study is there yet: go on with the command that started it")
-    draws = _draw_folders(folder, study, table)
+    versions = _versions(folder / VERSIONS_FILE)
+    draws = _draw_folders(folder, study, table, versions)
     outlines = {number: _outlines(draw) for number, draw in draws.items()}
     return StudyRuns(
         name=folder.resolve().name,
@@ -67,12 +68,12 @@ def read_study_runs(folder: Path) -> StudyRuns:
         swept=[outlines[row.number].swept if row.number in outlines else None for row in table.rows],
         bridge=_common_plan(each.bridge for each in outlines.values()),
         pictures=_pictures(folder, draws),
+        versions=versions,
     )
 
 
-def _draw_folders(folder: Path, study: Study, table: RunsTable) -> dict[int, Path]:
+def _draw_folders(folder: Path, study: Study, table: RunsTable, versions: Mapping[str, str]) -> dict[int, Path]:
     """Return the folders of all draws that finished, by their numbers."""
-    versions = _versions(folder / VERSIONS_FILE)
     done = [row for row in table.rows if row.status == DONE]
     return {row.number: folder / DRAW_FOLDER / _address(study, row, versions) for row in done}
 

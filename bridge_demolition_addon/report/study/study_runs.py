@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from ...core.geometry.plan_areas import outlines
 from ...core.study.conclusions import Conclusions, conclusions
 from ...core.study.criteria import Criterion
 from ...core.study.file import SEED, Study
-from ...core.study.probability_map import ProbabilityMap, probability_map
+from ...core.study.probability_map import LEVELS, ProbabilityMap, probability_map
 from ...core.study.runs_table import REACH, RunsTable
 from ...core.study.statements import Chance
 from ...core.study.verification import chance_of_leaving, holds
@@ -41,6 +42,8 @@ class StudyRuns:
         What the bridge covered at first, in any of the runs.
     pictures : dict
         Rendered pictures of draws that were run once more, by number and by what they show.
+    versions : dict
+        What the draws were run with: version by name.
     """
 
     name: str
@@ -49,6 +52,7 @@ class StudyRuns:
     swept: Iterable[Sequence[np.ndarray] | None]
     bridge: CrossSection
     pictures: Mapping[int, Mapping[str, Path]]
+    versions: Mapping[str, str]
 
     @cached_property
     def said(self) -> Conclusions | None:
@@ -57,7 +61,7 @@ class StudyRuns:
 
     @cached_property
     def map(self) -> ProbabilityMap | None:
-        """How likely debris is where; None where nothing moved."""
+        """How likely debris is where; None where no run finished."""
         return probability_map(self.swept, self.study.settings.confidence, outlines(self.bridge))
 
     @property
@@ -78,7 +82,9 @@ class StudyRuns:
     @cached_property
     def zones_left(self) -> list[Chance]:
         """How likely debris leaves each zone of the scenario that holds the bridge."""
-        zones = [zone for zone in self.study.scenario.zones if holds(zone, self.bridge)]
+        zones = (
+            [] if self.bridge.is_empty() else [each for each in self.study.scenario.zones if holds(each, self.bridge)]
+        )
         return [chance_of_leaving(zone, self.swept, self.study.settings.confidence) for zone in zones]
 
     @cached_property
@@ -94,11 +100,29 @@ class StudyRuns:
         return exclusion.buffer_m if exclusion else None
 
     @cached_property
+    def likely(self) -> dict[float, CrossSection]:
+        """Where debris may be likelier than each of the levels that so many runs resolve, the largest area first."""
+        resolved = sorted(level for level in LEVELS if self.map and self.map.resolves(level))
+        return {level: self.map.area_above(level) for level in resolved}
+
+    @cached_property
+    def limits(self) -> dict[str, tuple[float, CrossSection]]:
+        """The limit, and the limit with the buffer if there is one: how far each is from the bridge, m, and its area.
+
+        Nothing where there is no limit.
+        """
+        if self.said is None or not math.isfinite(self.said.reach.limit_m):
+            return {}
+        limit_m = self.said.reach.limit_m
+        found = {"limit": (limit_m, widened(self.bridge, limit_m))}
+        if self.buffer_m:
+            found["limit and buffer"] = limit_m + self.buffer_m, widened(found["limit"][1], self.buffer_m)
+        return found
+
+    @property
     def limit(self) -> CrossSection | None:
         """The bridge's plan with the limit around it; None without one."""
-        if self.said is None or not np.isfinite(self.said.reach.limit_m):
-            return None
-        return widened(self.bridge, self.said.reach.limit_m)
+        return self.limits["limit"][1] if self.limits else None
 
     @property
     def hull_corners(self) -> int:
