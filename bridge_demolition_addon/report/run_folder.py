@@ -139,6 +139,11 @@ def read_run(folder: Path) -> Run:
     summary = _summary(folder, shortcomings)
     if summary and not summary.get("completed", True):
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
+    if summary and (by_hand := summary.get("made_by_hand")):
+        shortcomings.append(
+            "The scene was changed in Blender after it was built, and the scenario of the run cannot say that: "
+            f"{'; '.join(by_hand)}."
+        )
     logged = _logged_forces(folder, shortcomings) if results is None else None
     scenario = _scenario(folder, shortcomings)
     return Run(

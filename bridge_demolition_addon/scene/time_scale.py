@@ -10,6 +10,8 @@ from ..core.timing.timeline import Timeline
 from .world import START_FRAME, scene_time_step
 
 _PATH = "rigidbody_world.time_scale"
+_SINGLE = 1e-6
+"""Relative difference that only comes from Blender's single precision, in which it keeps frame rate and speed."""
 
 
 def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: int) -> None:
@@ -17,7 +19,7 @@ def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: 
     world = scene.rigidbody_world
     normal = world.time_scale
     scales = timeline.frame_lengths_s * scene.render.fps / scene.render.fps_base
-    if np.allclose(scales, normal, rtol=1e-9):
+    if np.allclose(scales, normal, rtol=_SINGLE):
         return
     changes = np.flatnonzero(np.diff(scales, prepend=np.nan))
     # No time passes before the first step, in the frame in which Blender makes its world.
@@ -58,10 +60,11 @@ def _curve(scene: bpy.types.Scene) -> bpy.types.FCurve | None:
     animation = scene.animation_data
     if animation is None or animation.action is None:
         return None
-    return next((curve for curve in _curves(animation) if curve.data_path == _PATH), None)
+    return next((curve for curve in curves_of(animation) if curve.data_path == _PATH), None)
 
 
-def _curves(animation: bpy.types.AnimData) -> list[bpy.types.FCurve]:
+def curves_of(animation: bpy.types.AnimData) -> list[bpy.types.FCurve]:
+    """Return the curves of an action that is in use."""
     if not hasattr(animation, "action_slot"):  # Blender before 4.4
         return list(animation.action.fcurves)
     bags = [bag for layer in animation.action.layers for strip in layer.strips for bag in strip.channelbags]

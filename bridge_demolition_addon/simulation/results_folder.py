@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +18,13 @@ from ..core.results.files import (
     REPORT_FILES,
     RESULT_FILES,
     RESULTS_FILE,
+    SCENARIO_FILE,
     SUMMARY_FILE,
     TABLE_FOLDER,
 )
 from ..core.results.summary import first_hit_s
+from ..core.scenario import Scenario
+from ..core.scenario.file import scenario_text
 
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""
@@ -137,6 +141,12 @@ def checked_log(path: Path, *, overwrite: bool) -> Path:
         if not existed:
             path.unlink()
     return path
+
+
+def keep_scenario(folder: Path, scenario: Scenario, made_by_hand: Sequence[str] = ()) -> None:
+    """Write the scenario of a run, and in comments above it what was made by hand and no scenario can say."""
+    lines = [f"# Changed in Blender, and not in this scenario: {each}.\n" for each in made_by_hand]
+    write_whole_text(folder / SCENARIO_FILE, "".join([*lines, scenario_text(scenario)]))
 
 
 def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:

@@ -10,13 +10,11 @@ from typing import Any, Protocol
 
 import bpy
 
-from ..core.disk import write_whole_text
 from ..core.display.camera_targets import points_to_see
 from ..core.display.contours import ContourSettings
 from ..core.errors import DemolitionError, SimulationError, text_of
 from ..core.results.files import BLEND_FILE, FRAMES_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
 from ..core.scenario import Scenario
-from ..core.scenario.file import scenario_text
 from ..core.sequence.checked_model import checked_model
 from ..core.signals import Interrupted, interrupted_afterwards, signals_noted
 from ..core.structure.model import Model
@@ -27,7 +25,7 @@ from ..scene.world import START_FRAME, keep_played_frames
 from .display.film import FilmRendering, FilmSettings
 from .playback import Playing
 from .recording.recorder import Recording
-from .results_folder import check_folder, keep_results, keep_summary, lock_in_place, prepare_folder
+from .results_folder import check_folder, keep_results, keep_scenario, keep_summary, lock_in_place, prepare_folder
 from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
@@ -99,7 +97,7 @@ def run_scenario(
     model = model or checked_model(scenario)
     with ExitStack() as locks:
         lock = locks.enter_context(prepare_folder(output, overwrite=overwrite))
-        _keep_scenario(lock.folder, scenario)
+        keep_scenario(lock.folder, scenario)
         scene = _empty_scene(scenario.title)
         build_demolition(scene, scenario, model)
         _prepare_view(scene, scenario, model)
@@ -161,16 +159,12 @@ def _laps() -> Callable[[], float]:
     return lap_s
 
 
-def _keep_scenario(folder: Path, scenario: Scenario) -> None:
-    write_whole_text(folder / SCENARIO_FILE, scenario_text(scenario))
-
-
 def _keep_all(
     folder: Path, scene: bpy.types.Scene, scenario: Scenario, recording: Recording, summary: dict[str, Any]
 ) -> None:
     """Leave results, scenario and scene in a folder."""
     if not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
-        _keep_scenario(folder, scenario)
+        keep_scenario(folder, scenario)
     keep_results(folder, recording.results(), summary)
     recording.remove_stream()
     keep_played_frames(scene)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -32,18 +33,24 @@ class RunContext:
     substep_s : float
         Length of a sub-step where time is not animated.
     scenario : Scenario or None
-        What the scene was built from; None where it was not.
+        What the scene runs; None where it was not built from a scenario.
+    made_by_hand : sequence of str
+        What of that no scenario can say, in words.
     """
 
     title: str
     gravity: np.ndarray
     substep_s: float
     scenario: Scenario | None
+    made_by_hand: Sequence[str] = ()
 
     @classmethod
-    def of(cls, scene: bpy.types.Scene, title: str, scenario: Scenario | None) -> RunContext:
+    def of(
+        cls, scene: bpy.types.Scene, title: str, scenario: Scenario | None, made_by_hand: Sequence[str] = ()
+    ) -> RunContext:
         """Return the context of a scene as it is now."""
-        return cls(title, np.array(scene.gravity, float), scene_time_step(scene).substep_s, scenario)
+        gravity, substep_s = np.array(scene.gravity, float), scene_time_step(scene).substep_s
+        return cls(title, gravity, substep_s, scenario, made_by_hand)
 
 
 def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:
@@ -69,6 +76,7 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "elasticity": None if recording.elasticity is None else asdict(recording.elasticity),
         **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
+        "made_by_hand": list(context.made_by_hand),
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results)
 

@@ -21,6 +21,11 @@ def set_breaking_force(connection: bpy.types.Object, force_n: float, step: TimeS
     constraint.breaking_threshold = step.impulse(force_n)
 
 
+def kept_breaking_force(connection: bpy.types.Object) -> float | None:
+    """Return the force that a connection breaks at, N; None where Blender's own threshold says that."""
+    return kept_number(connection, _FORCE, 0.0) if _FORCE in connection else None
+
+
 def rewrite_thresholds(scene: bpy.types.Scene) -> bool:
     """Write the breaking thresholds that the kept forces have in the scene's present step.
 
@@ -35,9 +40,9 @@ def rewrite_thresholds(scene: bpy.types.Scene) -> bool:
     step = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start)
     changed = False
     for connection in connections_of(scene):
-        if _FORCE not in connection:
+        force = kept_breaking_force(connection)
+        if force is None:
             continue
-        force = kept_number(connection, _FORCE, 0.0)
         constraint, impulse = connection.rigid_body_constraint, float(np.float32(step.impulse(force)))
         if constraint.breaking_threshold != impulse:
             constraint.breaking_threshold = impulse

@@ -7,13 +7,13 @@ from weakref import WeakKeyDictionary
 
 import bpy
 
-from ...core.disk import write_whole_text
 from ...core.errors import DemolitionError, OutputError, SimulationError
 from ...core.folder_lock import FolderLock
 from ...core.results.files import SCENARIO_FILE
-from ...core.scenario import RecordingSettings
-from ...core.scenario.file import scenario_text
+from ...core.scenario import RecordingSettings, Scenario
 from ...core.sequence.rest import Rest
+from ...scene.as_run import scenario_as_run
+from ...scene.made_by_hand import made_by_hand
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
 from ...simulation.playback import start_over
 from ...simulation.recording.logs import LogFiles
@@ -23,6 +23,7 @@ from ...simulation.results_folder import (
     check_folder,
     checked_log,
     keep_results,
+    keep_scenario,
     lock_in_place,
     prepare_folder,
     withdraw_folder,
@@ -99,7 +100,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     settings = scene.bda
     check_recordable(scene)
     table = table_of(settings.scenario.recording, RecordingSettings)
-    scenario = scenario_to_run(settings)
+    scenario, by_hand = _as_run(scene)
     keep_shown_blast(scene)
     forces, debris = (
         _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
@@ -115,9 +116,18 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     lock = prepare_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
     _locks[recording] = lock
     if scenario:
-        write_whole_text(folder / SCENARIO_FILE, scenario_text(scenario))
-    _contexts[recording] = RunContext.of(scene, scenario.title if scenario else scene.name, scenario)
+        keep_scenario(folder, scenario, by_hand)
+    _contexts[recording] = RunContext.of(scene, scenario.title if scenario else scene.name, scenario, by_hand)
     return recording
+
+
+def _as_run(scene: bpy.types.Scene) -> tuple[Scenario | None, list[str]]:
+    """Return what a scene will run, and what of it no scenario can say; None where it was not built from one."""
+    to_run = scenario_to_run(scene.bda)
+    if to_run is None:
+        return None, []
+    scenario, unsaid = scenario_as_run(scene, to_run)
+    return scenario, [*unsaid, *made_by_hand(scene)]
 
 
 def _let_go_of(folder: Path, scene: bpy.types.Scene) -> None:
@@ -149,6 +159,8 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         operator.report({"WARNING"}, f"The recording ended early: {recording.error}")
     elif stopped:
         operator.report({"WARNING"}, stopped)
+    if by_hand := _contexts[recording].made_by_hand:
+        operator.report({"WARNING"}, f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}")
     if moved:
         operator.report({"WARNING"}, f"{recording.folder} was moved or deleted, and the logs with it")
     if recording.distrust:
@@ -175,7 +187,7 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
     summary = run_summary(recording, results, context, completed=completed)
     with lock_in_place(_locks.pop(recording)) as lock:
         if context.scenario and not (lock.folder / SCENARIO_FILE).exists():  # a folder in the place of one that moved
-            write_whole_text(lock.folder / SCENARIO_FILE, scenario_text(context.scenario))
+            keep_scenario(lock.folder, context.scenario, context.made_by_hand)
         keep_results(lock.folder, results, summary)
         recording.remove_stream()
     session.keep_recording(lock.folder, recording, summary)

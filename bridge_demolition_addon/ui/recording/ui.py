@@ -6,7 +6,7 @@ import bpy
 
 from ...simulation.blender_events import running_recording
 from ...simulation.recording.recorder import Recording
-from ..scenario.built import changes
+from ..scenario.built import changed_in_blender, changes
 from ..scenario.ui import draw_changes
 from ..sidebar import SidebarPanel, draw_sentence
 from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
@@ -25,6 +25,9 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "overwrite")
         if changed := [] if recording else changes(settings):
             draw_changes(self.layout, context, changed)
+        for each in changed_in_blender(context.scene):
+            text = f"{each.key} is {each.shown} in Blender, and runs so; built {each.built}"
+            draw_sentence(self.layout, context, text, icon="INFO")
         column = self.layout.column(align=True)
         column.operator("bda.register_handler")
         column.operator("bda.unregister_handler")

@@ -15,12 +15,14 @@ import bpy
 import numpy as np
 
 from ...core.errors import ScenarioError
-from ...core.scenario import Scenario
+from ...core.scenario import Scenario, TimeSettings
 from ...core.scenario.file import scenario_from_text, scenario_text
 from ...core.scenario.kept import values_from_text, values_text
 from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, key_of, subtable_class
+from ...core.single_precision import shortest
+from ...scene.as_run import time_settings
 from .prop import USE, is_written_out, shown_tables, vector_length
-from .values import list_of, scenario_of, shortest, show_inner
+from .values import list_of, scenario_of, show_inner
 
 _AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", "zones", "exclusion", "site", "neighbours")
 """What a run takes of a scenario as it is shown when it begins."""
@@ -132,6 +134,19 @@ def counts_in_building(item: Field) -> bool:
     if subtable_class(item) is None:
         return item.name not in ("title", *_TIME_AS_SHOWN)
     return item.name not in _AS_SHOWN
+
+
+def changed_in_blender(scene: bpy.types.Scene) -> list[Change]:
+    """Return how the scene cuts time otherwise than it was built; a run goes by the scene."""
+    kept = built_values(scene.bda)
+    if kept is None or scene.rigidbody_world is None:
+        return []
+    fields, found = {item.name: item for item in key_fields(TimeSettings)}, []
+    for name, value in time_settings(scene).items():
+        if value != kept["time"][name]:
+            built = f"with {_in_words(fields[name], kept['time'][name])}"
+            found.append(Change(key_name(TimeSettings, fields[name]), _in_words(fields[name], value), built))
+    return found
 
 
 def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:

@@ -8,6 +8,7 @@ from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import checked_model
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.demolition import build_demolition, check_replaceable
+from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...simulation.blender_events import contours_of
 from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
@@ -270,6 +271,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
         show_scenario(settings, scenario)
     settings.total_mass = ""
     keep_built(settings, scenario)
+    keep_as_built(scene)
     return f"{len(model.shards)} shards, {len(model.connections)} connections"
 
 

@@ -13,7 +13,6 @@ from dataclasses import Field, replace
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ...core.errors import BlastError, ScenarioError
 from ...core.scenario import Charge, Scenario
@@ -30,6 +29,7 @@ from ...core.schema import (
     subtable_class,
     value_type,
 )
+from ...core.single_precision import as_given
 from ...core.toml_tables import toml_value
 from ...scene.blast.charges import charges_of, replace_charges
 from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length
@@ -120,11 +120,6 @@ def reset(group: bpy.types.PropertyGroup) -> None:
             group.property_unset(each.identifier)
 
 
-def shortest(number: float) -> float:
-    """Return the shortest decimal that single precision takes for this number."""
-    return float(str(np.float32(number)))
-
-
 def list_of(text: str, name: str, item: Field) -> list:
     """Return a list from TOML; brackets around it may be left out.
 
@@ -158,14 +153,8 @@ def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field
     if is_written_out(item):
         return list_of(value, key_name(table_class, item), item)
     if vector_length(item):
-        return tuple(map(_number, value, given or [None] * len(value)))
-    return _number(value, given) if value_type(item) is float else value
-
-
-def _number(value: float, given: float | None) -> float:
-    if not isinstance(value, float):
-        return value
-    return given if given is not None and np.float32(given) == np.float32(value) else shortest(value)
+        return tuple(map(as_given, value, given or [None] * len(value)))
+    return as_given(value, given) if value_type(item) is float else value
 
 
 def _charges(settings: bpy.types.PropertyGroup) -> Iterable[Charge]:
@@ -185,6 +174,6 @@ def _as_given(charge: Charge, given: dict[str, Any]) -> Charge:
     return replace(
         charge,
         name=given.get("name") or charge.name,
-        place_m=tuple(map(_number, charge.place_m, given.get("place_m", (None,) * 3))),
+        place_m=tuple(map(as_given, charge.place_m, given.get("place_m", (None,) * 3))),
         delay_ms=delay_ms if math.isclose(delay_ms, charge.delay_ms, rel_tol=_ROUNDING) else charge.delay_ms,
     )

@@ -1,0 +1,199 @@
+"""What is written is what ran, whatever was changed in Blender after the scenario was built."""
+
+import json
+import shutil
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from places import SMALL
+
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.time import TimeSettings
+from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
+from bridge_demolition_addon.ui.scenario.built import Change, changed_in_blender
+
+FRAMES = 20
+
+
+def of_kind(scene, kind):
+    return [body for body in bodies_of(scene) if kind_of(body) == kind]
+
+
+def bodies_with(kind, name, value):
+    def change(scene):
+        for body in of_kind(scene, kind):
+            setattr(body.rigid_body, name, value)
+
+    return change
+
+
+def render(name, value):
+    return lambda scene: setattr(scene.render, name, value)
+
+
+def world(name, value):
+    return lambda scene: setattr(scene.rigidbody_world, name, value)
+
+
+CHANGES = {
+    "time.frames_per_second": (render("fps", 60), 60),
+    "time.frames_per_second_base": (render("fps_base", 1.001), 1.001),
+    "time.substeps_per_frame": (world("substeps_per_frame", 7), 7),
+    "time.solver_iterations": (world("solver_iterations", 23), 23),
+    "time.split_impulse": (world("use_split_impulse", False), False),
+    "time.time_scale": (world("time_scale", 0.7), 0.7),
+    "time.duration_s": (lambda scene: setattr(scene, "frame_end", 15), 13 / 24),
+    "shards.friction": (bodies_with(Kind.SHARD, "friction", 0.3), 0.3),
+    "shards.restitution": (bodies_with(Kind.SHARD, "restitution", 0.4), 0.4),
+    "shards.collision_margin_m": (bodies_with(Kind.SHARD, "collision_margin", 0.02), 0.02),
+    "shards.linear_damping": (bodies_with(Kind.SHARD, "linear_damping", 0.2), 0.2),
+    "shards.angular_damping": (bodies_with(Kind.SHARD, "angular_damping", 0.3), 0.3),
+    "shards.use_deactivation": (bodies_with(Kind.SHARD, "use_deactivation", False), False),
+    "shards.start_deactivated": (bodies_with(Kind.SHARD, "use_start_deactivated", False), False),
+    "shards.deactivation_linear_velocity_m_s": (bodies_with(Kind.SHARD, "deactivate_linear_velocity", 0.1), 0.1),
+    "shards.deactivation_angular_velocity_rad_s": (bodies_with(Kind.SHARD, "deactivate_angular_velocity", 0.2), 0.2),
+    "ground.friction": (bodies_with(Kind.GROUND, "friction", 0.2), 0.2),
+    "ground.restitution": (bodies_with(Kind.GROUND, "restitution", 0.9), 0.9),
+    "ball.mass_kg": (bodies_with(Kind.BALL, "mass", 50000.0), 50000.0),
+    "ball.friction": (bodies_with(Kind.BALL, "friction", 0.9), 0.9),
+    "ball.restitution": (bodies_with(Kind.BALL, "restitution", 0.8), 0.8),
+    "ball.angular_damping": (bodies_with(Kind.BALL, "angular_damping", 0.6), 0.6),
+}
+"""Keys of a scenario, what changes them in Blender, and the value to be written."""
+
+
+def first_shard(scene):
+    return of_kind(scene, Kind.SHARD)[0]
+
+
+def first_connection(scene):
+    return scene.rigidbody_world.constraints.objects[0]
+
+
+def animate_speed(scene):
+    for frame, scale in ((1, 1.0), (10, 0.5)):
+        scene.rigidbody_world.time_scale = scale
+        scene.keyframe_insert("rigidbody_world.time_scale", frame=frame)
+
+
+def move(body):
+    body.location.z += 0.5
+
+
+def delete(found):
+    import bpy
+
+    bpy.data.objects.remove(found)
+
+
+BY_HAND = {
+    "gravity": lambda scene: setattr(scene, "gravity", (0.0, 0.0, -1.62)),
+    "places, shapes or sizes": lambda scene: move(first_shard(scene)),
+    "masses of bodies": lambda scene: setattr(first_shard(scene).rigid_body, "mass", 1.0),
+    "how bodies move and touch": lambda scene: setattr(first_shard(scene).rigid_body, "friction", 0.1),
+    "which bodies there are": lambda scene: setattr(first_shard(scene), "name", "My shard"),
+    "kinds and strengths": lambda scene: setattr(first_connection(scene).rigid_body_constraint, "type", "HINGE"),
+    "which connections there are": lambda scene: delete(first_connection(scene)),
+    "the speed of the simulation": animate_speed,
+    "the last frame, 4, which is before all": lambda scene: setattr(scene, "frame_end", 4),
+}
+
+
+@pytest.fixture
+def built(extension, settings, tmp_path):
+    settings.scenario_path = str(SMALL)
+    extension.ops.bda.load_scenario()
+    settings.scenario.time.duration_s = (FRAMES - 2) / 24
+    extension.ops.bda.build_scenario()
+    settings.output_directory, settings.overwrite = str(tmp_path / "results"), True
+    return extension
+
+
+def summary_in(folder):
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+
+def test_every_setting_of_time_is_tried():
+    taken_at_run = {"stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s"}
+    assert {f"time.{each.name}" for each in fields(TimeSettings) if each.name not in taken_at_run} <= set(CHANGES)
+
+
+@pytest.mark.parametrize("key", CHANGES)
+def test_what_was_changed_is_written_and_runs_again_to_the_last_bit(built, settings, tmp_path, key):
+    change, value = CHANGES[key]
+    change(built.context.scene)
+    assert built.ops.bda.run() == {"FINISHED"}
+    written = read_scenario(tmp_path / "results" / "scenario_as_run.toml")
+    table, name = key.split(".")
+    assert getattr(getattr(written, table), name) == pytest.approx(value, rel=1e-12)
+    first = summary_in(tmp_path / "results")
+    assert first["made_by_hand"] == []
+
+    built.ops.wm.read_factory_settings(use_empty=True)
+    settings = built.context.scene.bda
+    settings.scenario_path = str(tmp_path / "results" / "scenario_as_run.toml")
+    built.ops.bda.build_scenario()
+    settings.output_directory = str(tmp_path / "again")
+    built.ops.bda.run()
+    second = summary_in(tmp_path / "again")
+    assert second["fingerprint"]["motion"] == first["fingerprint"]["motion"]
+
+
+def test_several_changes_at_once_are_written_as_they_ran(built, tmp_path):
+    scene = built.context.scene
+    scene.render.fps, scene.rigidbody_world.substeps_per_frame, scene.frame_end = 60, 4, 32
+    built.ops.bda.run()
+    written = read_scenario(tmp_path / "results" / "scenario_as_run.toml")
+    with np.load(tmp_path / "results" / "results.npz") as arrays:
+        assert arrays["times_s"][-1] == pytest.approx(written.time.duration_s, rel=1e-6)
+        assert arrays["substep_s"][1:] == pytest.approx(written.time.step.substep_s, rel=1e-6)
+    # The ball is let go in the frame that it was animated for, which is three frames after time begins.
+    assert written.ball.release_time_s == pytest.approx(0.1 * 24 / 60)
+
+
+def test_the_panel_says_how_time_runs_otherwise_than_it_was_built(built):
+    assert changed_in_blender(built.context.scene) == []
+    built.context.scene.render.fps = 60
+    assert changed_in_blender(built.context.scene) == [Change("time.frames_per_second", "60", "with 24")]
+
+
+def test_a_second_run_finds_nothing_changed(built, tmp_path):
+    for _ in range(2):
+        built.ops.bda.run()
+        assert summary_in(tmp_path / "results")["made_by_hand"] == []
+        text = (tmp_path / "results" / "scenario_as_run.toml").read_text(encoding="utf-8")
+        assert text == built.context.scene.bda.built_scenario
+
+
+@pytest.mark.parametrize("what", BY_HAND)
+def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, capfd, what):
+    BY_HAND[what](built.context.scene)
+    built.ops.bda.run()
+    folder = tmp_path / "results"
+    told = summary_in(folder)["made_by_hand"]
+    assert what in told[0]
+    assert what in capfd.readouterr().out
+    first_line = (folder / "scenario_as_run.toml").read_text(encoding="utf-8").splitlines()[0]
+    assert first_line.startswith("# Changed in Blender, and not in this scenario: ") and what in first_line
+    assert scenario_text(read_scenario(folder / "scenario_as_run.toml")) == settings.built_scenario
+    assert any(what in each for each in read_run(folder).shortcomings)
+
+
+def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(extension, settings, tmp_path):
+    extension.ops.bda.load_preset(preset="one_span_explosives")
+    settings.scenario.fracture.shards = 20
+    settings.scenario.time.duration_s = 0.7
+    settings.scenario.blast.use_slow_frame_ms = True
+    settings.scenario.blast.slow_frame_ms = 10.0
+    extension.ops.bda.build_scenario()
+    settings.output_directory = str(tmp_path / "results")
+    extension.ops.bda.run()
+    assert summary_in(tmp_path / "results")["made_by_hand"] == []
+    shutil.rmtree(tmp_path / "results")
+    extension.context.scene.render.fps = 60
+    extension.ops.bda.run()
+    told = summary_in(tmp_path / "results")["made_by_hand"]
+    assert len(told) == 2 and "slow motion was animated for frames of another length" in told[0]
+    assert told[1] == "the speed of the simulation, which is animated"
