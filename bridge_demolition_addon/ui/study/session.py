@@ -95,10 +95,14 @@ class StudyAtWork:
         program = bpy.app.binary_path  # empty where Blender is a module of Python
         command = blender_command(program) if program else draw_command()
         self._engine = LocalProcesses(jobs, limits, command, versions)
+        self._has_ended = False
         self.run = StudyRun(study, self._folder, self._engine)
 
     def end(self) -> None:
-        """End all draws at work, and keep the table of those that have ended."""
+        """End all draws at work, and keep the table of those that have ended; once more is nothing."""
+        if self._has_ended:
+            return
+        self._has_ended = True
         try:
             self._engine.close()
             self.run.write_tables()

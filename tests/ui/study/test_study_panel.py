@@ -108,6 +108,20 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
     assert len(blender.context.scene.rigidbody_world.collection.objects) == bodies
 
 
+def test_a_study_of_which_no_draw_finishes_says_so_and_frees_its_folder(blender, panel, session, tmp_path):
+    panel.study.use_time_limit_s, panel.study.time_limit_s = True, 1e-3
+    blender.ops.bda.start_study()
+    look_in_until(session, ended(session))
+    assert {row.status for row in read_runs(tmp_path / "study" / "runs.csv").rows} == {"timed_out"}
+    shown = session.shown_study()
+    assert shown.sentences[0].startswith("These runs set no limit: 3 of 3 did not finish")
+    assert len(shown.triangles[0]) == len(shown.limit_lines) == 0
+    with pytest.raises(RuntimeError, match="No draw of this study finished"):
+        blender.ops.bda.open_worst_draw()
+    assert blender.ops.bda.start_study() == {"FINISHED"}  # the folder is free
+    look_in_until(session, ended(session))
+
+
 def test_a_study_is_shown_from_its_folder(blender, panel, session, tmp_path):
     blender.ops.bda.start_study()
     look_in_until(session, ended(session))
