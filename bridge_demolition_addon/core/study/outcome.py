@@ -167,11 +167,11 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
 
 
 def _span(number: int, heights_m: np.ndarray) -> dict[str, Any]:
-    lost_m = heights_m[0] - heights_m
+    lost_m, height_m = heights_m[0] - heights_m, float(heights_m[0])
     return {
         span_output(number, "drop_m"): float(lost_m[-1]),
-        span_output(number, "lost_share"): float(lost_m[-1] / heights_m[0]),
-        span_output(number, "most_lost_share"): float(lost_m.max() / heights_m[0]),
+        span_output(number, "lost_share"): float(lost_m[-1]) / height_m if height_m > 0.0 else None,
+        span_output(number, "most_lost_share"): float(lost_m.max()) / height_m if height_m > 0.0 else None,
     }
 
 

@@ -120,6 +120,12 @@ def test_the_course_of_a_run():
     assert outputs["largest_force_N"] is outputs["made_by_solver_share"] is outputs["doubtful_throws"] is None
 
 
+def test_a_span_that_lies_on_the_ground_has_no_height_to_lose():
+    outputs = outputs_of(moving_boxes([0, 1], [DECK], [[(0, 0, 0)], [(0, 0, -0.1)]]))
+    assert outputs["spans.1.drop_m"] == pytest.approx(0.1)
+    assert outputs["spans.1.lost_share"] is outputs["spans.1.most_lost_share"] is None
+
+
 def test_spans_are_told_apart():
     two = replace(BARE, bridge=replace(I235.bridge, span_lengths_m=(10.0, 10.0)))
     places = [[(5, 0, 4), (15, 0, 4)], [(5, 0, 1), (15, 0, 4)]]
