@@ -6,11 +6,12 @@ import json
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, fields, replace
-from typing import Any
+from functools import cache
+from typing import Any, get_args, get_origin
 
 from ..errors import ScenarioError
 from ..scenario import Scenario
-from ..schema import Table, holds_many, key_of, shown, subtable_class
+from ..schema import Table, holds_many, key_name, key_of, shown, subtable_class, value_type
 from ..toml_tables import BARE_KEY
 
 _LEAF = "the key itself"
@@ -77,6 +78,31 @@ def changed(scenario: Scenario, values: Mapping[ScenarioKey, Any]) -> Scenario:
     return _changed(scenario, {found.steps: value for found, value in values.items()})
 
 
+@cache
+def names_to_propose() -> tuple[str, ...]:
+    """Return the names of all keys that a scenario may have and a study may draw: numbers, choices, true or false.
+
+    In lists they are those of all tables. Of several numbers it is the first.
+    """
+    return tuple(_names_to_propose(Scenario))
+
+
+def _names_to_propose(table_class: type[Table]) -> Iterator[str]:
+    for item in fields(table_class):
+        if inner := subtable_class(item):
+            yield from _names_to_propose(inner)
+        elif (table_class, item.name) != (Scenario, "seed") and (ending := _way_to_a_value(item)) is not None:
+            yield key_name(table_class, item) + ending
+
+
+def _way_to_a_value(item: Field) -> str | None:
+    """Return what leads from a key to one value that can be drawn: empty for a single one, None where there is none."""
+    kind, ending = value_type(item), ""
+    while get_origin(kind) is tuple:
+        kind, ending = get_args(kind)[0], f"{ending}.1"
+    return ending if kind is not str or key_of(item).choices else None
+
+
 def _parts(name: str) -> list[str]:
     """Return the parts of a dotted name, which is written as TOML has it."""
     try:
@@ -140,6 +166,8 @@ def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str
 
 def _values(item: Field, value: Any, name: str, parts: list[str], before: str, steps: tuple) -> Iterator[ScenarioKey]:
     """Follow the parts of a name that lead to a value, or into a list of values by their numbers."""
+    if parts and value is None and holds_many(item):
+        raise ScenarioError(f"{name} is not in the scenario: it has no {before}")
     for part in parts:
         if not isinstance(value, tuple):
             raise ScenarioError(f"{name} is unknown: {before} has one value")

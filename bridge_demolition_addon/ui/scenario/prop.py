@@ -7,7 +7,7 @@ it, ``use_`` and its name; a list of tables is a collection with the index of it
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import MISSING, Field
 from functools import cache
 from pathlib import Path
@@ -42,6 +42,7 @@ from ...core.schema import (
     subtable_fields,
     value_type,
 )
+from ...core.study.keys import names_to_propose
 from ...core.study.settings import StudySettings
 from ...core.toml_tables import toml_value
 
@@ -193,7 +194,9 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
     rule = key_of(item)
     name = key_name(table_class, item)
     meaning = _tooltip(f"{rule.description} In a scenario file: {name}, {expected(item)}")
-    properties = {item.name: _property(item, default, {"name": label, "description": meaning})}
+    words = {"name": label, "description": meaning}
+    propose = _PROPOSED.get(name)
+    properties = {item.name: _proposing(rule, default, propose, words) if propose else _property(item, default, words)}
     if is_optional(item):
         properties[USE + item.name] = BoolProperty(name=label, description=meaning, default=default is not None)
     return properties
@@ -203,12 +206,6 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     rule, kind = key_of(item), value_type(item)
     if kind is bool:
         return BoolProperty(default=bool(default), **words)
-    if rule.choices and rule.or_else:
-        return StringProperty(
-            default=default or rule.choices[0],
-            search=lambda group, _context, typed: materials_shown(group, rule.choices, typed),
-            **words,
-        )
     if rule.choices and kind is str:
         items = [(each, each, "") for each in rule.choices]
         return EnumProperty(items=items, default=default or rule.choices[0], **words)
@@ -220,10 +217,28 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     return _number_property(item, default, words)
 
 
-def materials_shown(group: bpy.types.PropertyGroup, choices: Iterable[str], typed: str) -> list[str]:
-    """Return the materials to propose for what was typed: those of a key, and the user's own."""
-    own = (each.name for each in group.id_data.bda.scenario.materials)
-    return [each for each in (*choices, *own) if typed.casefold() in each.casefold()]
+def _proposing(
+    rule: Key, default: Any, propose: Callable[[bpy.types.PropertyGroup, Key], Iterable[str]], words: dict[str, str]
+) -> Any:
+    """Return a property for a text, of which some are proposed as the user types."""
+
+    def search(group: bpy.types.PropertyGroup, _context: bpy.types.Context, typed: str) -> list[str]:
+        return [each for each in propose(group, rule) if typed.casefold() in each.casefold()]
+
+    return StringProperty(default=default or next(iter(rule.choices), ""), search=search, **words)
+
+
+def materials_to_propose(group: bpy.types.PropertyGroup, rule: Key) -> list[str]:
+    """Return the materials that a key may name: those that come with it, and the user's own."""
+    return [*rule.choices, *(each.name for each in group.id_data.bda.scenario.materials)]
+
+
+_PROPOSED = {
+    "connections.material": materials_to_propose,
+    "connections.between.material": materials_to_propose,
+    "vary.key": lambda _group, _rule: names_to_propose(),
+}
+"""Keys that take other texts than those that are proposed."""
 
 
 def _number_property(item: Field, default: Any, words: dict[str, str]) -> Any:

@@ -3,14 +3,14 @@
 from dataclasses import replace
 
 import pytest
-from places import EXAMPLES
+from places import EXAMPLES, TESTS
 from scenarios import I235
 
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario import Removal
 from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.study.keys import changed, keys_named
+from bridge_demolition_addon.core.study.keys import changed, keys_named, names_to_propose
 
 CHARGES = (
     Charge(name="mid pier", place_m=(0, 0, 1), mass_kg=10, delay_ms=5),
@@ -107,6 +107,7 @@ def test_other_values_are_those_of_the_keys_alone():
         ("ball.target_m.3", "ball.target_m.3 is unknown: expected a number from 1 to 2"),
         ("ball.mass_kg.1", "ball.mass_kg.1 is unknown: ball.mass_kg has one value"),
         ("ball.cable.length_m", "ball.cable.length_m is not in the scenario: it has no table [cable]"),
+        ("connections.free.1", "connections.free.1 is not in the scenario: it has no connections.free"),
         ("saw_cuts.time_s", "saw_cuts.time_s is not in the scenario: it has no [[saw_cuts]]"),
         ("charges", "charges is a list: expected a key after it, such as charges.1.name"),
         ("charges.span", "charges.span is a table: expected a key of it, such as charges.span.name"),
@@ -120,3 +121,19 @@ def test_what_leads_nowhere_is_refused(name, message):
         keys_named(BLASTED, name)
     assert message in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+def test_every_name_that_is_proposed_leads_to_a_key_that_can_be_drawn():
+    everything = read_scenario(TESTS / "simulation" / "everything.toml")
+    there = 0
+    for name in names_to_propose():
+        try:
+            found = keys_named(everything, name)
+        except ScenarioError as error:
+            assert "is not in the scenario: it has no " in str(error)
+            continue
+        there += 1
+        assert all(not isinstance(each.value, tuple) for each in found)
+    assert there > 100
+    assert {"ball.drop_height_m", "ball.target_m.1", "charges.delay_ms", "connections.type"} <= set(names_to_propose())
+    assert not {"scenario.seed", "scenario.title", "zones.name", "geometry.file"} & set(names_to_propose())

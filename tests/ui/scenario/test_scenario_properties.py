@@ -6,11 +6,12 @@ import pytest
 
 import bridge_demolition_addon
 from bridge_demolition_addon.core.mechanics.strength import MATERIALS
-from bridge_demolition_addon.core.scenario import Charge, Scenario
+from bridge_demolition_addon.core.scenario import Charge, ConnectionSettings, Scenario
 from bridge_demolition_addon.core.schema import (
     holds_many,
     is_optional,
     key_fields,
+    key_of,
     subtable_class,
     subtable_fields,
     value_type,
@@ -20,7 +21,7 @@ from bridge_demolition_addon.ui.scenario.prop import (
     all_tables,
     group_name,
     label_of,
-    materials_shown,
+    materials_to_propose,
     registered_group,
 )
 
@@ -124,8 +125,8 @@ def test_materials_of_the_users_own_are_proposed_beside_the_others():
 
     scenario = bpy.context.scene.bda.scenario
     scenario.materials.add().name = "my concrete"
-    found = materials_shown(scenario.connections, tuple(MATERIALS), "CONC")
-    assert found == [*(name for name in MATERIALS if "concrete" in name), "my concrete"]
+    (rule,) = (key_of(item) for item in key_fields(ConnectionSettings) if item.name == "material")
+    assert materials_to_propose(scenario.connections, rule) == [*MATERIALS, "my concrete"]
     scenario.connections.material = "my concrete"
     assert scenario.connections.material == "my concrete"
     scenario.materials.clear()
