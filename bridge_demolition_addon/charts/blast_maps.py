@@ -60,13 +60,13 @@ def overpressure_map(
     for neighbour in neighbours:
         if (np.array(neighbour.place_m[:2]) >= low).all() and (np.array(neighbour.place_m[:2]) <= high).all():
             axes.plot(*neighbour.place_m[:2], "k^", markersize=5)
-            _name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
+            name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
     axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
     figure.colorbar(image, ax=axes, label="peak overpressure of one charge (kPa)", shrink=0.9)
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False, fontsize=8)
 
 
-def _name_neighbour(axes: Axes, neighbour: Neighbour, *, to_the_left: bool) -> None:
+def name_neighbour(axes: Axes, neighbour: Neighbour, *, to_the_left: bool) -> None:
     """Write a neighbour's name beside it, towards the middle of the map, over several lines where it is long."""
     name = fill(plain(neighbour.name), _NAME_LETTERS)
     offset, side = ((-4, 4), "right") if to_the_left else ((4, 4), "left")

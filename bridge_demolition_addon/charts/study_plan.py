@@ -8,7 +8,9 @@ import numpy as np
 from manifold3d import CrossSection
 from matplotlib.figure import FigureBase
 
+from ..core.geometry.plan_areas import outlines
 from ..core.scenario import Neighbour, Zone
+from .blast_maps import name_neighbour
 from .plan_maps import draw_area, draw_zones, fit, name_zones, plan_axes
 from .study_charts import LIMIT_COLOUR
 from .style import plain
@@ -39,7 +41,7 @@ def study_plan(
     limits
         The limit around the bridge, and around that what is added to it, by what the legend says.
     zones, neighbours
-        Of the site.
+        Of the site. A neighbour beyond all that is drawn is left out: it would shrink everything else.
     """
     axes = plan_axes(figure)
     for shade, (label, area) in zip(_SHADES[-len(likely) :] if likely else (), likely.items(), strict=True):
@@ -49,10 +51,23 @@ def study_plan(
     for number, (label, area) in enumerate(limits.items()):
         style = {"linewidth": 1.8, "linestyle": "-"} if not number else {"linewidth": 1.0, "linestyle": (0, (6, 2))}
         draw_area(axes, area, fill=False, edgecolor=LIMIT_COLOUR, label=plain(label), **style)
-    if neighbours:
-        places = np.array([each.place_m[:2] for each in neighbours])
-        axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
-        for each, place in zip(neighbours, places, strict=True):
-            axes.annotate(plain(each.name), place, (4, 4), textcoords="offset points", fontsize=7)
+    low, high = _corners([bridge, *likely.values(), *limits.values()], zones)
+    near = [each for each in neighbours if _is_within(each, low, high)]
+    for each in near:
+        axes.plot(*each.place_m[:2], "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
     fit(axes, figure)
     name_zones(axes, figure, zones)
+    for each in near:
+        name_neighbour(axes, each, to_the_left=each.place_m[0] > (low[0] + high[0]) / 2.0)
+
+
+def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lowest and the highest x and y of all that is drawn besides neighbours."""
+    corners = [ring for area in areas for ring in outlines(area)] + [np.array(zone.corners_m) for zone in zones]
+    together = np.concatenate(corners)
+    return together.min(axis=0), together.max(axis=0)
+
+
+def _is_within(neighbour: Neighbour, low: np.ndarray, high: np.ndarray) -> bool:
+    place = np.array(neighbour.place_m[:2])
+    return bool((place >= low).all() and (place <= high).all())
