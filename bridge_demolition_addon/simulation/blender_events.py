@@ -148,6 +148,12 @@ def _before_load(*_: object) -> None:
 
 
 @persistent
+def _after_load(*_: object) -> None:
+    for scene in bpy.data.scenes:
+        recorded_scene(scene).after_load()
+
+
+@persistent
 def _after_failed_load(*_: object) -> None:
     _look_at_all()
 
@@ -165,6 +171,7 @@ _HANDLERS = {
     "undo_post": _after_undo,
     "redo_post": _after_undo,
     "load_pre": _before_load,
+    "load_post": _after_load,
     "load_post_fail": _after_failed_load,
 }
 

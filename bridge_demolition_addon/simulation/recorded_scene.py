@@ -7,10 +7,12 @@ from contextlib import suppress
 
 import bpy
 
-from ..core.errors import SimulationError
+from ..core.errors import DemolitionError, SimulationError
+from ..scene.bodies import is_marked
 from .crash_guards.safe_render import has_to_rest
 from .crash_guards.world_guard import WorldGuard
 from .display.contours import ContourDisplay
+from .kept_run import has_run, results_of_run
 from .recording.recorder import Recording
 
 
@@ -115,6 +117,19 @@ class RecordedScene:
                 self._guard.stand_still(self.scene)
             else:
                 self._guard.forget()
+
+    def after_load(self) -> None:
+        """Go to the start frame, as no body has a place in any other, and show the results of the scene's run."""
+        world = self.scene.rigidbody_world
+        if self.scene.library or not (world and world.collection and any(map(is_marked, world.collection.all_objects))):
+            return
+        if not world.point_cache.is_baked:
+            self.scene.frame_set(world.point_cache.frame_start)
+        if has_run(self.scene):
+            try:
+                self.contours.use_results(results_of_run(self.scene))
+            except DemolitionError as error:
+                self.contours.missing = str(error)
 
     def before_render(self) -> None:
         """Let the world rest, where Blender would simulate it in the render."""

@@ -23,6 +23,7 @@ from ..scene.demolition import build_demolition, first_frame_after
 from ..scene.rendering.camera import prepare_pictures, render_picture
 from ..scene.world import START_FRAME, keep_played_frames
 from .display.film import FilmRendering, FilmSettings
+from .kept_run import keep_run
 from .playback import Playing
 from .recording.recorder import Recording
 from .results_folder import check_folder, keep_results, keep_scenario, keep_summary, lock_in_place, prepare_folder
@@ -167,6 +168,7 @@ def _keep_all(
         keep_scenario(folder, scenario)
     keep_results(folder, recording.results(), summary)
     recording.remove_stream()
+    keep_run(scene, folder, summary)
     keep_played_frames(scene)
     path = folder.resolve() / BLEND_FILE
     try:  # Blender itself writes beside it and renames

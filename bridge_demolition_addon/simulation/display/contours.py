@@ -32,6 +32,8 @@ class ContourDisplay:
         The recording of the scene that runs, or ran last; or None.
     is_live
         Whether it runs.
+    missing
+        Why the results of the run of a file that was opened are not shown; empty where they are, or there was none.
     """
 
     def __init__(self, scene: bpy.types.Scene):
@@ -40,6 +42,7 @@ class ContourDisplay:
         self.error: Exception | None = None
         self.recording: Recording | None = None
         self.is_live = False
+        self.missing = ""
         self._loaded: ContourSeries | None = None
         self._recorded: ContourSeries | None = None
 
@@ -70,8 +73,8 @@ class ContourDisplay:
                 self._paint(layer.depsgraph)
 
     def paint(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Colour the bodies in an evaluated scene, where contours are shown; never raises."""
-        if self.settings is None or self.error:
+        """Colour the bodies in an evaluated scene, where contours are shown, and place them; never raises."""
+        if self.error or (self.settings is None and self._loaded is None):
             return
         try:
             self._paint(depsgraph)
@@ -81,7 +84,7 @@ class ContourDisplay:
     def follow(self, recording: Recording) -> None:
         """Show a recording that begins, in place of what was recorded or loaded before."""
         self.recording, self.is_live = recording, True
-        self._loaded = None
+        self._loaded, self.missing = None, ""
 
     def use_results(self, results: Results) -> None:
         """Show results that were kept, until something new is recorded.
@@ -99,13 +102,20 @@ class ContourDisplay:
                 f"results: none of their {len(names)} bodies is in scene {self.scene.name!r}; open the "
                 "scene that they were recorded in, or build it from the same scenario"
             )
-        self._loaded = ContourSeries.of_results(results)
+        self._loaded, self.missing = ContourSeries.of_results(results), ""
+        self.refresh()
+
+    @property
+    def shows_loaded(self) -> bool:
+        """Whether results that were loaded are shown, whatever Blender simulates."""
+        return self._loaded is not None
 
     def forget(self) -> None:
         """Let go of what was recorded or loaded."""
         if not self.is_live:
             self.recording = None
         self._loaded = self._recorded = None
+        self.missing = ""
 
     @property
     def series(self) -> ContourSeries | None:
@@ -154,13 +164,15 @@ class ContourDisplay:
         return series
 
     def _paint(self, depsgraph: bpy.types.Depsgraph) -> None:
-        found = self.shown_frame()
-        if found is None:
-            return
-        frame, row = found
         series = self.series
+        row = series.row_at(self.scene.frame_current) if series else None
+        if row is None:
+            return
         if self.is_placed or self.magnification != 1.0:
             self._place(depsgraph, series, series.magnified(row, self.magnification))
+        if self.settings is None:
+            return
+        frame = series.show(row, self.settings)
         rows = {name: row for row, name in enumerate(series.body_names)}
         paint(self.scene, depsgraph, rows, np.where(series.moves[:, None], frame.screen_colours, np.nan))
 

@@ -11,6 +11,7 @@ from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
+from ...simulation.playback import start_over
 from ..operators import Action, Refusing, absolute, recording_runs, refused
 from . import view as contour_view
 
@@ -38,6 +39,24 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
         contour_view.follow(scene)
         found = f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
         return f"{found}, of a run that ended before its end" if path.name == FRAMES_FILE else found
+
+
+class BDA_OT_forget_results(Action, bpy.types.Operator):
+    """Show what Blender simulates, in place of results that were loaded or found with the file; their files stay"""
+
+    bl_idname = "bda.forget_results"
+    bl_label = "Show Blender's Own Motion"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        shows = contours_of(context.scene).shows_loaded
+        return recording_runs(context) or (None if shows else "No results were loaded: Blender's own motion is shown")
+
+    def act(self, context: bpy.types.Context) -> None:
+        scene = context.scene
+        contours_of(scene).forget()
+        start_over(scene)
+        contour_view.follow(scene)
 
 
 class BDA_OT_render_contours(Refusing, bpy.types.Operator):
@@ -139,7 +158,7 @@ class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
         hide_symbols(layer, scene, hidden=not symbols_are_hidden(layer, scene))
 
 
-CLASSES = (BDA_OT_load_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)
+CLASSES = (BDA_OT_load_results, BDA_OT_forget_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)
 
 
 def _film_settings(scene: bpy.types.Scene) -> FilmSettings:

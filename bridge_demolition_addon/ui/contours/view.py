@@ -56,8 +56,8 @@ def follow(scene: bpy.types.Scene) -> None:
 
 def trouble(scene: bpy.types.Scene) -> str:
     """Return why contours cannot be shown as asked for; empty where they can."""
-    error = contours_of(scene).error
-    return _refusals.get(scene.session_uid) or (str(error) if error else "")
+    contours = contours_of(scene)
+    return _refusals.get(scene.session_uid) or (str(contours.error) if contours.error else contours.missing)
 
 
 def follow_later(scene: bpy.types.Scene) -> None:

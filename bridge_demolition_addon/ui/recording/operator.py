@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
@@ -15,6 +16,7 @@ from ...core.sequence.rest import Rest
 from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
+from ...simulation.kept_run import keep_run
 from ...simulation.playback import start_over
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
@@ -190,6 +192,8 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
             keep_scenario(lock.folder, context.scenario, context.made_by_hand)
         keep_results(lock.folder, results, summary)
         recording.remove_stream()
+    with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
+        keep_run(recording.scene, lock.folder, summary)
     session.keep_recording(lock.folder, recording, summary)
     return lock.folder
 

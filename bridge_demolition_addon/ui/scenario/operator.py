@@ -11,6 +11,7 @@ from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...simulation.blender_events import contours_of
+from ...simulation.kept_run import forget_run
 from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
 from ..viewport import look_at_selected, select_only
 from .built import forget_built, keep_built, show_built
@@ -175,6 +176,7 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
         scene = context.scene
         stop_playing(context)
         contours_of(scene).forget()
+        forget_run(scene)
         removed = remove_demolition(scene)
         forget_built(scene.bda)
         scene.bda.total_mass = ""
@@ -265,6 +267,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     if anew:
         check_replaceable(scene, scenario, model)
         contours_of(scene).forget()
+        forget_run(scene)
         remove_demolition(scene)
     build_demolition(scene, scenario, model)
     if not is_shown:

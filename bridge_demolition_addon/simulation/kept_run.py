@@ -1,0 +1,65 @@
+"""The last run of a scene, kept with it, so that a file that is opened again finds what was recorded."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..core.errors import OutputError
+from ..core.results.arrays import Results, load_results
+from ..core.results.files import RESULTS_FILE, SUMMARY_FILE
+
+_FOLDER, _DIGEST = "bda_run_folder", "bda_run_digest"
+
+
+def keep_run(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
+    """Keep with a scene where the results of its run are, and what they are known by."""
+    scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), summary["fingerprint"]["result"]
+
+
+def forget_run(scene: bpy.types.Scene) -> None:
+    """Keep no run with a scene any more."""
+    for name in (_FOLDER, _DIGEST):
+        if name in scene:
+            del scene[name]
+
+
+def has_run(scene: bpy.types.Scene) -> bool:
+    """Return whether a run is kept with a scene."""
+    return _FOLDER in scene
+
+
+def results_of_run(scene: bpy.types.Scene) -> Results:
+    """Return the results of the run that is kept with a scene: from its folder, or from one that moved with the file.
+
+    Raises
+    ------
+    OutputError
+        They are not there any more, are of another run by now, or cannot be read.
+    """
+    for folder in _places(Path(str(scene[_FOLDER]))):
+        if _digest_in(folder) == scene.get(_DIGEST):
+            return load_results(folder / RESULTS_FILE)
+    raise OutputError(
+        f"{scene[_FOLDER]}: holds the results of this scene's run no more; load them from where they are, or run the "
+        "scene again"
+    )
+
+
+def _places(folder: Path) -> Iterator[Path]:
+    yield folder
+    if bpy.data.filepath:
+        beside = Path(bpy.data.filepath).parent
+        yield from (beside, beside / folder.name)
+
+
+def _digest_in(folder: Path) -> str | None:
+    """Return what the results in a folder are known by; None where there are none that can be told."""
+    try:
+        return json.loads((folder / SUMMARY_FILE).read_text(encoding="utf-8"))["fingerprint"]["result"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return None

@@ -1,0 +1,128 @@
+"""A file that was saved after a run and is opened again: at its start frame, with the motion that was recorded."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+from places import SMALL
+
+from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.simulation.blender_events import contours_of
+
+LAST = 14
+
+
+@pytest.fixture
+def ran(extension, settings, tmp_path):
+    """The small bridge, built, run and saved at its last frame; the results are beside the file."""
+    settings.scenario_path = str(SMALL)
+    extension.ops.bda.build_scenario()
+    settings.output_directory = str(tmp_path / "results")
+    extension.context.scene.frame_end = LAST
+    extension.ops.bda.run()
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    return extension
+
+
+def reopen(bpy, path):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    return bpy.context.scene
+
+
+def shown(scene, names):
+    depsgraph = scene.view_layers[0].depsgraph
+    objects = scene.rigidbody_world.collection.all_objects
+    return np.array([objects[name].evaluated_get(depsgraph).matrix_world.translation for name in names])
+
+
+@pytest.mark.parametrize("contours", [False, True])
+def test_it_shows_what_was_recorded_whatever_frame_is_gone_to(ran, tmp_path, contours):
+    results = load_results(tmp_path / "results" / "results.npz")
+    ran.context.scene.bda.contours = contours
+    ran.ops.wm.save_mainfile()
+    scene = reopen(ran, tmp_path / "scene.blend")
+    assert scene.frame_current == 1
+    names, moves = results.inventory.body_names, results.inventory.masses_kg > 0.0
+    start = shown(scene, names)
+    assert start == pytest.approx(results.frames.positions_m[0], abs=1e-4)
+    fell = 0.0
+    for frame in (LAST, 3, 9, 1, LAST - 1):
+        scene.frame_set(frame)
+        row = max(frame - 2, 0)  # the first frame that is recorded is the second
+        assert results.frames.number[row] == max(frame, 2)
+        places = shown(scene, names)
+        assert places[moves] == pytest.approx(results.frames.positions_m[row][moves], abs=1e-4)
+        fell = max(fell, float(np.abs(places - start).max()))
+    assert fell > 0.3, "the ball falls 0.3 m"
+
+
+def test_a_colour_is_that_of_the_recorded_frame(ran, tmp_path):
+    scene = reopen(ran, tmp_path / "scene.blend")
+    scene.bda.contours = True
+    scene.frame_set(LAST)
+    frame, row = contours_of(scene).shown_frame()
+    assert row == LAST - 2 and np.isfinite(frame.screen_colours).any()
+    body = scene.rigidbody_world.collection.all_objects["Shard 000001"]
+    row = contours_of(scene).series.body_names.index("Shard 000001")
+    painted = body.evaluated_get(scene.view_layers[0].depsgraph).color
+    screen = frame.screen_colours[row][:3]
+    linear = np.where(screen <= 0.04045, screen / 12.92, ((screen + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
+    assert np.array(painted)[:3] == pytest.approx(linear, abs=1e-3)
+
+
+def test_results_that_moved_with_the_file_are_found(ran, tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    for name in ("scene.blend", "results"):
+        shutil.move(tmp_path / name, tmp_path / "elsewhere" / name)
+    scene = reopen(ran, tmp_path / "elsewhere" / "scene.blend")
+    assert contours_of(scene).shows_loaded and contours_of(scene).missing == ""
+
+
+@pytest.mark.parametrize("wrong", ["gone", "another run", "unreadable"])
+def test_results_that_are_not_its_own_are_not_shown_and_it_says_so(ran, tmp_path, wrong):
+    folder = tmp_path / "results"
+    if wrong == "gone":
+        shutil.rmtree(folder)
+    elif wrong == "another run":
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        summary["fingerprint"]["result"] = "0" * 64
+        (folder / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+    else:
+        (folder / "results.npz").write_bytes(b"PK nothing")
+    scene = reopen(ran, tmp_path / "scene.blend")
+    assert scene.frame_current == 1 and not contours_of(scene).shows_loaded
+    assert str(folder) in contours_of(scene).missing
+    start = shown(scene, ["Shard 000001", "Shard 000002"])
+    assert np.abs(start).max() > 0.5, "no shard is at the origin"
+
+
+def test_what_is_recorded_next_is_shown_instead(ran, tmp_path):
+    scene = reopen(ran, tmp_path / "scene.blend")
+    scene.bda.overwrite = True
+    ran.ops.bda.run()
+    assert not contours_of(scene).shows_loaded
+    assert contours_of(scene).recording.last_frame == LAST
+
+
+def test_blender_plays_on_its_own_where_that_is_wanted(ran, tmp_path):
+    scene = reopen(ran, tmp_path / "scene.blend")
+    scene.frame_set(LAST)
+    ran.ops.bda.forget_results()
+    assert scene.frame_current == 1
+    before = shown(scene, ["Shard 000001"])
+    scene.frame_set(LAST)  # which Blender does not simulate without the frames before it
+    assert shown(scene, ["Shard 000001"]) == pytest.approx(before)
+    with pytest.raises(RuntimeError, match="Blender's own motion is shown"):
+        ran.ops.bda.forget_results()
+
+
+def test_a_file_with_bodies_that_are_not_ours_stays_at_its_frame(extension, tmp_path):
+    from blocks import Blocks
+
+    blocks = Blocks()
+    blocks.block((0, 0, 5), 100.0)
+    blocks.scene.frame_set(7)
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "mine.blend"))
+    assert reopen(extension, tmp_path / "mine.blend").frame_current == 7
