@@ -37,6 +37,7 @@ class BlockSystem:
                 np.sort(np.stack((first, second), axis=1)[self._has_both], axis=1),
             )
         )
+        self._matrix: csc_matrix | None = None
         self._solver: qdldl.Solver | None = None
         self._find_places(blocks)
 
@@ -57,11 +58,12 @@ class BlockSystem:
         parts = (of_bodies, first[..., self._has_first], second[..., self._has_second], both)
         values = np.concatenate(parts, axis=2).reshape(-1)
         data = np.bincount(self._places, values, self._size + 1)[: self._size]
-        matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
         if self._solver is None:
-            self._solver = qdldl.Solver(matrix, upper=True)
+            self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
+            self._solver = qdldl.Solver(self._matrix, upper=True)
         else:
-            self._solver.update(matrix, upper=True)
+            self._matrix.data = data  # scipy takes longer to make a matrix than QDLDL to factor a small one
+            self._solver.update(self._matrix, upper=True)
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         """Return the unknowns (6, b) for a right-hand side (6, b)."""

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure at which load a slab with elastic connections comes down, by its number of shards, for docs/elastic.md.
+
+A slab of plain concrete, 5.1 m long, 1.5 m wide and 0.3 m deep, is fixed between two blocks. Its weight grows until it
+comes down. The load is over that at which beam theory has it crack at its ends, w L² / 12. Each slab has a process of
+its own. Usage: breaking_loads.py [SEEDS] writes docs/data/breaking_loads.csv; breaking_loads.py SHARDS SEED prints one.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bridge_demolition_addon.core.results.arrays import Results
+    from bridge_demolition_addon.core.scenario import Scenario
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+DATA = ROOT / "docs" / "data" / "breaking_loads.csv"
+SHARDS = (40, 120, 200)
+LENGTH_M, WIDTH_M, DEPTH_M, DENSITY_KG_M3 = 5.1, 1.5, 0.3, 2400.0
+DURATION_S, STEADY_S, LARGEST = 2.5, 0.1, 5.6
+"""How long it is simulated, from when on its weight grows, and how many times as heavy it is at last."""
+
+FALLEN_M = 0.02
+"""Of the median shard: many times the sag of a slab that stands."""
+
+SCENARIO = """
+[scenario]
+title = "Slab"
+seed = {seed}
+[time]
+duration_s = {duration_s}
+frames_per_second = 24
+substeps_per_frame = 20
+solver_iterations = 10
+{members}
+[fracture]
+shards = {shards}
+[connections]
+type = "FIXED"
+method = "face"
+material = "concrete"
+stiffness = "elastic"
+[[supports]]
+member = "start"
+[[supports]]
+member = "end"
+[shards]
+use_deactivation = false
+start_deactivated = false
+"""
+MEMBER = """
+[[geometry]]
+name = "{name}"
+file = "{name}.stl"
+density_kg_m3 = {density}
+"""
+
+
+def main(arguments: list[str]) -> int:
+    """Measure one slab, or all of them."""
+    if len(arguments) == 2:
+        print(measured(int(arguments[0]), int(arguments[1])), flush=True)
+        os._exit(0)  # Blender's own end may hang.
+    seeds = range(1, 1 + int(arguments[0] if arguments else 8))
+    rows = [(shards, seed, load_of(shards, seed)) for shards in SHARDS for seed in seeds]
+    with DATA.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([("shards", "seed", "load_over_theory"), *rows])
+    for shards in SHARDS:
+        loads = [load for count, _, load in rows if count == shards]
+        print(f"{shards} shards: median {statistics.median(loads):.2f}, {min(loads):.2f} to {max(loads):.2f}")
+    return 0
+
+
+def load_of(shards: int, seed: int) -> float:
+    """Load at which a slab comes down, measured in a process of its own."""
+    command = [sys.executable, __file__, str(shards), str(seed)]
+    return round(float(subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[-1]), 3)
+
+
+def measured(shards: int, seed: int) -> float:
+    """Load at which a slab comes down, over that at which beam theory has it crack."""
+    import numpy as np
+
+    from bridge_demolition_addon.core.mechanics.strength import MATERIALS
+    from bridge_demolition_addon.core.scenario.file import read_scenario
+    from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        keep_scenario(folder, shards, seed)
+        results = played(read_scenario(folder / "slab.toml"), folder)
+    heights = results.frames.positions_m[:, results.inventory.moves, 2]
+    fallen = np.median(heights[0] - heights, axis=1) > FALLEN_M
+    if not fallen.any():
+        raise SystemExit(f"breaking_loads: {shards} shards with seed {seed} stand at {LARGEST} times their weight")
+    before_s = results.frames.time_s[np.argmax(fallen) - 1]
+    load = np.interp(before_s, (STEADY_S, DURATION_S), (1.0, LARGEST))
+    stress_pa = DENSITY_KG_M3 * STANDARD_GRAVITY_M_S2 * LENGTH_M**2 / (2.0 * DEPTH_M)
+    return float(load * stress_pa / MATERIALS["concrete"].bending_pa)
+
+
+def played(scenario: Scenario, folder: Path) -> Results:
+    """Results of a scenario whose gravity grows."""
+    import bpy
+
+    from bridge_demolition_addon.core.sequence.checked_model import checked_model
+    from bridge_demolition_addon.scene.demolition import build_demolition
+    from bridge_demolition_addon.simulation.playback import Playing
+    from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    build_demolition(scene, scenario, checked_model(scenario))
+    weight = scene.gravity[2]
+    # As keyframes: Blender begins its simulation anew after any change of a setting.
+    for time_s, factor in ((DURATION_S, LARGEST), (STEADY_S, 1.0)):
+        scene.gravity[2] = factor * weight
+        scene.keyframe_insert("gravity", index=2, frame=scene.frame_start + time_s * scenario.time.frames_per_second)
+    for curve in scene.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+    playing = Playing(Recording(scene, folder))
+    while not playing.finished:
+        playing.step()
+    playing.end()
+    return playing.recording.results()
+
+
+def keep_scenario(folder: Path, shards: int, seed: int) -> None:
+    """Write the slab, the blocks at its ends, and the scenario, ``slab.toml``."""
+    import trimesh
+
+    block_m = 0.5
+    sides = {"slab": (LENGTH_M, 0.0), "start": (block_m, -1.0), "end": (block_m, 1.0)}
+    for name, (length_m, side) in sides.items():
+        mesh = trimesh.creation.box((length_m, WIDTH_M, DEPTH_M))
+        mesh.apply_translation((side * (LENGTH_M + block_m) / 2.0, 0.0, 10.0))
+        mesh.export(folder / f"{name}.stl")
+    members = "".join(MEMBER.format(name=name, density=DENSITY_KG_M3) for name in sides)
+    text = SCENARIO.format(seed=seed, duration_s=DURATION_S, members=members, shards=shards)
+    (folder / "slab.toml").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
