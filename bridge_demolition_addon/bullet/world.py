@@ -429,6 +429,11 @@ class BulletWorld:
         retire(self._layout, bound.dynamics, bound.bodies, connections, alive, bodies_stay=bodies_stay)
         bound.exists[:] = False
 
+    def holds_what_it_held(self) -> bool:
+        """Return whether Blender has made no constraint in place of one that was taken out, since the world was bound."""
+        count = read_value(self._bound.dynamics + self._layout.world.constraints + self._layout.array.count, "i")
+        return count == np.count_nonzero(self._bound.exists)
+
     def take_out_edited(self) -> list[bpy.types.Object]:
         """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
 

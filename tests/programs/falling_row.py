@@ -126,6 +126,14 @@ class FallingRow:
     def rename_connection(self) -> None:
         self.links[3].name = "Renamed"
 
+    def edit_others_after_going_back(self) -> None:
+        """In place of the first, Blender makes another constraint once it goes beyond the frames that it has played."""
+        self.scene.frame_set(6)
+        self.play(7, 14)
+        for link in self.links[:3] + self.links[4:]:
+            link.rigid_body_constraint.type = "POINT"
+            self.update()
+
     def go_on_falling(self) -> None:
         before = self.height()
         self.play(12, 40)

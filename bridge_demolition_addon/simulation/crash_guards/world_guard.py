@@ -13,7 +13,7 @@ from collections.abc import Callable
 import bpy
 
 from ...bullet.time_control import stop_time
-from ...bullet.world import BulletWorld
+from ...bullet.world import BulletWorld, WorldState
 from ...core.errors import DemolitionError, LayoutError
 from ...scene.bodies import bodies_of, is_marked
 from ...scene.connections.constraints import connections_of, loose_connections
@@ -129,7 +129,10 @@ class WorldGuard:
             self._objects, self._world = WorldObjects(scene), _world_of(scene)
         if self._world:
             try:
-                self._world.bind(depsgraph, to_read=False)
+                known = self._world.bind(depsgraph, to_read=False) is WorldState.KNOWN
+                if known and not self._world.holds_what_it_held():  # not before it goes beyond the frames it has played
+                    self._world.release()
+                    self._world.bind(depsgraph, to_read=False)
             except DemolitionError:
                 self._world.release()
                 self._world = None

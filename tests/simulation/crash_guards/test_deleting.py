@@ -134,6 +134,11 @@ def test_editing_and_then_deleting(tmp_path, edit):
     do(tmp_path, "watch", edit, "update", "remove_body", "update", "stand_still_until_the_start")
 
 
+@pytest.mark.parametrize("edit", EDITS)
+def test_editing_others_after_going_back(tmp_path, edit):
+    do(tmp_path, "watch", edit, "update", "edit_others_after_going_back", "go_on_falling")
+
+
 @pytest.mark.parametrize("edit", ["give_connection_one_body", "rename_connection"])
 def test_editing_a_connection_ends_a_recording(tmp_path, edit):
     do(tmp_path, "record", edit, "update", "recording_has_ended", "go_on_falling")
