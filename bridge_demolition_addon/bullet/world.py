@@ -430,7 +430,7 @@ class BulletWorld:
         bound.exists[:] = False
 
     def holds_what_it_held(self) -> bool:
-        """Return whether Blender has made no constraint in place of one that was taken out, since the world was bound."""
+        """Return whether Blender has made no constraint since the world was bound, as it does after an edit."""
         count = read_value(self._bound.dynamics + self._layout.world.constraints + self._layout.array.count, "i")
         return count == np.count_nonzero(self._bound.exists)
 
