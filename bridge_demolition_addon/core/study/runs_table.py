@@ -118,6 +118,11 @@ class RunsTable:
         return np.array([row.status == DONE and row.outputs.get(name) is True for row in self.rows], bool)
 
 
+def cells_of(inputs: Mapping[str, Any], names: Sequence[str]) -> tuple[str, ...]:
+    """Return values as they stand in the table, by which a draw is known: no other has the same inputs."""
+    return tuple(_cell(inputs.get(name)) for name in names)
+
+
 def write_runs(table: RunsTable, path: Path) -> None:
     """Write the table of a study, whole or not at all; the same rows give the same bytes."""
     with whole_file(path) as part, part.open("w", encoding="utf-8", newline="") as file:

@@ -7,6 +7,7 @@ import zipfile
 import zlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from manifold3d import CrossSection
 
@@ -14,11 +15,11 @@ from ...core.array_files.archive import read_archive
 from ...core.errors import OutputError, ScenarioError, UnreadableError
 from ...core.geometry.plan_areas import united
 from ...core.reading import MEGABYTE, check_file, file_text
-from ...core.study.draws import draw_of
-from ...core.study.file import Study, read_study
+from ...core.study.file import read_study
 from ...core.study.files import (
     AGAIN_FOLDER,
     DRAW_FOLDER,
+    OUTCOME_FILE,
     OUTLINES_FILE,
     RUN_FOLDER,
     RUNS_FILE,
@@ -26,12 +27,13 @@ from ...core.study.files import (
     VERSIONS_FILE,
 )
 from ...core.study.outcome import Outlines
-from ...core.study.runs_table import DONE, Row, RunsTable, read_runs
+from ...core.study.runs_table import DONE, RunsTable, cells_of, read_runs
 from ..run_folder import pictures_in
 from .study_runs import StudyRuns
 
 _MOST_BYTES = 100 * MEGABYTE
 _NOT_OUTLINES = (OSError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error)
+_GO_ON = "go on with the command that started the study"
 _BEYOND_M2 = 1e-3
 """Area by which the plan of a bridge has to stick out of others to be another one."""
 
@@ -54,12 +56,11 @@ def read_study_runs(folder: Path) -> StudyRuns:
     except ScenarioError as error:
         raise OutputError(str(error)) from error
     if not (folder / RUNS_FILE).exists():
-        raise OutputError(f"{folder}: holds no {RUNS_FILE} yet: go on with the command that started the study")
+        raise OutputError(f"{folder}: holds no {RUNS_FILE} yet: {_GO_ON}")
     table = read_runs(folder / RUNS_FILE)
     if not len(table):
-        raise OutputError(f"{folder}: no run of this study is there yet: go on with the command that started it")
-    versions = _versions(folder / VERSIONS_FILE)
-    draws = _draw_folders(folder, study, table, versions)
+        raise OutputError(f"{folder}: no run of this study is there yet: {_GO_ON}")
+    draws = _draw_folders(folder / DRAW_FOLDER, table)
     outlines = {number: _outlines(draw) for number, draw in draws.items()}
     return StudyRuns(
         name=folder.resolve().name,
@@ -68,21 +69,38 @@ def read_study_runs(folder: Path) -> StudyRuns:
         swept=[outlines[row.number].swept if row.number in outlines else None for row in table.rows],
         bridge=_common_plan(each.bridge for each in outlines.values()),
         pictures=_pictures(folder, draws),
-        versions=versions,
+        versions=_versions(folder / VERSIONS_FILE),
     )
 
 
-def _draw_folders(folder: Path, study: Study, table: RunsTable, versions: Mapping[str, str]) -> dict[int, Path]:
-    """Return the folders of all draws that finished, by their numbers."""
-    done = [row for row in table.rows if row.status == DONE]
-    return {row.number: folder / DRAW_FOLDER / _address(study, row, versions) for row in done}
+def _draw_folders(draws: Path, table: RunsTable) -> dict[int, Path]:
+    """Return the folders of all draws that finished, by their numbers.
+
+    They are known by their inputs: their addresses depend on the version that ran them, which may be another than this.
+    """
+    by_inputs = {}
+    for path in draws.glob(f"*/{OUTCOME_FILE}"):
+        if inputs := _inputs_of_done(path):
+            by_inputs[cells_of(inputs, table.inputs)] = path.parent
+    found = {}
+    for row in table.rows:
+        if row.status == DONE:
+            draw = by_inputs.get(cells_of(row.inputs, table.inputs))
+            if draw is None:
+                raise OutputError(f"{draws}: draw {row.number} of {RUNS_FILE} is not there: {_GO_ON}")
+            found[row.number] = draw
+    return found
 
 
-def _address(study: Study, row: Row, versions: Mapping[str, str]) -> str:
+def _inputs_of_done(path: Path) -> dict[str, Any] | None:
+    """Return the inputs of a draw that finished, None of another."""
     try:
-        return draw_of(study, row.number).address(versions)
-    except ScenarioError as error:
-        raise OutputError(f"draw {row.number}: {error}") from error
+        kept = json.loads(file_text(path, _MOST_BYTES))
+        return dict(kept["inputs"]) if kept["status"] == DONE else None
+    except (UnreadableError, ValueError, KeyError, TypeError) as error:
+        raise OutputError(
+            f"{path}: expected what came of a draw ({error}): delete {path.parent}, and {_GO_ON}"
+        ) from error
 
 
 def _versions(path: Path) -> dict[str, str]:
@@ -99,8 +117,7 @@ def _outlines(draw: Path) -> Outlines:
         return Outlines.of_arrays(read_archive(path))
     except (UnreadableError, *_NOT_OUTLINES) as error:
         raise OutputError(
-            f"{path}: expected what debris covered in a run ({error}): delete {draw}, and go on with the command that "
-            "started the study"
+            f"{path}: expected what debris covered in a run ({error}): delete {draw}, and {_GO_ON}"
         ) from error
 
 
