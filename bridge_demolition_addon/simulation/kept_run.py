@@ -33,6 +33,11 @@ def has_run(scene: bpy.types.Scene) -> bool:
     return _FOLDER in scene
 
 
+def is_run_of(scene: bpy.types.Scene, folder: Path) -> bool:
+    """Return whether a folder holds the results of the run that is kept with a scene."""
+    return has_run(scene) and _digest_in(folder) == scene.get(_DIGEST)
+
+
 def results_of_run(scene: bpy.types.Scene) -> Results:
     """Return the results of the run that is kept with a scene: from its folder, or from one that moved with the file.
 

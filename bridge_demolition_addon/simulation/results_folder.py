@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ from ..core.results.files import (
 )
 from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
-from ..core.scenario.file import scenario_text
+from ..core.scenario.file import read_scenario, scenario_text
 
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""
@@ -147,6 +148,35 @@ def keep_scenario(folder: Path, scenario: Scenario, made_by_hand: Sequence[str] 
     """Write the scenario of a run, and in comments above it what was made by hand and no scenario can say."""
     lines = [f"# Changed in Blender, and not in this scenario: {each}.\n" for each in made_by_hand]
     write_whole_text(folder / SCENARIO_FILE, "".join([*lines, scenario_text(scenario)]))
+
+
+def keep_site(folder: Path, site: Mapping[str, Any]) -> None:
+    """Put other zones, another exclusion zone and the like into the scenario of a run that has one.
+
+    They take no part in the simulation: reports read them there.
+
+    Parameters
+    ----------
+    folder
+        Of the run.
+    site
+        Values of fields of a scenario.
+
+    Raises
+    ------
+    OutputError
+        The folder is being written to, or cannot be.
+    ScenarioError
+        Its scenario cannot be read.
+    """
+    if not (folder / SCENARIO_FILE).is_file():
+        return
+    kept = read_scenario(folder / SCENARIO_FILE)
+    scenario = replace(kept, **site)
+    if scenario != kept:
+        with FolderLock(folder):
+            summary = json.loads((folder / SUMMARY_FILE).read_text(encoding="utf-8"))
+            keep_scenario(folder, scenario, summary.get("made_by_hand", ()))
 
 
 def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:

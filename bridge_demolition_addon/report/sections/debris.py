@@ -47,7 +47,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
     if zone is None:
         words = (
             "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to scenario_as_run.toml in "
-            "the folder of the run, and make the report again to have the zone drawn here."
+            "the folder of the run, or tick it in Blender's sidebar, and make the report again to have the zone here."
         )
         return Section("Exclusion zone", (Paragraph(words, is_notice=True),))
     settings = run.scenario.exclusion

@@ -10,8 +10,11 @@ from ...core.blast.models import BlastModel
 from ...core.errors import OutputError, SimulationError, writing
 from ...core.results.files import FORCE_CHART
 from ...core.results.summary import first_hit_s
+from ...simulation.kept_run import is_run_of
+from ...simulation.results_folder import keep_site
 from ..operators import Action, absolute, recording_runs
 from ..recording.session import last_recording
+from ..scenario.built import shown_site
 from ..viewport import look_at_selected, select_only
 
 _CHARTS = "charts"
@@ -95,7 +98,7 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
 
 
 class BDA_OT_make_report(Action, bpy.types.Operator):
-    """Make a report, as a page and as a PDF, from the results in the folder"""
+    """Make a report, as a page and as a PDF, from the results in the folder, with zones and neighbours as shown here"""
 
     bl_idname = "bda.make_report"
     bl_label = "Make Report"
@@ -111,9 +114,12 @@ class BDA_OT_make_report(Action, bpy.types.Operator):
         # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.
         from ...report.write import write_report
 
+        scene, folder = context.scene, absolute(context.scene.bda.output_directory)
+        if is_run_of(scene, folder):
+            keep_site(folder, shown_site(scene.bda))
         progress = _CursorProgress(context.window_manager)
         try:
-            written = write_report([absolute(context.scene.bda.output_directory)], None, progress=progress)
+            written = write_report([folder], None, progress=progress)
         finally:
             progress.finish()
         return f"Report: {written[0]} and {written[1].name}"

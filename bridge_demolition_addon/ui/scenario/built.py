@@ -22,9 +22,12 @@ from ...core.schema import Table, holds_many, is_optional, key_fields, key_name,
 from ...core.single_precision import shortest
 from ...scene.as_run import time_settings
 from .prop import USE, is_written_out, shown_tables, vector_length
-from .values import list_of, scenario_of, show_inner
+from .values import inner_of, list_of, scenario_of, show_inner
 
-_AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", "zones", "exclusion", "site", "neighbours")
+_SITE = ("zones", "exclusion", "site", "neighbours")
+"""What only reports read of a scenario."""
+
+_AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", *_SITE)
 """What a run takes of a scenario as it is shown when it begins."""
 
 _TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
@@ -134,6 +137,18 @@ def counts_in_building(item: Field) -> bool:
     if subtable_class(item) is None:
         return item.name not in ("title", *_TIME_AS_SHOWN)
     return item.name not in _AS_SHOWN
+
+
+def shown_site(settings: bpy.types.PropertyGroup) -> dict[str, Any]:
+    """Return what only reports read of a scenario, as the panels show it.
+
+    Raises
+    ------
+    ScenarioError
+        A value cannot be used; the text names the key.
+    """
+    fields = {item.name: item for item in shown_tables(Scenario)}
+    return {name: inner_of(settings.scenario, fields[name]) for name in _SITE}
 
 
 def changed_in_blender(scene: bpy.types.Scene) -> list[Change]:

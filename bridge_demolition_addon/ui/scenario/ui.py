@@ -28,10 +28,10 @@ _PARENTS = {
     "ground": "BDA_PT_shards",
     "blast": "BDA_PT_explosion",
     "recording": "BDA_PT_handler",
-    "site": "BDA_PT_results",
-    "zones": "BDA_PT_results",
-    "exclusion": "BDA_PT_results",
-    "neighbours": "BDA_PT_results",
+    "site": "BDA_PT_scenario",
+    "zones": "BDA_PT_scenario",
+    "exclusion": "BDA_PT_scenario",
+    "neighbours": "BDA_PT_scenario",
 }
 """Panels that other tables stand in; those not named here belong to the sequence."""
 

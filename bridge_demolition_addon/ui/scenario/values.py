@@ -60,8 +60,23 @@ def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others:
     given = values_from_text(getattr(group, GIVEN), {})
     values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in key_fields(table_class)}
     for item in shown_tables(table_class):
-        values[item.name] = _inner(group, item)
+        values[item.name] = inner_of(group, item)
     return table_class(**values, **others)
+
+
+def inner_of(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, ...] | None:
+    """Return the table, or the tables, that a group shows in one field; None where it is not used.
+
+    Raises
+    ------
+    ScenarioError
+        A value cannot be used; the text names the key.
+    """
+    table_class = subtable_class(item)
+    inner = getattr(group, item.name)
+    if not holds_many(item):
+        return None if is_optional(item) and not getattr(group, USE + item.name) else table_of(inner, table_class)
+    return numbered_tables(table_class, inner, lambda each: table_of(each, table_class))
 
 
 def show_scenario(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
@@ -136,14 +151,6 @@ def list_of(text: str, name: str, item: Field) -> list:
         if list(document) == ["list"] and isinstance(document["list"], list):
             return document["list"]
     raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
-
-
-def _inner(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, ...] | None:
-    table_class = subtable_class(item)
-    inner = getattr(group, item.name)
-    if not holds_many(item):
-        return None if is_optional(item) and not getattr(group, USE + item.name) else table_of(inner, table_class)
-    return numbered_tables(table_class, inner, lambda each: table_of(each, table_class))
 
 
 def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, given: Any) -> Any:
