@@ -77,8 +77,8 @@ class StudyFolder:
         return self.draws / address
 
     def work_folder(self, address: str) -> Path:
-        """Return where a draw's files are written while it is at work."""
-        return self.draws / f"{address}{_PART}"
+        """Return where a draw's files are written while it is at work; no process of a study that was killed does."""
+        return self.draws / f"{address}-{os.getpid()}{_PART}"
 
     def end_of(self, address: str) -> End | None:
         """Return what became of a draw; None where it is still to be run."""

@@ -42,7 +42,8 @@ def test_pandas_reads_all_draws_in_one_line(study, done):
     assert table["status"].tolist() == ["done"] * RUNS
     inputs = [draw_of(read_study(study), number).inputs for number in range(1, RUNS + 1)]
     for name in ("scenario.seed", "ball.mass_kg"):
-        assert table[f"in.{name}"].tolist() == [each[name] for each in inputs]
+        # Some versions of pandas read the last bit of a number as they like.
+        assert table[f"in.{name}"].tolist() == pytest.approx([each[name] for each in inputs], rel=1e-15)
     assert (table["out.broken"] > 0).all() and np.isfinite(table["out.reach_m"]).all()
 
 
