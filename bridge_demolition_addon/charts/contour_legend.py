@@ -50,7 +50,7 @@ def legend_pixels(height_px: int, settings: ContourSettings, frame: ContourFrame
     axes.yaxis.tick_right()
     axes.set_yticks(bar.tick_shares, bar.tick_texts)
     axes.tick_params(colors="white", labelsize=em_points)
-    heading = [*wrap(bar.title, _TITLE_LETTERS), *filter(None, [bar.subtitle]), bar.unit]
+    heading = [*wrap(bar.title, _TITLE_LETTERS), *wrap(bar.subtitle, _TITLE_LETTERS), bar.unit]
     text = {"color": "white", "fontsize": em_points, "parse_math": False}
     figure.text(left, 1.0 - bottom / 3.0, "\n".join(heading), va="top", **text)
     figure.text(left, bottom / 2.0, f"{bar.frame}\n{bar.time}", va="center", **text)

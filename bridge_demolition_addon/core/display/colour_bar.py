@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .colour_scale import tick_text
-from .contours import TITLES, ContourFrame, ContourSettings, unit_of
+from .contours import PEAKS_OF_SUBSTEPS, TITLES, ContourFrame, ContourSettings, Quantity, unit_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,7 +54,12 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
 
 
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
-    if settings.peak:
-        yield "peak so far"
+    if settings.quantity == Quantity.DISPLACEMENT:
+        if settings.peak:
+            yield "peak so far"
+    elif settings.peak:
+        yield "sub-step peak so far" if settings.quantity in PEAKS_OF_SUBSTEPS else "frame mean, peak so far"
+    else:
+        yield "frame mean"
     if settings.magnification != 1.0:
         yield f"shape × {settings.magnification:g}"

@@ -45,6 +45,10 @@ STRESSES = (Quantity.VON_MISES, Quantity.PRINCIPAL)
 """Quantities in Pa. Displacement is in m, and all others are in N."""
 
 
+PEAKS_OF_SUBSTEPS = (Quantity.RESULTANT, Quantity.SUM)
+"""Quantities whose largest value of all sub-steps of a frame is recorded beside the mean over the frame."""
+
+
 class RangeKind(StrEnum):
     """Which values the lowest and the highest colour stand for."""
 

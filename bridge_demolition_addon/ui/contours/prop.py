@@ -11,8 +11,18 @@ from ..sidebar import path_property
 from . import view as contour_view
 
 _QUANTITIES = (
-    (Quantity.RESULTANT.name, TITLES[Quantity.RESULTANT], "Magnitude of the sum of all contact and connection forces"),
-    (Quantity.SUM.name, TITLES[Quantity.SUM], "Sum of the magnitudes of all contact and connection forces"),
+    (
+        Quantity.RESULTANT.name,
+        TITLES[Quantity.RESULTANT],
+        "Magnitude of the sum of all contact and connection forces: its mean over each frame, or its largest in any "
+        "sub-step with Peak So Far",
+    ),
+    (
+        Quantity.SUM.name,
+        TITLES[Quantity.SUM],
+        "Sum of the magnitudes of all contact and connection forces: its mean over each frame, or its largest in any "
+        "sub-step with Peak So Far",
+    ),
     (Quantity.VON_MISES.name, TITLES[Quantity.VON_MISES], "Equivalent stress, averaged over the body"),
     (Quantity.PRINCIPAL.name, TITLES[Quantity.PRINCIPAL], "Largest tension, averaged over the body"),
     (
@@ -70,7 +80,8 @@ class ContourProperties:
     )
     contour_peak: BoolProperty(
         name="Peak So Far",
-        description="Show the largest value up to the frame instead of that of the frame",
+        description="Show the largest value up to the frame: of forces the peak of all sub-steps, as in Results. In an "
+        "impact that is many times the mean over its frame",
         update=_follow,
     )
     contour_range: EnumProperty(

@@ -8,6 +8,7 @@ from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
 
 _N_PER_KN = 1000.0
+_MS_PER_S = 1000.0
 
 
 class BDA_PT_results(SidebarPanel, bpy.types.Panel):
@@ -26,7 +27,9 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         column = layout.column(align=True)
         for line in lines_of(summary):
             column.label(text=line)
-        self._draw_place("Largest peak force", summary["largest_resultant"], last_frame=None)
+        self._draw_place("Peak force", summary["largest_resultant"], last_frame=None)
+        if summary["largest_resultant"]:
+            draw_sentence(layout, context, explained_peak(summary), icon="INFO")
         self._draw_place("Largest throw", summary["largest_throw"], last_frame=last.recording.last_frame)
         row = layout.row(align=True)
         row.operator("bda.open_results")
@@ -55,6 +58,14 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
 
 
 CLASSES = (BDA_PT_results, BDA_PT_report)
+
+
+def explained_peak(summary: dict[str, Any]) -> str:
+    """Return in a sentence what the peak force is, and why the contours show another number."""
+    return (
+        f"The resultant on a shard in its worst sub-step, of {summary['substep_s'] * _MS_PER_S:.3g} ms. Contours show "
+        "the frame mean, or with Peak So Far this peak"
+    )
 
 
 def lines_of(summary: dict[str, Any]) -> list[str]:

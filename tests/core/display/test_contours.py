@@ -61,7 +61,29 @@ def test_a_magnified_shape_is_displaced_and_turned_so_many_times_as_much():
     expected = [[np.cos(0.3), -np.sin(0.3)], [np.sin(0.3), np.cos(0.3)]]
     np.testing.assert_allclose(shown.rotations[LOWER, :2, :2], expected, atol=1e-6)  # kept in single precision
     assert series.magnified(4, 1.0).positions_m[LOWER].tolist() == series.frame(4).positions_m[LOWER].tolist()
-    assert colour_bar(ContourSettings(magnification=3.0), series.show(4, ContourSettings())).subtitle == "shape × 3"
+    magnified = colour_bar(ContourSettings(magnification=3.0), series.show(4, ContourSettings()))
+    assert magnified.subtitle == "frame mean, shape × 3"
+
+
+@pytest.mark.parametrize(
+    "quantity, peak, subtitle, ball_n",
+    [
+        # Half a frame at 6000 g: see above.
+        (Quantity.RESULTANT, False, "frame mean", 3000 * G),
+        (Quantity.RESULTANT, True, "sub-step peak so far", 6000 * G),
+        (Quantity.SUM, True, "sub-step peak so far", 6000 * G),
+        (Quantity.VON_MISES, False, "frame mean", None),
+        (Quantity.VON_MISES, True, "frame mean, peak so far", None),
+        (Quantity.DISPLACEMENT, False, "", None),
+        (Quantity.DISPLACEMENT, True, "peak so far", None),
+    ],
+)
+def test_the_colour_bar_says_whether_it_is_a_mean_or_a_peak(series, quantity, peak, subtitle, ball_n):
+    settings = ContourSettings(quantity=quantity, peak=peak)
+    shown = series.show(4, settings)
+    assert colour_bar(settings, shown).subtitle == subtitle
+    if ball_n:
+        assert shown.values[BALL] == pytest.approx(ball_n)
 
 
 def test_what_never_moves_has_no_value(series):

@@ -4,12 +4,14 @@ import csv
 import json
 import sys
 
+import numpy as np
 import pytest
 from places import SMALL
 
+from bridge_demolition_addon.core.display.contours import ContourSettings
 from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.simulation.blender_events import running_recording
-from bridge_demolition_addon.ui.results.ui import lines_of
+from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording
+from bridge_demolition_addon.ui.results.ui import explained_peak, lines_of
 
 FRAMES = 20
 
@@ -191,6 +193,22 @@ def test_results_tell_the_totals(built, tmp_path):
     assert lines_of(summary)[0] == "Total mass: 57 600 kg"
     broken, count = summary["connections"]["broken"], len(built.context.scene.rigidbody_world.constraints.objects)
     assert lines_of(summary)[1] == f"Broken: {broken} of {count} connections"
+
+
+def test_the_peak_force_of_the_results_is_that_of_contours_with_peaks(built, tmp_path):
+    record(built)
+    summary = json.loads((tmp_path / "results" / "summary.json").read_text())
+    series = contours_of(built.context.scene).series
+    shards = [name.startswith("Shard") for name in series.body_names]
+    last = series.show(len(series.frames) - 1, ContourSettings(peak=True)).values[shards]
+    assert last.max() == pytest.approx(summary["largest_resultant"]["force_N"], rel=1e-6)
+    results = load_results(tmp_path / "results" / "results.npz")
+    means = np.linalg.norm(results.frames.loads.body_forces_n[:, shards], axis=2)
+    shown = [series.show(row, ContourSettings()).values[shards].max() for row in range(len(series.frames))]
+    assert max(shown) == pytest.approx(means.max(), rel=1e-6)
+    assert max(shown) < last.max(), "an impact lasts a part of a frame"
+    # 1/240 s: the small bridge has 24 frames a second and the default of ten sub-steps.
+    assert "worst sub-step, of 4.17 ms" in explained_peak(summary)
 
 
 def test_charts_are_drawn_into_the_folder(built, tmp_path):
