@@ -53,8 +53,9 @@ def study_plan(
         draw_area(axes, area, fill=False, edgecolor=LIMIT_COLOUR, label=plain(label), **style)
     low, high = _corners([bridge, *likely.values(), *limits.values()], zones)
     near = [each for each in neighbours if _is_within(each, low, high)]
-    for each in near:
-        axes.plot(*each.place_m[:2], "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
+    if near:
+        places = np.array([each.place_m[:2] for each in near])
+        axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
     fit(axes, figure)
     name_zones(axes, figure, zones)
     for each in near:

@@ -92,6 +92,14 @@ def test_nothing_is_beside_the_page_or_over_anything_else(report):
             assert min(over) < SLACK_MM, (number, first, second)
 
 
+def test_no_heading_stands_at_the_foot_of_a_page(report):
+    for number, page in enumerate(pdf.laid_out(*report), start=1):
+        headings = [line.base_mm for line in page.lines if line.font == pdf.HEADING]
+        below = [line.base_mm for line in page.lines if line.font != pdf.HEADING and line.base_mm < pdf.BOTTOM_MM + 1.0]
+        below += [top for _, _, top in page.drawings]
+        assert not headings or max(below, default=0.0) > max(headings), number
+
+
 def test_no_picture_is_cut_off(report):
     _, drawn = report
     assert len(drawn) >= 4

@@ -59,7 +59,7 @@ def test_runs_that_did_not_finish_are_named_and_count():
 
 
 def test_runs_that_still_moved_are_counted(told):
-    assert any(text.startswith("Not everything rested at the end of 3 of 93 runs") for text in told.notices)
+    assert any(text.startswith("In 3 of 93 runs not everything had rested for 1 s when") for text in told.notices)
 
 
 def test_areas_are_those_that_geometry_gives(runs, told):

@@ -33,6 +33,12 @@ SMALLEST_COLUMN_MM = 14.0
 _KEPT_TOGETHER_MM = 112.0
 """A table whose rows are not higher stays on one page."""
 
+_HIGHEST_FIRST_MM = 200.0
+"""What begins a section and is not higher stands on the page of its heading."""
+
+_CAPTION_MM = 18.0
+"""What a caption of two lines takes, with the room around it."""
+
 _ROWS_AT_FOOT = 3
 """Of a longer table at least so many rows stand below its headings."""
 
@@ -104,7 +110,7 @@ class _Pages:
 
     def heading(self, text: str, first: Block | None) -> None:
         """Write a section's heading, never at the foot of a page alone."""
-        self._need(22.0 + min(_height_mm(first), 160.0))
+        self._need(22.0 + min(_height_mm(first), _HIGHEST_FIRST_MM))
         self._y += 6.0
         self.text(text, HEADING, after_mm=0.5)
         self._rule(0.8)
@@ -219,9 +225,9 @@ def _height_mm(block: Block | None) -> float:
     """Return about how much of a page the beginning of a block takes."""
     match block:
         case Picture():
-            return block.height_mm
+            return block.height_mm + _CAPTION_MM
         case Photo():
-            return PAGE_WIDTH_MM * 9.0 / 16.0
+            return PAGE_WIDTH_MM * 9.0 / 16.0 + _CAPTION_MM
         case _:
             return 15.0
 

@@ -78,8 +78,9 @@ def _doubts(runs: StudyRuns) -> Iterator[str]:
     moving = _still_moving(runs)
     if moving:
         yield (
-            f"Not everything rested at the end of {moving} of {len(runs.table)} runs: their debris may have gone on. "
-            "Give the scenario a longer time.duration_s."
+            f"In {moving} of {len(runs.table)} runs not everything had rested for "
+            f"{runs.study.scenario.time.rest_hold_s:g} s when their time was over: debris may have gone on. Give the "
+            "scenario a longer time.duration_s."
         )
 
 
