@@ -19,7 +19,7 @@ def study_file(folder, runs=8, deeds=("nothing",), scenario=SHORT_RUN, **setting
 scenario = "scenario.toml"
 runs = {runs}
 quantile = 0.5
-confidence = 0.75
+confidence = 0.5
 rank = 1
 {more}
 [[vary]]

@@ -21,7 +21,7 @@ from .draw_process import End
 from .engine import Engine, Task
 from .folder import StudyFolder
 
-_LOOKED_UP_AT_A_TIME = 200
+_LOOKED_UP_AT_A_TIME = 25
 """Draws that are looked up before whoever asks for a step is answered."""
 
 

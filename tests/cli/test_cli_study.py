@@ -102,10 +102,10 @@ def seed_of(folder, number):
 
 @pytest.mark.parametrize("keep, more", [("logs", ["force_log.csv"]), ("all", ["force_log.csv", "results.npz"])])
 def test_more_is_kept_where_it_is_asked_for(tmp_path, keep, more):
-    study = study_file(tmp_path / "in", 2, ("One",), BRIEF, keep=keep)
+    study = study_file(tmp_path / "in", 1, ("One",), BRIEF, keep=keep)
     assert run_bda("study", study, "--output", tmp_path / "out", "--quiet") == (0, "", "")
     runs = list((tmp_path / "out").glob("draws/*/run"))
-    assert len(runs) == 2
+    assert len(runs) == 1
     for run in runs:
         assert {"summary.json", "scenario_as_run.toml", *more} <= {path.name for path in run.iterdir()}
         assert (run / "results.npz").exists() == (keep == "all")
