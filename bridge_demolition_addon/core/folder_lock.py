@@ -44,6 +44,8 @@ class FolderLock:
     ----------
     folder
         Existing folder.
+    is_new
+        Whether it was made for this holder.
 
     Raises
     ------
@@ -52,12 +54,12 @@ class FolderLock:
 
     Attributes
     ----------
-    folder
+    folder, is_new
         As given.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, *, is_new: bool = False) -> None:
+        self.folder, self.is_new = folder, is_new
         self._path = folder / LOCK_FILE
         with writing(folder):
             self._file = _locked_file(self._path)

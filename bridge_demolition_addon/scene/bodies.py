@@ -63,6 +63,13 @@ def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]
 
 
+def lacks_ground(scene: bpy.types.Scene) -> bool:
+    """Return whether a scene has shards that were built here, and no ground under them, nor any of the user's own."""
+    bodies = bodies_of(scene)
+    has_ours = any(is_marked(body) and kind_of(body) == Kind.SHARD for body in bodies)
+    return has_ours and all(kind_of(body) != Kind.GROUND for body in bodies)
+
+
 def scaled_mesh(body: bpy.types.Object) -> TriangleMesh:
     """Return a body's triangles, scaled as it is, from its origin, which Bullet takes for its centre of mass."""
     mesh = triangle_mesh(body.data)

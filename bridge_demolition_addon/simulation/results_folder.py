@@ -37,13 +37,14 @@ def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
     Raises
     ------
     OutputError
-        The folder is there already and may not be overwritten, is no folder, cannot be written, or another run is at
+        The folder has something in it and may not be overwritten, is no folder, cannot be written, or another run is at
         work in it.
     """
     check_folder(folder, overwrite=overwrite)
+    is_new = not folder.exists()
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
-    lock = FolderLock(folder)
+    lock = FolderLock(folder, is_new=is_new)
     try:
         with writing(folder):
             _clear(folder)
@@ -72,30 +73,30 @@ def lock_in_place(lock: FolderLock) -> FolderLock:
 
 
 def withdraw_folder(lock: FolderLock) -> None:
-    """Take back a folder that was prepared for a run which came to nothing; what is not of a run stays in it."""
+    """Take back a folder that was prepared for a run which came to nothing; one that was there before stays."""
     folder = lock.folder
     lock.release()
     for name in RESULT_FILES:
         (folder / name).unlink(missing_ok=True)
-    for empty in (folder / PICTURE_FOLDER, folder):
+    for empty in (folder / PICTURE_FOLDER, *([folder] if lock.is_new else [])):
         if empty.is_dir() and not any(empty.iterdir()):
             empty.rmdir()
 
 
 def check_folder(folder: Path, *, overwrite: bool) -> None:
-    """See that a folder for results is new or may be overwritten, without changing anything.
+    """See that a folder for results is new or empty, or may be overwritten, without changing anything.
 
     Raises
     ------
     OutputError
-        The folder is there already and may not be overwritten, is no folder, has a path that is too long for Blender,
-        or another run is at work in it.
+        The folder has something in it and may not be overwritten, is no folder, has a path that is too long for
+        Blender, or another run is at work in it.
     """
     with writing(folder):
         if folder.exists() and not folder.is_dir():
             raise OutputError(f"{folder}: expected a folder for the results, found a file")
-        if folder.exists() and not overwrite:
-            raise OutputError(f"{folder}: exists already; choose another folder or allow overwriting")
+        if folder.exists() and not overwrite and any(folder.iterdir()):
+            raise OutputError(f"{folder}: exists already, and is not empty; choose another folder or allow overwriting")
         longest = max(len(os.fsencode(folder.resolve() / name)) for name in RESULT_FILES)
     if (excess := longest - _BLENDERS_LONGEST_PATH) > 0:
         raise OutputError(

@@ -103,6 +103,7 @@ def test_none_is_run_where_one_is_refused(files, text, words, tmp_path, capsys):
 def test_none_is_run_where_results_of_one_are_there(files, tmp_path, capsys):
     there = tmp_path / "out" / "side"
     there.mkdir(parents=True)
+    (there / "summary.json").write_text("mine", encoding="utf-8")
     assert f"{there}: exists already" in refused(capsys, *files, "--output", tmp_path / "out")
     assert [path.name for path in there.parent.iterdir()] == ["side"]
 

@@ -34,9 +34,18 @@ def test_a_new_folder_is_made_with_its_parents(tmp_path, overwrite):
 
 def test_a_folder_that_is_there_is_not_touched(tmp_path):
     (tmp_path / "summary.json").write_text("kept")
-    with pytest.raises(OutputError, match=r"exists already; choose another folder or allow overwriting"):
+    with pytest.raises(OutputError, match=r"exists already, and is not empty; choose another folder or"):
         prepare_folder(tmp_path, overwrite=False)
     assert (tmp_path / "summary.json").read_text() == "kept"
+
+
+def test_an_empty_folder_is_as_good_as_a_new_one_and_stays(tmp_path):
+    """As file browsers make them."""
+    folder = tmp_path / "made"
+    folder.mkdir()
+    lock = prepare_folder(folder, overwrite=False)
+    withdraw_folder(lock)
+    assert folder.is_dir() and not list(folder.iterdir())
 
 
 def test_overwriting_clears_results_and_nothing_else(tmp_path):

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from numbers import Real
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from ...core.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
 from ...core.errors import BlastError, DemolitionError
@@ -116,7 +116,7 @@ def _charge(empty: bpy.types.Object) -> Charge:
     try:
         return Charge(
             name=empty.name,
-            place_m=tuple(empty.matrix_world.translation),
+            place_m=tuple(_place_of(empty)),
             mass_kg=empty[MASS],
             explosive=explosive_named(empty[EXPLOSIVE]).name,
             delay_ms=_in_ms(empty[DELAY]),
@@ -124,6 +124,12 @@ def _charge(empty: bpy.types.Object) -> Charge:
         )
     except DemolitionError as error:
         raise BlastError(f"{empty.name}: {error}") from error
+
+
+def _place_of(empty: bpy.types.Object) -> Vector:
+    """Return where a charge is; after undo Blender knows the place of one in the world only once it has drawn it."""
+    hangs_on_something = empty.parent or len(empty.constraints)
+    return (empty.matrix_world if hangs_on_something else empty.matrix_basis).translation
 
 
 def _in_ms(delay_s: float) -> float:

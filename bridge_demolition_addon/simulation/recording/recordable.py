@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ...core.errors import SimulationError
-from ...scene.bodies import bodies_of
+from ...scene.bodies import bodies_of, lacks_ground
 from ...scene.connections.constraints import loose_connections
 
 
@@ -15,8 +15,8 @@ def check_recordable(scene: bpy.types.Scene) -> None:
     Raises
     ------
     SimulationError
-        It has no rigid-body world, or one without bodies or in which no time passes, other units than metres, or
-        connections without a body.
+        It has no rigid-body world, or one without bodies or in which no time passes, other units than metres, nothing
+        that bears what was built in it, or connections without a body.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
@@ -31,6 +31,10 @@ def check_recordable(scene: bpy.types.Scene) -> None:
         raise SimulationError(
             f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
             "set the unit scale to 1 and build the scene in metres"
+        )
+    if lacks_ground(scene):
+        raise SimulationError(
+            f"the ground of scene {scene.name!r} is gone: undo what took it away, or build the scenario anew"
         )
     if loose := loose_connections(scene):
         more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""

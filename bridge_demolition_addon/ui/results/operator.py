@@ -2,6 +2,7 @@
 
 import shutil
 import sys
+from typing import Any
 
 import bpy
 from bpy.props import IntProperty, StringProperty
@@ -76,7 +77,7 @@ class BDA_OT_open_results(_OfLastRecording, bpy.types.Operator):
 
 
 class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
-    """Draw the forces over time, and the charts to choose charges by, into the folder of the last recording"""
+    """Draw forces over time into the folder of the last recording, and charts to choose charges by if it had any"""
 
     bl_idname = "bda.draw_charts"
     bl_label = "Draw Charts"
@@ -90,11 +91,12 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
         folder = last.folder / _CHARTS
         model = BlastModel(context.scene.bda.scenario.blast.model)
         with writing(folder):
-            paths = write_charts(folder, ChartSettings(model=model))
+            folder.mkdir(exist_ok=True)
+            paths = write_charts(folder, ChartSettings(model=model)) if had_charges(last.summary) else []
             plot_forces(
                 last.recording.results(), folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary)
             )
-        return f"{len(paths) + 1} charts are in {folder}"
+        return f"{len(paths) + 1} charts are in {folder}" if paths else f"{folder / FORCE_CHART}"
 
 
 class BDA_OT_make_report(Action, bpy.types.Operator):
@@ -142,6 +144,11 @@ class _CursorProgress:
     def finish(self) -> None:
         """Show the usual mouse again."""
         self._manager.progress_end()
+
+
+def had_charges(summary: dict[str, Any]) -> bool:
+    """Return whether anything exploded in a run, or was meant to."""
+    return bool(summary.get("charges") or summary["blast"])
 
 
 CLASSES = (BDA_OT_go_to_body, BDA_OT_open_results, BDA_OT_draw_charts, BDA_OT_make_report)

@@ -6,7 +6,7 @@ from bpy.props import StringProperty
 from ...core.scenario import Scenario
 from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import checked_model
-from ...scene.bodies import Kind, bodies_of, kind_of
+from ...scene.bodies import Kind, bodies_of, kind_of, lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
@@ -191,6 +191,14 @@ class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
 
     bl_idname = "bda.remove_loose_connections"
     bl_label = "Remove Loose Connections"
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if reason := super().why_not(context):
+            return reason
+        if lacks_ground(context.scene):
+            return "The ground is gone: undo what took it away, or build anew; without it the bridge hangs in the air"
+        return None
 
     def act(self, context: bpy.types.Context) -> str:
         return f"{remove_loose_connections(context.scene)} loose connections removed"

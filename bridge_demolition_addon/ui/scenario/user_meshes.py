@@ -35,6 +35,12 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
     density_kg_m3: FloatProperty(
         name="Density", description="Density of all of them, kg/m³", default=_CONCRETE_KG_M3, min=1e-3
     )
+    with_bridge: BoolProperty(
+        name="Keep Bridge Too",
+        description="Build the bridge of the panel Bridge as well; otherwise it is switched off there, and only the "
+        "meshes are built",
+        default=False,
+    )
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -47,22 +53,26 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def act(self, context: bpy.types.Context) -> str:
-        tables, selected = context.scene.bda.scenario.geometry, context.selected_objects
-        done = {each.name: solid_of_object(each) for each in selected}
-        files = _new_files(absolute(self.directory), list(done), {absolute(each.file) for each in tables})
+        scenario, selected = context.scene.bda.scenario, context.selected_objects
+        tables = scenario.geometry
+        solids = {each.name: solid_of_object(each) for each in selected}
+        files = _new_files(absolute(self.directory), list(solids), {absolute(each.file) for each in tables})
         for name, path in files.items():
-            write_file(path, exported(done[name].solid, _MESH_SUFFIX), new_folder=True)
+            write_file(path, exported(solids[name].solid, _MESH_SUFFIX), new_folder=True)
         for name, path in files.items():
             table = next((each for each in tables if each.name == name), None) or tables.add()
             table.name, table.file = name, str(path)
             table.use_density_kg_m3, table.density_kg_m3, table.use_mass_kg = True, self.density_kg_m3, False
         for each in selected:
             each.hide_set(True)
-        context.scene.bda.scenario.geometry_index = len(tables) - 1
-        for name, repaired in done.items():
+        scenario.geometry_index = len(tables) - 1
+        switched_off = scenario.use_bridge and not self.with_bridge
+        scenario.use_bridge = scenario.use_bridge and self.with_bridge
+        for name, repaired in solids.items():
             for repair in repaired.repairs:
                 self.report({"INFO"}, f"{name}: {repair}")
-        return f"{len(files)} members added from the selected meshes, which are hidden now"
+        done = f"{len(files)} members added from the selected meshes, which are hidden now"
+        return f"{done}; the panel Bridge is switched off" if switched_off else done
 
 
 class BDA_OT_use_paint(Action, FileWriter, bpy.types.Operator):

@@ -217,5 +217,16 @@ def test_charts_are_drawn_into_the_folder(built, tmp_path):
     record(built)
     built.ops.bda.draw_charts()
     charts = sorted((tmp_path / "results" / "charts").glob("*.png"))
-    assert "force_over_time.png" in [each.name for each in charts]
-    assert all(each.read_bytes().startswith(b"\x89PNG") for each in charts)
+    assert [each.name for each in charts] == ["force_over_time.png"], "a ball is nothing to choose charges by"
+    assert charts[0].read_bytes().startswith(b"\x89PNG")
+
+
+def test_charts_to_choose_charges_by_are_drawn_where_there_were_charges(built, settings, tmp_path):
+    built.context.scene.cursor.location = (4.0, 0.0, 1.5)
+    built.ops.bda.add_source_point()
+    built.ops.bda.build_force_objects()
+    settings.scenario.blast.start_s = 0.2
+    record(built)
+    built.ops.bda.draw_charts()
+    charts = {each.name for each in (tmp_path / "results" / "charts").glob("*.png")}
+    assert "force_over_time.png" in charts and len(charts) > 1

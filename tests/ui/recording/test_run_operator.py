@@ -77,6 +77,7 @@ def test_run_ends_with_the_simulation_where_the_scene_goes_on(extension, scene):
 
 def test_run_refuses(extension, scene, tmp_path):
     (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "notes.txt").write_text("mine")
     assert "overwriting" in refusal(extension.ops.bda.run)
     scene.bda.output_directory = "//beside"
     assert "no place yet" in refusal(extension.ops.bda.run)
@@ -86,6 +87,12 @@ def test_run_refuses(extension, scene, tmp_path):
     scene.frame_end = 1
     assert "nothing to play" in refusal(extension.ops.bda.run)
     assert scene.frame_current == 1
+
+
+def test_run_takes_an_empty_folder_as_the_file_browser_makes_them(extension, scene, tmp_path):
+    (tmp_path / "results").mkdir()
+    assert extension.ops.bda.run() == {"FINISHED"}
+    assert (tmp_path / "results" / "summary.json").is_file()
 
 
 def explode(extension, scene):

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from places import EXAMPLES, SMALL
 
+from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording, stop_recording
 
 EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
@@ -84,3 +85,17 @@ def test_slow_motion_of_other_charges_is_refused(extension, settings, tmp_path):
     extension.ops.bda.remove_demolition()
     extension.ops.bda.build_scenario()
     record(extension)
+
+
+def test_a_bridge_whose_ground_was_deleted_is_not_run_and_the_advice_fits(built, settings):
+    scene = built.context.scene
+    built.data.objects.remove(scene.rigidbody_world.collection.objects["Ground"])
+    for operator in (built.ops.bda.run, built.ops.bda.register_handler):
+        with pytest.raises(RuntimeError, match="the ground of scene 'Scene' is gone: undo what took it away, or build"):
+            operator()
+    with pytest.raises(RuntimeError, match="The ground is gone"):
+        built.ops.bda.remove_loose_connections()
+    built.ops.bda.build_anew()
+    assert any(kind_of(body) == Kind.GROUND for body in bodies_of(scene))
+    settings.overwrite = True
+    assert built.ops.bda.run() == {"FINISHED"}

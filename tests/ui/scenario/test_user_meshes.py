@@ -49,6 +49,16 @@ def test_selected_meshes_are_built_as_members(extension, settings, objects, tmp_
     assert sum(body.rigid_body.mass for body in shards) == pytest.approx(90_000, rel=1e-5)
 
 
+@pytest.mark.parametrize("with_bridge", [False, True])
+def test_the_default_bridge_is_built_too_only_where_that_was_said(extension, settings, objects, tmp_path, with_bridge):
+    settings.scenario.use_bridge = True
+    extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"), with_bridge=with_bridge)
+    assert settings.scenario.use_bridge == with_bridge
+    scenario = scenario_of(settings)
+    assert (scenario.bridge is not None) == with_bridge
+    assert {each.name for each in scenario.geometry} == {"deck", "west wall", "east wall"}
+
+
 def test_the_saved_scenario_needs_no_objects(extension, settings, objects, tmp_path):
     extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"))
     extension.ops.bda.save_scenario(filepath=str(tmp_path / "saved.toml"))
