@@ -81,7 +81,7 @@ def test_tables_explain_each_of_them_and_no_other(heading, container):
     assert sorted(first_cells(heading)) == sorted(f"`{name}`" for name in names)
 
 
-@pytest.mark.parametrize("heading", ["The way of a charge", "The way of an impulse"])
+@pytest.mark.parametrize("heading", ["The way of a charge", "The way of an impulse", "The way of a draw"])
 def test_a_way_passes_eight_files_at_most(heading):
     assert 5 <= len(first_cells(heading)) <= 8
 

@@ -37,6 +37,9 @@ UNWRITABLE = "unwritable"
 DRAWS_PER_PROCESS = 50
 """After so many, a process is replaced: Blender gives back little of the memory that a draw took."""
 
+_MOST_STARTS = 3
+"""How often a program is started that somebody kills before it has begun."""
+
 _LOOK_EVERY_S = 0.25
 _BY_SOMEBODY = [getattr(signal, name) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP") if hasattr(signal, name)]
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
@@ -135,7 +138,7 @@ class DrawProcess:
         program = self._ready_program()
         is_fresh = program.played == 0
         end = self._play_once(program, request, folder, began)
-        if end.status is KILLED or (not is_fresh and end.status in (CRASHED, OUT_OF_MEMORY)):
+        if end.status == KILLED or (not is_fresh and end.status in (CRASHED, OUT_OF_MEMORY)):
             end = self._play_once(self._ready_program(), request, folder, time.monotonic())
         return end
 
@@ -148,12 +151,15 @@ class DrawProcess:
             program.end()
 
     def _ready_program(self) -> _Program:
-        if self._program is None:
+        starts = 0
+        while self._program is None:
             with self._closing:
                 if self._is_closed:
                     raise SimulationError("the study was stopped")
                 self._program = _Program(self._command)
-            self._program.begin(self._versions)
+            starts += 1
+            if not self._program.begin(self._versions, may_be_killed=starts < _MOST_STARTS):
+                self._program = None
         return self._program
 
     def _play_once(self, program: _Program, request: Mapping[str, Any], folder: Path, began: float) -> End:
@@ -208,17 +214,19 @@ class _Program:
             raise SimulationError(f"{command[0]}: draws cannot be run by it: {error.strerror}") from error
         threading.Thread(target=self._read, name="answers of draws", daemon=True).start()
 
-    def begin(self, versions: Mapping[str, str]) -> None:
-        """Wait for the first answer, and see that the versions are those expected.
+    def begin(self, versions: Mapping[str, str], *, may_be_killed: bool) -> bool:
+        """Wait for the first answer, see that the versions are those expected, and return whether nobody killed it.
 
         Raises
         ------
         SimulationError
-            They are not, or the program ended.
+            They are not, or the program ended by itself, or was killed where it may not be.
         """
         answer = self.answers.get()
         if answer is None:
             code = self.ended()
+            if may_be_killed and -code in _BY_SOMEBODY:
+                return False
             raise SimulationError(f"draws cannot be run: their program ended with status {code}: {self._said}")
         if error := answer.get("error"):
             self.end()
@@ -228,6 +236,7 @@ class _Program:
             self.end()
             found = ", ".join(f"{name} {version} instead of {versions.get(name)}" for name, version in other.items())
             raise SimulationError(f"draws would be run by other versions than those of the study: {found}")
+        return True
 
     def ask(self, request: Mapping[str, Any]) -> None:
         """Hand over a request; one that has ended does not answer."""

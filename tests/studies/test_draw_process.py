@@ -120,6 +120,26 @@ def test_a_draw_that_somebody_kills_is_played_once_more(process, program, tmp_pa
     assert deeds == ["take time", "take time"] and processes[0] != processes[1]
 
 
+@not_on_windows
+@pytest.mark.parametrize("kills", [2, 3])
+def test_a_program_may_be_killed_as_it_starts(program, tmp_path, kills):
+    command, log = program
+    starts = tmp_path / "starts"
+    starts.touch()
+    killed = "import os, pathlib; starts = pathlib.Path(%r); starts.write_text(starts.read_text() + '.'); " % str(
+        starts
+    )
+    killed += f"len(starts.read_text()) > {kills} or os.kill(os.getpid(), 9); "
+    process = DrawProcess([*command[:2], killed + command[2]], VERSIONS, Limits())
+    if kills < 3:
+        assert play(process, "nothing", tmp_path / "1") == ("done", "")
+    else:
+        with pytest.raises(SimulationError, match="their program ended with status -9: it said nothing"):
+            play(process, "nothing", tmp_path / "1")
+    assert len(starts.read_text()) == 3
+    process.close()
+
+
 def kill_first(log):
     while not begun(log)[1]:
         time.sleep(0.01)
