@@ -123,12 +123,11 @@ def test_a_draw_that_somebody_kills_is_played_once_more(process, program, tmp_pa
 @not_on_windows
 @pytest.mark.parametrize("kills", [2, 3])
 def test_a_program_may_be_killed_as_it_starts(program, tmp_path, kills):
-    command, log = program
+    command, _ = program
     starts = tmp_path / "starts"
     starts.touch()
-    killed = "import os, pathlib; starts = pathlib.Path(%r); starts.write_text(starts.read_text() + '.'); " % str(
-        starts
-    )
+    killed = f"import os, pathlib; starts = pathlib.Path({str(starts)!r}); "
+    killed += "starts.write_text(starts.read_text() + '.'); "
     killed += f"len(starts.read_text()) > {kills} or os.kill(os.getpid(), 9); "
     process = DrawProcess([*command[:2], killed + command[2]], VERSIONS, Limits())
     if kills < 3:
