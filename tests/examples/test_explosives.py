@@ -1,11 +1,14 @@
 """The examples by explosives: stand without their charges, come down with them."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from example_claims import assert_claims
 from example_runs import example, run_example
+
+from bridge_demolition_addon.core.study.outcome import outcome_of
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
 SAG_M = {"single_span_explosives": 0.01, "two_spans_20m_delays": 0.03}
@@ -48,6 +51,13 @@ def test_blast_pushes_away_from_the_charges(loud):
     assert (impulses[:, 2] > 0.0).all()
     charges = loud.scenario.charges
     assert loud.summary["charges"]["mass_kg"] == sum(charge.mass_kg for charge in charges)
+
+
+def test_a_study_keeps_little_of_such_a_run(loud, tmp_path):
+    outcome = outcome_of(loud.results, loud.summary, loud.scenario)
+    np.savez_compressed(tmp_path / "outlines.npz", **outcome.outlines.arrays())
+    assert len(loud.shards) >= 200
+    assert (tmp_path / "outlines.npz").stat().st_size + len(json.dumps(outcome.outputs)) < 200_000
 
 
 def test_fields_and_direct_loads_agree_where_nothing_breaks(blender, tmp_path):
