@@ -99,7 +99,7 @@ def test_the_limit_is_drawn_where_it_is_said(folder):
     limit_m = sorted(read_study_runs(folder).reaches_m)[-2]
     for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + 5.0)):
         exact = 28.0 * 8.0 + 2.0 * 36.0 * around_m + np.pi * around_m**2
-        assert areas[name] == pytest.approx(exact, rel=2e-3)
+        assert areas[name] == pytest.approx(exact, rel=2.5e-3)
 
 
 def test_the_same_folder_gives_the_same_files(folder, tmp_path):

@@ -67,10 +67,10 @@ def test_areas_are_those_that_geometry_gives(runs, told):
     areas = dict(zip(told.column("study_areas", "area"), told.column("study_areas", "area_m2"), strict=True))
     length, width = 28.0, 8.0
     for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + buffer_m)):
-        # A rectangle with a band around it (Steiner); the circles of its corners are polygons of 64 sides.
+        # A rectangle with a band around it (Steiner); the circles of its corners are within polygons of 64 sides.
         exact = length * width + 2.0 * (length + width) * around_m + np.pi * around_m**2
-        assert areas[name] == pytest.approx(exact, rel=2e-3)
-        assert areas[name] < exact
+        assert areas[name] == pytest.approx(exact, rel=2.5e-3)
+        assert areas[name] > exact
     assert areas["bridge"] == pytest.approx(length * width)
     assert areas["zone Road <1> $2$"] == pytest.approx(52.0 * 8.0)
 
@@ -78,8 +78,7 @@ def test_areas_are_those_that_geometry_gives(runs, told):
 def test_the_plan_holds_every_run_but_the_farthest(runs):
     area = layers(runs)["limit"]
     outside = [CrossSection(list(rings)) - area for rings in runs.swept]
-    # Polygons of circles lie within them by 0.1 % of the radius.
-    assert sum(each.area() > 0.5 for each in outside) == 1
+    assert sum(each.area() > 0.0 for each in outside) == 1
 
 
 def test_likely_places_are_within_rarer_ones(runs):

@@ -7,11 +7,13 @@ its shards nor what flies off at an impact.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from manifold3d import CrossSection, JoinType
 
+from ..arithmetic import cosine
 from ..geometry.plan_areas import distances_outside, outlines, united
 from ..results.arrays import Results
 from ..scenario import Exclusion
@@ -61,6 +63,11 @@ def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
     drop = widened(plan, settings.designed_drop_m)
     debris = swept_footprint(results, np.concatenate([shards, results.inventory.of_kind("ball")]))
     return ExclusionZone(plan, drop, debris, widened(united([plan, drop, debris]), settings.buffer_m))
+
+
+def widened_around(area: CrossSection, distance_m: float) -> CrossSection:
+    """Return an area with everything nearer to it than a distance, and up to 0.13 % of that more: never less."""
+    return widened(area, distance_m / cosine(math.pi / _CIRCLE_SEGMENTS))
 
 
 def widened(area: CrossSection, distance_m: float) -> CrossSection:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.debris.exclusion import widened
+from ...core.debris.exclusion import widened_around
 from ...core.geometry.plan_areas import outlines
 from ...core.study.conclusions import Conclusions, conclusions
 from ...core.study.criteria import Criterion
@@ -114,9 +114,9 @@ class StudyRuns:
         if self.said is None or not math.isfinite(self.said.reach.limit_m):
             return {}
         limit_m = self.said.reach.limit_m
-        found = {"limit": (limit_m, widened(self.bridge, limit_m))}
+        found = {"limit": (limit_m, widened_around(self.bridge, limit_m))}
         if self.buffer_m:
-            found["limit and buffer"] = limit_m + self.buffer_m, widened(found["limit"][1], self.buffer_m)
+            found["limit and buffer"] = limit_m + self.buffer_m, widened_around(self.bridge, limit_m + self.buffer_m)
         return found
 
     @property
