@@ -39,6 +39,20 @@ elsewhere. Times are those of a machine with two cores and nothing else to do, p
 took {minutes} minutes.
 """
 
+STUDY = """\
+## A study of the I-235 span
+
+![Plan of the study with its limit, and how many of its runs reach how far](pictures/study_i235_one_span.png)
+
+93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
+and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. What the study says stands in the
+[README](../README.md#a-plan-is-a-study), all its runs are in [a table](data/studies/i235_one_span.csv), and
+`scripts/study_picture.py` draws the picture from its folder.
+
+Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
+"""
+"""Section on the example of a study, whose picture `scripts/study_picture.py` makes."""
+
 
 def main(names: list[str]) -> int:
     """Run examples, write the page and return the exit status."""
@@ -89,7 +103,7 @@ def page() -> str:
     """Return the page, made of the comments of the examples."""
     taken = times()
     header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)))
-    return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples())])
+    return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples()), STUDY])
 
 
 def with_table(readme: str) -> str:

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The README says of the study that it shows what the study says."""
+
+import json
+import sys
+
+import pytest
+from places import EXAMPLES, ROOT
+
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import study_picture
+
+from bridge_demolition_addon.core.study.file import read_study
+from bridge_demolition_addon.core.study.runs_table import REACH, read_runs
+from bridge_demolition_addon.core.study.statements import reach_limit
+
+
+@pytest.fixture(scope="module")
+def told():
+    """The README in one line."""
+    return " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return read_runs(study_picture.RUNS)
+
+
+def test_the_limit_is_that_of_the_runs(told, runs):
+    settings = read_study(EXAMPLES / "studies" / "i235_one_span.toml").settings
+    reaches_m = runs.largest(REACH)
+    assert len(reaches_m) == settings.runs
+    limit = reach_limit(reaches_m, settings.quantile, settings.confidence, settings.rank)
+    said = json.loads(study_picture.CONCLUSIONS.read_text(encoding="utf-8"))["reach"]
+    assert limit.limit_m == said["limit_m"]
+    words = limit.sentence(("what varies",), settings.least_mass_kg, None).split(". ")[0]
+    stayed = words[words.index("debris stayed within") :]
+    assert f"{stayed} of them, and with 95 % confidence at least 95 % of such runs stay within it" in told
+
+
+def test_the_criteria_are_those_of_the_runs(told, runs):
+    down, free = (runs.met(f'criteria."{name}"') for name in ("span comes down", "road stays free"))
+    assert f"{down.sum()} of {len(down)} runs bring the span down" in told
+    assert f"in {(~free).sum()} of {len(free)} something enters the side road" in told
