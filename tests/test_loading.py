@@ -5,7 +5,7 @@ from processes import run_program
 
 
 @pytest.mark.parametrize(("loading", "brought"), [("command line", []), ("extension", ["bpy"])])
-def test_nobody_waits_for_matplotlib_who_draws_nothing(loading, brought):
+def test_nobody_waits_for_what_draws_figures_or_reads_meshes(loading, brought):
     done = run_program("loaded_modules", loading)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1].split() == brought  # Blender may have said something before

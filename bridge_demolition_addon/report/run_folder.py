@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.image import imread
 
 from ..core.debris.footprint import check_covers_ground
 from ..core.errors import OutputError, ScenarioError, UnreadableError
@@ -269,6 +268,8 @@ def pictures_in(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
         path = folder / PICTURE_FOLDER / f"{name}.png"
         if not path.exists():
             continue
+        from matplotlib.image import imread  # not loaded by who only reads numbers, as the sidebar does
+
         try:
             check_file(path, MOST_PICTURE_BYTES)
             imread(path)

@@ -7,7 +7,7 @@ Usage: loaded_modules.py "command line" | extension
 import os
 import sys
 
-SLOW = {"bpy", "matplotlib"}
+SLOW = {"bpy", "matplotlib", "trimesh"}
 
 if sys.argv[1] == "extension":
     import bridge_demolition_addon

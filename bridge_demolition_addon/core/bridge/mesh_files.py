@@ -8,7 +8,6 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
-import trimesh
 
 from ..errors import GeometryError, ScenarioError, UnreadableError
 from ..geometry.mesh import TriangleMesh
@@ -81,6 +80,8 @@ def placed_mesh(table: Geometry) -> TriangleMesh:
 
 def exported(mesh: TriangleMesh, suffix: str) -> bytes:
     """The mesh as the content of a file whose name ends in that suffix, such as ``.stl``."""
+    import trimesh
+
     return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(file_type=suffix[1:])
 
 
@@ -91,6 +92,8 @@ def _file_mesh(path: Path) -> TriangleMesh:
         check_file(path, MOST_BYTES)
     except UnreadableError as error:
         raise ScenarioError(f'geometry.file is "{path}": {error}') from error
+    import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
+
     try:
         mesh = trimesh.load(path, force="mesh", process=False)
     except Exception as error:  # each reader has its own for a file that is not what its name says
