@@ -16,6 +16,7 @@ from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
+from ..core.sequence.undisturbed import told_fall
 from ..core.signals import interrupted_afterwards
 from ..core.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
@@ -182,6 +183,8 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
 
 def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path]) -> None:
     print()
+    if fall := told_fall(summary):
+        print(f"{fall}.\n")
     for name, value in _result_facts(summary):
         print(f"{name:<24}{value}")
     results = [output / name for name in RESULT_FILES]

@@ -33,6 +33,7 @@ from ..core.results.removed_shards import without_removed
 from ..core.results.summary import first_hit_s, hits_of_balls, impact_of
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario
+from ..core.sequence.undisturbed import told_fall
 from ..core.units import STANDARD_GRAVITY_M_S2
 
 MOST_SUMMARY_BYTES = 100 * MEGABYTE
@@ -138,6 +139,8 @@ def read_run(folder: Path) -> Run:
     summary = _summary(folder, shortcomings)
     if summary and not summary.get("completed", True):
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
+    if summary and (fall := told_fall(summary)):
+        shortcomings.append(f"{fall}.")
     if summary and (by_hand := summary.get("made_by_hand")):
         shortcomings.append(
             "The scene was changed in Blender after it was built, and the scenario of the run cannot say that: "

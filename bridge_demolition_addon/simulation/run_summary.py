@@ -16,6 +16,7 @@ from ..core.results.fingerprint import motion_digest, result_digest
 from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
 from ..core.sequence.rest import Rest, last_event_s
+from ..core.sequence.undisturbed import fell_by_itself
 from ..scene.world import scene_time_step
 from .recording.recorder import Recording
 
@@ -123,6 +124,7 @@ def _of_scenario(scenario: Scenario, recording: Recording, results: Results) -> 
         "charges": _charges(scenario, recording),
         "settled": settling(results, scenario.connections.warm_up_s),
         "came_to_rest_s": rest.came_to_rest_s,
+        "fell_by_itself": fell_by_itself(results, scenario),
     }
 
 

@@ -131,6 +131,8 @@ def checked_summary(summary: Any) -> dict[str, Any]:
     for name in ("impact", "key_frame"):
         if summary.get(name) is not None:
             _check_table(name, summary[name], {"time_s": _is_number, "reason": _is_text}, optional=("reason",))
+    if summary.get("fell_by_itself") is not None:
+        _check_table("fell_by_itself", summary["fell_by_itself"], _FALL)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -225,7 +227,24 @@ def _is_table_or_none(value: Any) -> bool:
     return value is None or isinstance(value, dict)
 
 
+def _is_number_or_none(value: Any) -> bool:
+    return value is None or _is_number(value)
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+_FALL = {
+    "until_s": _is_number_or_none,
+    "first_break_s": _is_number_or_none,
+    "broken": _is_number,
+    "connections": _is_number,
+    "largest_move_m": _is_number,
+}
 _SUMMARY = {
+    "made_by_hand": _are_texts,
+    "fell_by_itself": _is_table_or_none,
     "title": _is_text,
     "completed": _is_switch,
     "blender": _is_text,

@@ -13,6 +13,7 @@ from ...core.folder_lock import FolderLock
 from ...core.results.files import SCENARIO_FILE
 from ...core.scenario import RecordingSettings, Scenario
 from ...core.sequence.rest import Rest
+from ...core.sequence.undisturbed import told_fall
 from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
@@ -161,6 +162,8 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         operator.report({"WARNING"}, f"The recording ended early: {recording.error}")
     elif stopped:
         operator.report({"WARNING"}, stopped)
+    if fall := told_fall(session.last_recording().summary):
+        operator.report({"WARNING"}, fall)
     if by_hand := _contexts[recording].made_by_hand:
         operator.report({"WARNING"}, f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}")
     if moved:

@@ -4,6 +4,7 @@ from typing import Any
 
 import bpy
 
+from ...core.sequence.undisturbed import told_fall
 from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
 
@@ -24,6 +25,8 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
             return
         summary = last.summary
         draw_sentence(layout, context, summary["title"], icon="NONE")
+        if fall := told_fall(summary):
+            draw_sentence(layout, context, fall)
         column = layout.column(align=True)
         for line in lines_of(summary):
             column.label(text=line)

@@ -1,0 +1,79 @@
+"""Whether a bridge stood until something was done to it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..results.arrays import Results
+from ..results.motion import MOVED_M, travel
+from ..scenario import Scenario
+
+
+def first_event_s(scenario: Scenario) -> float:
+    """Return the time up to which nothing is done to the bridge, s; infinite where nothing ever is.
+
+    A ball counts from a frame before free fall brings it to the bridge, and one that swings from when it is let go.
+    """
+    times = [change.time_s for change in scenario.changes]
+    times += [hammer.start_time_s for hammer in scenario.jackhammers]
+    if scenario.blast.explosion:
+        times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges if charge.mass_kg > 0.0]
+    if ball := scenario.ball:
+        fall_s = 0.0 if ball.cable else ball.fall_time_s - scenario.time.step.frame_s
+        times.append(ball.release_time_s + max(fall_s, 0.0))
+    return min(times, default=math.inf)
+
+
+def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | None:
+    """Return what broke and moved before anything was done to a bridge, ready for JSON; None where it stood.
+
+    It stood where no connection broke and no shard moved by more than `MOVED_M`. Shards that sleep until something hits
+    them stand in any case.
+
+    Returns
+    -------
+    dict or None
+        ``until_s``, when something was done, None where nothing ever was; ``first_break_s``; how many were ``broken``
+        of all ``connections``; and ``largest_move_m``.
+    """
+    first_s = first_event_s(scenario)
+    rows = np.flatnonzero(results.frames.time_s <= first_s)
+    if not len(rows):
+        return None
+    last = rows[-1]
+    broken = (~results.frames.intact[rows]).sum(axis=1)
+    shards = results.inventory.of_kind("shard")
+    moves = travel(results.frames.positions_m[0, shards], results.frames.positions_m[last, shards])
+    largest_move_m = float(moves.max(initial=0.0))
+    if not broken[-1] and largest_move_m <= MOVED_M:
+        return None
+    breaks = np.flatnonzero(broken)
+    return {
+        "until_s": first_s if math.isfinite(first_s) else None,
+        "first_break_s": float(results.frames.time_s[breaks[0]]) if len(breaks) else None,
+        "broken": int(broken[-1]),
+        "connections": len(results.inventory.connection_names),
+        "largest_move_m": largest_move_m,
+    }
+
+
+def told_fall(summary: Mapping[str, Any]) -> str:
+    """Return what a summary says under ``fell_by_itself``, as a sentence without a full stop; empty for nothing."""
+    fall = summary.get("fell_by_itself")
+    if not fall:
+        return ""
+    when = "though nothing was done to it" if fall["until_s"] is None else "before anything was done to it"
+    until = "" if fall["until_s"] is None else f" up to {fall['until_s']:.2f} s"
+    parts = []
+    if fall["first_break_s"] is not None:
+        first = f"the first at {fall['first_break_s']:.2f} s"
+        parts.append(f"{fall['broken']} of {fall['connections']} connections broke, {first},")
+    parts.append(f"shards moved by up to {fall['largest_move_m']:.2f} m")
+    return (
+        f"The bridge does not stand by itself: {' and '.join(parts)}{until}, {when}. Make its connections stronger, or "
+        "cut it otherwise"
+    )
