@@ -25,7 +25,7 @@ from ..core.scenario import (
 from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
-from ..core.structure.equilibrium import model_at_rest, sag_m
+from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m
 from ..core.structure.model import Model
 from .arguments import naming
 
@@ -54,12 +54,16 @@ def check(arguments: argparse.Namespace) -> None:
     """Print what a planner wants to know before a run."""
     scenario = read_scenario(arguments.scenario)
     with naming(arguments.scenario):
-        for line in scenario_facts(_made_elastic(scenario) if arguments.stand else scenario):
+        for line in scenario_facts(scenario, stand=arguments.stand):
             print(line)
 
 
-def scenario_facts(scenario: Scenario) -> Iterator[str]:
-    """Yield lines on a scenario's bridge, time steps, connections, ball, sequence and charges."""
+def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
+    """Yield lines on a scenario's bridge, time steps, connections, ball, sequence and charges.
+
+    With `stand` they say how a bridge with rigid connections would stand if these were elastic.
+    """
+    as_elastic = _made_elastic(scenario) if stand else scenario  # refused before anything is said
     yield scenario.title
     prepared = prepared_members(scenario)
     if scenario.bridge:
@@ -70,7 +74,10 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
     yield from _section("Time", _time_facts(scenario))
     model = checked_model(scenario, prepared.members)
     yield from _section("Shards and connections", _connection_facts(scenario, model))
-    if model.stiffness is not None:
+    if stand and model.stiffness is None:
+        elastic = checked_model(as_elastic, prepared.members)
+        yield from _section("At rest", _rest_facts(scenario, elastic))
+    elif model.stiffness is not None:
         yield from _section("At rest", _rest_facts(scenario, model))
     yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ball:
@@ -82,7 +89,11 @@ def scenario_facts(scenario: Scenario) -> Iterator[str]:
 
 
 def _made_elastic(scenario: Scenario) -> Scenario:
-    return replace(scenario, connections=replace(scenario.connections, stiffness="elastic"))
+    """Return a scenario with elastic connections: where they break by a force, as stiff as reinforced concrete."""
+    changes = {"stiffness": "elastic"}
+    if scenario.connections.material is None and scenario.connections.method == "face":
+        changes |= {"breaking_force_n": None, "breaking_force_kgf": None, "material": MATERIAL_OF_LARGE_MODELS}
+    return replace(scenario, connections=replace(scenario.connections, **changes))
 
 
 def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:
@@ -165,6 +176,12 @@ def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
     rest = model_at_rest(model, scenario.joints)
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
+    broken = int(overloaded(model, rest, scenario.joints).sum())
+    yield "overloaded", f"{broken} of {len(model.connections)} connections, by the bridge's own weight alone"
+    if not scenario.connections.is_elastic:
+        yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
+    elif broken:
+        yield "", "they break before anything is done to it, and the bridge may fall by itself"
     if loose:
         yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
         yield "", "would hold them: [[connections.between]] with type GENERIC"

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from places import I235_FILE
+from places import I235_FILE, SMALL
 from processes import run_bda, run_program
 from scenarios import I235
 
@@ -13,7 +13,7 @@ from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionSettings, Geometry
 from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
 
 
@@ -114,6 +114,35 @@ def test_a_large_model_is_told_what_one_force_for_all_comes_to():
     assert by_default["in shear"] == "0.9 N/mm²"
 
 
+@pytest.mark.parametrize("material, stands", [("masonry", False), ("steel", True)])
+def test_what_its_own_weight_breaks_is_told_of(tmp_path, capsys, material, stands):
+    """tests/ui/recording/test_fell_by_itself.py runs the two."""
+    file = tmp_path / "span.toml"
+    connections = ConnectionSettings(type="FIXED", method="face", material=material, stiffness="elastic")
+    scenario = replace(read_scenario(SMALL), connections=connections)
+    file.write_text(scenario_text(scenario), encoding="utf-8")
+    assert main(["check", str(file)]) == 0
+    told = facts(scenario)["overloaded"]
+    assert told.endswith("connections, by the bridge's own weight alone")
+    assert told.startswith("0 of") == stands
+    assert ("the bridge may fall by itself" in capsys.readouterr().out) != stands
+
+
+def test_how_a_bridge_that_breaks_by_a_force_would_stand_is_said_too(tmp_path, capsys):
+    file = tmp_path / "span.toml"
+    for force_n, count in ((1.0, None), (1e12, 0)):
+        connections = ConnectionSettings(type="FIXED", method="face", breaking_force_n=force_n)
+        scenario = replace(read_scenario(SMALL), connections=connections)
+        file.write_text(scenario_text(scenario), encoding="utf-8")
+        assert main(["check", "--stand", str(file)]) == 0
+        out = capsys.readouterr().out
+        assert f"breaking force          {force_n:.1f} N" in out and "a run says whether it stands" in out
+        (line,) = (line for line in out.splitlines() if "overloaded" in line)
+        found, of, total = line.split()[1:4]
+        # Nothing bears less than one newton, and nothing a million tonnes.
+        assert of == "of" and int(found) == (int(total) if count is None else count)
+
+
 def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys):
     connections = ConnectionSettings(type="FIXED", method="face", material="concrete")
     file = tmp_path / "span.toml"
@@ -123,9 +152,14 @@ def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys)
         file.write_text(scenario_text(scenario), encoding="utf-8")
         assert main(["check", str(file), *(["--stand"] if stiffness == "rigid" else [])]) == 0
         texts.append(capsys.readouterr().out)
-    assert "At rest" in texts[0] and texts[0] == texts[1]
+    assert "At rest" in texts[0]
+    rigid, elastic = (text.splitlines() for text in texts)
+    ((said_of_rigid, said_of_elastic),) = [pair for pair in zip(rigid, elastic, strict=True) if pair[0] != pair[1]]
+    assert "a run says whether it stands" in said_of_rigid
+    assert "the bridge may fall by itself" in said_of_elastic
     assert main(["check", "--stand", str(I235_FILE)]) == 2
-    assert 'connections.method is "vertex": expected "face"' in capsys.readouterr().err
+    printed = capsys.readouterr()
+    assert 'connections.method is "vertex": expected "face"' in printed.err and printed.out == ""
 
 
 def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):

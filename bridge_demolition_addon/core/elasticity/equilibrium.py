@@ -39,12 +39,16 @@ class Equilibrium:
         Bodies that connections to a support hold.
     frequency_hz : float
         Lowest first frequency of the parts that are held; 0 where nothing is.
+    loads : (6, m) float
+        Forces and moments that connections bear then, in their rows, pulling the first body to the second; 0 where
+        nothing holds them.
     """
 
     positions_m: np.ndarray
     rotations: np.ndarray
     held: np.ndarray
     frequency_hz: float
+    loads: np.ndarray
 
 
 def equilibrium(
@@ -74,6 +78,7 @@ def equilibrium(
     label = connected_parts(moves, frames.first, frames.second)
     ends = np.stack((frames.first, frames.second))
     supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
+    unloaded = joint_places(frames, positions_m, rotations).deformations()
     positions_m, rotations = positions_m.copy(), rotations.copy()
     held, frequencies = np.zeros(len(masses_kg), bool), []
     of_connections = label[ends].max(axis=0, initial=-1)
@@ -86,7 +91,8 @@ def equilibrium(
             places, turned, frequency = rest
             positions_m[:, bodies], rotations[..., bodies] = places[:, bodies], turned[..., bodies]
             frequencies.append(frequency)
-    return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0))
+    loads = stressed(stiffness, joint_places(frames, positions_m, rotations).deformations() - unloaded)
+    return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
 
 
 def _part_at_rest(

@@ -10,7 +10,8 @@ from ..elasticity.equilibrium import Equilibrium, equilibrium
 from ..elasticity.joint_rows import JointFrames
 from ..elasticity.section_stiffness import SectionStiffness, in_frames
 from ..mechanics.joint import MOTIONS, Joint
-from ..mechanics.section_forces import section_axes
+from ..mechanics.section_forces import section_axes, section_forces
+from ..mechanics.strength import rectangular_sections, utilisation
 from ..units import STANDARD_GRAVITY_M_S2
 from .connections import GROUND, Connections
 from .model import Model
@@ -22,6 +23,25 @@ def sag_m(model: Model, rest: Equilibrium) -> float:
     held = rest.held[:shards]
     fallen = model.centres_m[held, 2] - rest.positions_m[2, :shards][held]
     return float(fallen.max(initial=0.0))
+
+
+def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
+    """Return which connections (m,) of a model at rest bear more than they can, so that the bridge does not stand.
+
+    A breaking force is compared with each direction by itself, moments included, as Bullet does.
+    """
+    largest = abs(rest.loads).max(axis=0, initial=0.0)
+    forces, moments = rest.loads[:3].T, rest.loads[3:].T
+    borne = section_forces(section_axes(model.connections.normals), forces, moments)
+    sections = rectangular_sections(model.connections.areas, model.second_moments_m4)
+    found = np.zeros(len(model.connections), bool)
+    for row, joint in enumerate(joints):
+        is_one = model.joint_of_connection == row
+        if joint.breaking_force_n is not None:
+            found |= is_one & (largest >= joint.breaking_force_n)
+        if joint.strength is not None:
+            found |= is_one & (utilisation(borne, sections, joint.strength) > 1.0)
+    return found
 
 
 def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:

@@ -9,7 +9,7 @@ from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.shards import fracture
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.mechanics.joint import Joint
-from bridge_demolition_addon.core.structure.connections import connect, foundations, joined, neighbours_by_face
+from bridge_demolition_addon.core.structure.connections import GROUND, connect, foundations, joined, neighbours_by_face
 from bridge_demolition_addon.core.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.core.structure.face_sections import second_moments
 from bridge_demolition_addon.core.structure.stiffness import connection_stiffness
@@ -83,3 +83,15 @@ def test_a_connection_without_an_area_is_refused():
             np.zeros(len(cut), int),
             np.zeros(len(cut), bool),
         )
+
+
+def test_connections_to_the_ground_bear_the_whole_weight():
+    cut, connections, stiffness = standing_slab(30, 1)
+    masses = DENSITY_KG_M3 * cut.volumes
+    inertias = masses[:, None] * [box_inertia(np.ptp(shard.vertices, axis=0)) for shard in cut.shards]
+    rest = at_rest(connections, stiffness, masses, inertias, cut.centres)
+    borne = rest.loads[:3, connections.pairs[:, 1] == GROUND].sum(axis=1)
+    weight = DENSITY_KG_M3 * GRAVITY_M_S2 * DEPTH_M * WIDTH_M * HEIGHT_M
+    # They push the shards up: pulled towards the ground is negative. It is at rest within 1e-4 of the weight.
+    assert abs(borne[2]) == pytest.approx(weight, rel=1e-3)
+    assert borne[:2] == pytest.approx([0.0, 0.0], abs=1e-3 * weight)

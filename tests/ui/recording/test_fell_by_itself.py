@@ -1,11 +1,17 @@
 """A bridge that falls before anything is done to it is told of in the window, on the console and in the report."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from places import SMALL
 
+from bridge_demolition_addon.core.scenario import ConnectionSettings
+from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.core.sequence.checked_model import checked_model
+from bridge_demolition_addon.core.structure.equilibrium import model_at_rest, overloaded
 from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.ui.scenario.values import show_scenario
 
 SAID = "The bridge does not stand by itself: "
 
@@ -35,3 +41,22 @@ def test_a_bridge_that_is_hit_is_not_told_of(extension, settings, tmp_path):
     settings.output_directory = str(tmp_path / "run")
     extension.ops.bda.run()
     assert json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))["fell_by_itself"] is None
+
+
+@pytest.mark.parametrize("material, stands", [("masonry", False), ("steel", True)])
+def test_it_falls_where_bda_check_says_so(extension, settings, tmp_path, material, stands):
+    connections = ConnectionSettings(type="FIXED", method="face", material=material, stiffness="elastic")
+    scenario = replace(read_scenario(SMALL), connections=connections, ball=None)
+    awake = replace(scenario.shards, use_deactivation=False, start_deactivated=False)
+    scenario = replace(scenario, shards=awake, time=replace(scenario.time, duration_s=0.4))
+    model = checked_model(scenario)
+    broken = overloaded(model, model_at_rest(model, scenario.joints), scenario.joints).sum()
+    assert (broken == 0) == stands
+    show_scenario(settings, scenario)
+    extension.ops.bda.build_scenario()
+    settings.output_directory = str(tmp_path / "run")
+    extension.ops.bda.run()
+    fall = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))["fell_by_itself"]
+    assert (fall is None) == stands
+    if fall:
+        assert fall["until_s"] is None and fall["broken"] >= broken
