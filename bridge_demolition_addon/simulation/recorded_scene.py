@@ -74,10 +74,9 @@ class RecordedScene:
 
     def look(self) -> None:
         """Know the world as it is now, to guard it from before the next frame on."""
-        with suppress(ReferenceError):  # the scene was deleted meanwhile
-            for layer in self.scene.view_layers:
-                if layer.depsgraph and not self._is_recorded:
-                    self._guard.look(self.scene, layer.depsgraph)
+        for depsgraph in self._depsgraphs():
+            if not self._is_recorded:
+                self._guard.look(self.scene, depsgraph)
 
     def before_frame(self) -> None:
         """Guard the world, and prepare the frame."""
@@ -164,7 +163,13 @@ class RecordedScene:
 
     def _fail(self, error: Exception) -> None:
         self.recording.fail(error)
-        self._guard.end_sharing()
+        self._guard.end_sharing(self._depsgraphs())
+
+    def _depsgraphs(self) -> list[bpy.types.Depsgraph]:
+        try:
+            return [layer.depsgraph for layer in self.scene.view_layers if layer.depsgraph]
+        except ReferenceError:  # the scene was deleted meanwhile
+            return []
 
 
 def _refuse_unplayed_frame(recording: Recording) -> None:

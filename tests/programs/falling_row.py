@@ -58,6 +58,11 @@ class FallingRow:
         self.play(1, 11)
         assert self.recording.error is None
 
+    def record_shards(self) -> None:
+        for body in self.row:
+            body["bda_kind"] = "shard"
+        self.record()
+
     def begin_to_record(self) -> None:
         self.recording = Recording(self.scene, self.folder)
         start_recording(self.recording)
@@ -130,6 +135,9 @@ class FallingRow:
         """In place of the first, Blender makes another constraint once it goes beyond the frames that it has played."""
         self.scene.frame_set(6)
         self.play(7, 14)
+        self.edit_others()
+
+    def edit_others(self) -> None:
         for link in self.links[:3] + self.links[4:]:
             link.rigid_body_constraint.type = "POINT"
             self.update()

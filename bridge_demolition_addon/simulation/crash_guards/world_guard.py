@@ -8,7 +8,7 @@ can be played and edited meanwhile.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import bpy
 
@@ -51,12 +51,11 @@ class WorldGuard:
             self.release()
             self._objects, self._world = WorldObjects(scene), recorded
 
-    def end_sharing(self) -> None:
-        """Leave the world of a recording that has failed; before its first frame, go on guarding the one before."""
-        if self._recorded:
-            self._recorded = None
-        else:
-            self.release()
+    def end_sharing(self, depsgraphs: Iterable[bpy.types.Depsgraph]) -> None:
+        """Go on guarding the world that a failed recording has let go of; before its first frame, the one before."""
+        self._recorded = None
+        for depsgraph in depsgraphs:
+            self._bind(depsgraph)
 
     def release(self) -> None:
         """Leave the world to whoever wants it."""
@@ -127,15 +126,20 @@ class WorldGuard:
         if self._objects is None or not is_known or not self._objects.are_the_same():
             self.release()
             self._objects, self._world = WorldObjects(scene), _world_of(scene)
-        if self._world:
-            try:
-                known = self._world.bind(depsgraph, to_read=False) is WorldState.KNOWN
-                if known and not self._world.holds_what_it_held():  # not before it goes beyond the frames it has played
-                    self._world.release()
-                    self._world.bind(depsgraph, to_read=False)
-            except DemolitionError:
+        self._bind(depsgraph)
+
+    def _bind(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Know the world with all that is in it now, and leave one alone that is not as expected."""
+        if not self._world:
+            return
+        try:
+            known = self._world.bind(depsgraph, to_read=False) is WorldState.KNOWN
+            if known and not self._world.holds_what_it_held():
                 self._world.release()
-                self._world = None
+                self._world.bind(depsgraph, to_read=False)
+        except DemolitionError:
+            self._world.release()
+            self._world = None
 
     def _taken_out(self, take_out: Callable[[BulletWorld], list[bpy.types.Object]]) -> str:
         """Have edited connections taken out of the world: Blender makes others with the next frame."""

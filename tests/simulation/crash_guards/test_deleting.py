@@ -144,6 +144,17 @@ def test_editing_a_connection_ends_a_recording(tmp_path, edit):
     do(tmp_path, "record", edit, "update", "recording_has_ended", "go_on_falling")
 
 
+@pytest.mark.parametrize("edit", EDITS)
+def test_editing_others_after_an_edit_has_ended_a_recording(tmp_path, edit):
+    do(tmp_path, "record_shards", edit, "update", "edit_others", "go_on_falling")
+
+
+@pytest.mark.parametrize("deletion", ["remove_body", "delete_body", "remove_connection"])
+@pytest.mark.parametrize("end", ["edit_threshold", "add_another_block"])
+def test_deleting_after_a_change_has_ended_a_recording(tmp_path, end, deletion):
+    do(tmp_path, "record_shards", end, "update", deletion, "update", "stand_still_until_the_start")
+
+
 def test_recording_takes_over_from_the_watch(tmp_path):
     do(tmp_path, "watch", "record_from_now")
 
