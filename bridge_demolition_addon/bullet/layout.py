@@ -3,8 +3,8 @@
 Bullet 3.07 as Blender 4.2 to 5.2 compiles it, in double precision. The Linux and macOS columns follow the System V
 C++ ABI and were measured on Linux; the Windows columns follow Microsoft's ABI, where vectors are aligned to 16 bytes.
 They are confirmed with the Windows build of bpy 5.0.1 under wine: `scripts/test_windows` passes all of `tests/bullet`
-there. A table is never trusted for its platform's sake: `checks` holds every entry against values that Blender itself
-gives out.
+and the tests of elastic connections there. A table is never trusted for its platform's sake: `checks` holds every
+entry against values that Blender itself gives out.
 """
 
 from __future__ import annotations

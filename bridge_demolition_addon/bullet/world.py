@@ -429,10 +429,11 @@ class BulletWorld:
         retire(self._layout, bound.dynamics, bound.bodies, connections, alive, bodies_stay=bodies_stay)
         bound.exists[:] = False
 
-    def holds_what_it_held(self) -> bool:
-        """Return whether Blender has made no constraint since the world was bound, as it does after an edit."""
-        count = read_value(self._bound.dynamics + self._layout.world.constraints + self._layout.array.count, "i")
-        return count == np.count_nonzero(self._bound.exists)
+    def has_grown(self) -> bool:
+        """Return whether Blender has added anything to the world since it was bound, as it does after an edit."""
+        world, count = self._layout.world, self._layout.array.count
+        known = ((world.bodies, len(self._bound.bodies)), (world.constraints, np.count_nonzero(self._bound.exists)))
+        return any(read_value(self._bound.dynamics + array + count, "i") > number for array, number in known)
 
     def take_out_edited(self) -> list[bpy.types.Object]:
         """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
@@ -524,6 +525,7 @@ class BulletWorld:
             checks.check_solver(layout, dynamics, self.scene.rigidbody_world, scene_time_step(self.scene).substep_s)
         bodies = self._find_bodies(depsgraph, to_read)
         connections = self._find_connections(depsgraph, bodies, to_read)
+        bodies = bodies[bodies != 0]
         for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
                 raise LayoutError("something else has its hand on Blender's Bullet world")
@@ -557,16 +559,16 @@ class BulletWorld:
         write_pointers(self._bound.dynamics + self._layout.world.user_info, self._token)
 
     def _find_bodies(self, depsgraph: bpy.types.Depsgraph, to_read: bool) -> np.ndarray:
-        """Bullet's bodies (n,)."""
+        """Bullet's bodies (n,); 0 for one that is not simulated, where nothing is to be read."""
         holders, addresses = [], []
         for body in self.bodies:
             shared = read_pointer(body.rigid_body.as_pointer() + self._layout.blender.body_shared)
             holder = read_pointer(shared) if shared else 0
-            if not holder:
+            if to_read and not holder:
                 raise SimulationError(f"body {body.name!r} is not simulated: give it a mesh and a rigid body")
             holders.append(holder)
-            addresses.append(read_pointer(holder))
-        found = zip(self.bodies, holders, addresses, strict=True)
+            addresses.append(read_pointer(holder) if holder else 0)
+        found = [each for each in zip(self.bodies, holders, addresses, strict=True) if each[1]]
         if to_read:
             checks.check_bodies(self._layout, found, depsgraph)
         else:

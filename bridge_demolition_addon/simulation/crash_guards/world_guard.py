@@ -134,7 +134,7 @@ class WorldGuard:
             return
         try:
             known = self._world.bind(depsgraph, to_read=False) is WorldState.KNOWN
-            if known and not self._world.holds_what_it_held():
+            if known and self._world.has_grown():
                 self._world.release()
                 self._world.bind(depsgraph, to_read=False)
         except DemolitionError:

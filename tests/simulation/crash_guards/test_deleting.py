@@ -81,6 +81,12 @@ def test_deleting_after_another_file_could_not_be_opened_or_a_body_was_added(tmp
     do(tmp_path, "watch", *frame, *before, deletion, "update", "go_to_start", "fall_from_the_start")
 
 
+@pytest.mark.parametrize("deletion", ["remove_body", "delete_body", "remove_connection"])
+def test_deleting_beside_a_body_that_is_not_simulated_yet(tmp_path, deletion):
+    added = ("play_unwatched", "add_another_block", "switch_on")
+    do(tmp_path, *added, deletion, "update", "stand_still_until_the_start", "switch_off")
+
+
 @pytest.mark.parametrize("deletion", ["remove_body", "remove_connection"])
 def test_deleting_at_the_start_frame_after_the_add_on_was_switched_on(tmp_path, deletion):
     do(tmp_path, "play_unwatched", "go_to_start", "switch_on", deletion, "update", "fall_from_the_start", "switch_off")
