@@ -65,6 +65,7 @@ def record_into_a_folder_in_use(person: Person) -> Steps:
     person.expect("no folder is greyed with a reason", "Choose a folder" in person.refusal("bda.register_handler"))
     used = person.folder / "used"
     used.mkdir()
+    (used / "notes.txt").write_text("mine", encoding="utf-8")
     yield from person.fill_in("output_directory", str(used))
     yield from person.click("bda.register_handler")
     yield from person.picture("folder_in_use")
