@@ -108,10 +108,11 @@ class RecordedScene:
 
         With `world_stays` Blender keeps the world, but not all that is in it: the world stands still.
         """
-        if self._is_recorded:
-            self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
         with suppress(ReferenceError):  # the scene was deleted before
             self._guard.check_objects(self.scene)  # one that is not shown was not updated since something was deleted
+        if self._is_recorded:
+            self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
+        with suppress(ReferenceError):
             if world_stays:
                 self._guard.stand_still(self.scene)
             else:

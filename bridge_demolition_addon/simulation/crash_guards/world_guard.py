@@ -137,7 +137,7 @@ class WorldGuard:
             if known and self._world.has_grown():
                 self._world.release()
                 self._world.bind(depsgraph, to_read=False)
-        except DemolitionError:
+        except (DemolitionError, ReferenceError):  # something of it may be deleted
             self._world.release()
             self._world = None
 
