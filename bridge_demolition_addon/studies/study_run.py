@@ -54,7 +54,8 @@ class StudyRun:
         self._reasons: dict[int, str] = {}
         self._at_work: dict[str, list[Draw]] = {}
         self._text = study.text
-        self._began_s = time.monotonic()
+        self._worked_s = 0.0
+        self._looked_s = time.monotonic()
 
     @property
     def total(self) -> int:
@@ -83,9 +84,8 @@ class StudyRun:
 
     @property
     def remaining_s(self) -> float:
-        """Wall time that is left, if draws go on as so far; 0 as long as that is not known."""
-        so_far_s = time.monotonic() - self._began_s
-        return so_far_s / self.played * (self.total - self.done) if self.played else 0.0
+        """Wall time that is left, if draws go on as so far, pauses apart; 0 as long as that is not known."""
+        return self._worked_s / self.played * (self.total - self.done) if self.played else 0.0
 
     def step(self, timeout_s: float) -> None:
         """Begin as many draws as there is room for, and take in those that have ended, waiting for one at most so long.
@@ -95,6 +95,7 @@ class StudyRun:
         DemolitionError, OSError
             Draws cannot be run at all, or what becomes of them not be kept.
         """
+        self._count_time()
         looked_up = 0
         while self._has_room and looked_up < _LOOKED_UP_AT_A_TIME:
             self._begin(self._next)
@@ -120,6 +121,12 @@ class StudyRun:
     def table(self) -> RunsTable:
         """Return the table of all draws that have ended."""
         return RunsTable(tuple(self._rows[number] for number in sorted(self._rows)))
+
+    def _count_time(self) -> None:
+        now_s = time.monotonic()
+        if not self.is_paused:
+            self._worked_s += now_s - self._looked_s
+        self._looked_s = now_s
 
     @property
     def _has_room(self) -> bool:

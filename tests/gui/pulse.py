@@ -5,6 +5,14 @@ import time
 
 import bpy
 import numpy as np
+from person import Person
+
+ANSWER_S = 0.5
+"""Blender answers and draws at least so often while it runs."""
+SHARE = 0.95
+"""Of the waits that must be shorter: the world is made in one of the first frames."""
+LONGEST_S = 2.0
+"""And no wait is ever as long as this."""
 
 _BEAT_S = 0.01
 
@@ -41,6 +49,20 @@ class Pulse:
 
     def _drawn(self) -> None:
         self._drawings.append(_now())
+
+
+def judge(person: Person, what: str, waits: np.ndarray) -> None:
+    """Note how long Blender did not look for events, or did not draw, and judge it.
+
+    By the clock a wait is longer where something else runs on the machine, and of work where Blender works in several
+    threads at once. So the shorter of the two is still no less than what it would take alone.
+    """
+    for name, column in zip(("by the clock", "of work", "by the shorter"), (*waits.T, waits.min(axis=1)), strict=True):
+        middle, most, longest = np.quantile(column, (0.5, SHARE, 1.0))
+        times = f"{middle:.3f} s in the middle, {most:.3f} s for {SHARE:.0%}, {longest:.3f} s at most"
+        is_judged = name == "by the shorter"
+        trouble = "too long" if is_judged and not (most < ANSWER_S and longest < LONGEST_S) else ""
+        person.note(f"{len(column)} waits between {what} while it runs, {name}: {times}", trouble)
 
 
 def _now() -> tuple[float, float]:

@@ -143,11 +143,14 @@ def build(machine: System | DebianRoot, output: Path) -> Path:
     known = builder.SERIES.get(python) or builder.Series("", python, numpy, "", None, ())
     series = replace(known, name="gui-test", blender_min="4.2.0", blender_max=None, platforms=("linux-x64",))
     options = argparse.Namespace(platform=None, split_platforms=False, output=output / "extension")
+    failures: list[Exception] = []
     try:
-        (archive,) = builder.build(series, options, builder.BuildTool.of_bpy())
+        archives = builder.build(series, options, builder.BuildTool.of_bpy(), failures)
     except builder.BuildError as error:
-        raise SetupError(str(error)) from error
-    return archive
+        failures.append(error)
+    if failures:
+        raise SetupError("; ".join(map(str, failures)))
+    return archives[0]
 
 
 def build_extension() -> ModuleType:

@@ -98,15 +98,13 @@ def course_of(at_work: StudyAtWork) -> list[str]:
     lines = [f"{run.done} of {run.total} draws" + (", paused" if run.is_paused else "")]
     if others := run.done - run.statuses.get(DONE, 0):
         lines.append(f"{others} of them did not finish")
-    if left := round(run.remaining_s):
+    if not run.is_paused and (left := round(run.remaining_s)):
         lines.append(f"{left // 3600}:{left // 60 % 60:02d}:{left % 60:02d} h left")
     return lines
 
 
 def _draw_course(layout: bpy.types.UILayout, at_work: StudyAtWork) -> None:
-    column = layout.column(align=True)
-    for line in course_of(at_work):
-        column.label(text=line)
+    """Draw the buttons above what comes and goes: so they stay under the mouse."""
     layout.progress(factor=at_work.run.done / at_work.run.total, text=at_work.path.name)
     row = layout.row(align=True)
     if at_work.run.is_paused:
@@ -114,3 +112,6 @@ def _draw_course(layout: bpy.types.UILayout, at_work: StudyAtWork) -> None:
     else:
         row.operator("bda.pause_study", text="Pause")
     row.operator("bda.stop_study", text="Stop")
+    column = layout.column(align=True)
+    for line in course_of(at_work):
+        column.label(text=line)

@@ -233,6 +233,7 @@ def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel,
     running = drawn(blender)
     assert {"0 of 3 draws", "bda.pause_study", "bda.stop_study"} <= set(running)
     assert "bda.start_study" not in running
+    assert running.index("bda.stop_study") < running.index("0 of 3 draws")  # lines that come move no button
     blender.ops.bda.pause_study()
     assert {"0 of 3 draws, paused", "bda.resume_study"} <= set(drawn(blender))
     blender.ops.bda.resume_study()

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Set up a study in its panel, play the timeline while it runs, pause it, look at its map, and run its worst draw."""
+
+import json
+import math
+import re
+import subprocess
+from pathlib import Path
+
+import bpy
+import numpy as np
+from habits import build, delete_all, play_or_pause
+from panels import Panels
+from person import Person, Steps, region_of
+from pulse import Pulse, judge
+from traces import module, recording_runs, rows
+
+RUNS, QUANTILE, CONFIDENCE, RANK = 8, 0.5, 0.9, 1
+HEIGHT_KEY, LOWEST_M, HIGHEST_M = "ball.drop_height_m", 0.2, 1.5
+
+RUNS_PANEL, VARY_PANEL, FINDINGS_PANEL = 0, 1, 3
+"""Their places among the sub-panels."""
+
+STUDY_S = 300.0
+"""A study of a small bridge ends in this time, on a busy machine too."""
+PAUSE_S = 4.0
+"""Longer than a draw takes: what was not begun before is seen not to begin."""
+
+LIMIT_RGB = (255, 51, 51)
+NEARLY = 40
+"""Between the colour of a line as it is meant, and as it is seen at its smoothed edges."""
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    panels = Panels(person)
+    yield from delete_all(person)
+    yield from panels.widen(160)
+    yield from build(person)
+    person.expect_reports("nothing but the building is reported", "Deleted 3 object", "30 shards")
+    yield from panels.show_only("Study")
+    yield from refuse_without_a_folder(person)
+    yield from set_up(person, panels)
+    yield from run_beside_the_work(person)
+    yield from look_at_the_findings(person, panels)
+    yield from run_the_worst_draw(person, panels)
+    yield from quit_in_the_middle(person, panels)
+
+
+def refuse_without_a_folder(person: Person) -> Steps:
+    person.expect("no folder is greyed with a reason", "Choose a folder" in person.refusal("bda.start_study"), True)
+    person.expect("nothing to pause yet", "No study is at work" in person.refusal("bda.pause_study"), True)
+    yield from person.picture("panel_at_first")
+
+
+def set_up(person: Person, panels: Panels) -> Steps:
+    """A folder; how many runs; and one key that varies."""
+    study = person.scene.bda.study
+    yield from person.fill_in("study_directory", str(folder(person)))
+    yield from panels.toggle_inner(RUNS_PANEL, "bda.start_study")
+    for name, value in (("runs", RUNS), ("quantile", QUANTILE), ("confidence", CONFIDENCE), ("rank", RANK)):
+        yield from person.fill_in(name, f"{value:g}")
+    yield from person.picture("runs_and_limit")
+    found = (study.runs, study.quantile, study.confidence, study.rank)
+    person.expect("runs and limit are as typed", found, (RUNS, QUANTILE, CONFIDENCE, RANK))
+    yield from panels.toggle_inner(RUNS_PANEL, "bda.start_study")
+
+    yield from panels.toggle_inner(VARY_PANEL, "bda.start_study")
+    yield from person.click("bda.add_table")
+    yield 0.5
+    yield from person.picture("empty_table")
+    yield from person.fill_in("key", HEIGHT_KEY)
+    yield from person.click("distribution")
+    yield 0.3
+    yield from person.picture("distributions")
+    yield from person.press("U", "u")  # the letter that is underlined
+    yield 0.3
+    for name, value in (("lowest", LOWEST_M), ("highest", HIGHEST_M)):
+        yield from person.click(f"use_{name}")
+        yield from person.fill_in(name, f"{value:g}")
+    yield from person.picture("what_varies")
+    vary = study.vary[0]
+    person.expect("the key is as typed", (len(study.vary), vary.key), (1, HEIGHT_KEY))
+    person.expect("its distribution is as chosen", vary.distribution, "uniform")
+    ends = math.isclose(vary.lowest, LOWEST_M, rel_tol=1e-6), math.isclose(vary.highest, HIGHEST_M, rel_tol=1e-6)
+    person.expect("its ends are as typed", ends, (True, True))
+    yield from panels.toggle_inner(VARY_PANEL, "bda.start_study")
+    person.expect_reports("nothing is reported")
+
+
+def run_beside_the_work(person: Person) -> Steps:
+    """Start; play the timeline; Pause; Resume; and wait for the end."""
+    session = module("ui.study.session")
+    yield from person.click("bda.start_study")
+    person.expect_reports("nothing but the start is reported", f"The study runs in {folder(person)}")
+    run = session.study_at_work().run
+    person.expect("a second one is refused", "at work already" in person.refusal("bda.start_study"), True)
+    yield from person.picture("started")
+    yield from play_or_pause(person)
+    pulse, frames = Pulse(), set()
+    yield from person.hover("bda.pause_study")
+    for _ in range(round(STUDY_S / 0.1)):
+        frames.add(person.scene.frame_current)
+        if run.done >= 1:
+            break
+        yield 0.1
+    yield 0.5
+    yield from person.press("LEFTMOUSE")  # Pause stays where it was when the time left came
+    yield 0.3
+    yield from person.picture("paused")
+    person.expect("Pause pauses", run.is_paused, True)
+    yield PAUSE_S
+    paused_at = run.done
+    person.expect("there is something left to do", paused_at < RUNS, True)
+    yield PAUSE_S
+    person.expect("no draw ends while it is paused", run.done, paused_at)
+    person.expect("draws have ended while the timeline played", paused_at >= 1 and len(frames) > 1, True)
+    yield from person.click("bda.resume_study")
+    yield from person.wait_for("it goes on", lambda: run.done > paused_at, STUDY_S)
+    person.expect("the timeline plays all the time", person.playing, True)
+    yield from person.illustrate("study_at_work", person.view)
+    pulse.stop()
+    yield from play_or_pause(person)
+    for what, waits in pulse.waits().items():
+        judge(person, what, waits)
+    yield from person.wait_for("the study ends", lambda: session.study_at_work() is None, STUDY_S)
+    yield 1.0
+    yield from person.picture("ended")
+    person.expect("nothing went wrong", session.why_ended(), "")
+    table = rows(folder(person) / "runs.csv")
+    person.expect("all draws are in the table", [row["run"] for row in table], [str(n) for n in range(1, RUNS + 1)])
+    person.expect("all are done", {row["status"] for row in table}, {"done"})
+    heights = {float(row[f"in.{HEIGHT_KEY}"]) for row in table}
+    person.expect("each has another height", len(heights), RUNS)
+    person.expect("all of them as typed", min(heights) >= LOWEST_M and max(heights) <= HIGHEST_M)
+    person.expect_reports("nothing is reported of its end")
+
+
+def look_at_the_findings(person: Person, panels: Panels) -> Steps:
+    """The sentence, the map on the ground, and the limit around the bridge."""
+    yield from panels.toggle_inner(FINDINGS_PANEL, "bda.start_study")
+    yield from person.move_to_view()
+    for _ in range(2):  # away from the bridge
+        yield from person.press("WHEELDOWNMOUSE")
+    yield from person.illustrate("study_panel", person.view)
+    shown = module("ui.study.session").shown_study()
+    farthest = max(float(row["out.reach_m"]) for row in rows(folder(person) / "runs.csv"))
+    said = re.search(r"stay within ([\d.]+) m", shown.sentences[0])
+    # Of rank 1 is the largest; sentences round up.
+    person.expect("it says the largest reach", said and float(said[1]), math.ceil(farthest * 10.0 - 1e-9) / 10.0)
+    person.expect("everything can be drawn", module("ui.study.decorator").trouble(), "")
+    with_study = pixels(person)
+    person.expect("the limit is seen as a red line", limit_pixels(with_study) > 100, True)
+    yield from person.click("show_study")
+    yield 0.5
+    yield from person.move_to_view()
+    yield from person.picture("study_hidden")
+    without = pixels(person)
+    person.expect("it is not seen when it is not shown", limit_pixels(without), 0)
+    changed = int((np.abs(with_study.astype(int) - without).max(axis=2) > NEARLY).sum())
+    person.expect("the map is seen as well", changed > 2 * limit_pixels(with_study), True)
+    yield from person.click("show_study")
+
+
+def run_the_worst_draw(person: Person, panels: Panels) -> Steps:
+    """Open Worst Draw builds it; run, it is the same to the last bit."""
+    yield from person.click("bda.open_worst_draw")
+    yield 1.0
+    yield from person.move_to_view()
+    yield from person.picture("worst_draw")
+    worst = max(rows(folder(person) / "runs.csv"), key=lambda row: float(row["out.reach_m"]))
+    person.expect_reports("the worst draw is reported", f"Draw {worst['run']}, whose debris got")
+    height = person.scene.bda.scenario.ball.drop_height_m
+    person.expect("the panels show its height", math.isclose(height, float(worst[f"in.{HEIGHT_KEY}"]), rel_tol=1e-6))
+    yield from panels.show_only("Frame Change Event Handler")
+    results = person.folder / "worst"
+    yield from person.fill_in("output_directory", str(results))
+    yield from person.click("bda.run")
+    yield from person.wait_for("it runs", recording_runs, 10.0)
+    yield from person.wait_for("it runs to its end", lambda: not recording_runs(), 120.0)
+    yield 1.0
+    yield from person.picture("worst_draw_run")
+    person.expect_reports("nothing but the results is reported", "Results are in")
+    expected = next(
+        kept["fingerprint"]
+        for kept in map(read_json, folder(person).glob("draws/*/outcome.json"))
+        if kept["inputs"]["scenario.seed"] == int(worst["in.scenario.seed"])
+    )
+    found = read_json(results / "summary.json")["fingerprint"]
+    person.expect("it moves as in the study, to the last bit", {name: found[name] for name in expected}, expected)
+
+
+def quit_in_the_middle(person: Person, panels: Panels) -> Steps:
+    """A study is at work when Blender quits, which ends it and does not wait."""
+    yield from panels.show_only("Study")
+    yield from person.fill_in("study_directory", str(person.folder / "left"))
+    yield from person.click("bda.start_study")
+    person.expect_reports("a second study starts", "The study runs in")
+    yield 3.0
+
+
+def folder(person: Person) -> Path:
+    return person.folder / "study"
+
+
+def read_json(file: Path) -> dict:
+    return json.loads(file.read_text(encoding="utf-8"))
+
+
+def pixels(person: Person) -> np.ndarray:
+    """What is seen of the 3D view left of its sidebar (height, width, 3)."""
+    region: bpy.types.Region = region_of(person.view, "WINDOW")
+    width, height = person.sidebar.x - region.x, region.height
+    top = person.window.height - region.y - height
+    crop = ("-crop", f"{width}x{height}+{region.x}+{top}", "+repage", "-depth", "8")
+    screen = subprocess.run(["import", "-window", "root", *crop, "rgb:-"], check=True, capture_output=True)
+    return np.frombuffer(screen.stdout, dtype=np.uint8).reshape(height, width, 3)
+
+
+def limit_pixels(seen: np.ndarray) -> int:
+    """How many pixels have the colour of the limit."""
+    return int((np.abs(seen.astype(int) - LIMIT_RGB).max(axis=2) < NEARLY).sum())
