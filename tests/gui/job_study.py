@@ -104,10 +104,10 @@ def run_beside_the_work(person: Person) -> Steps:
     pause_at = person.mouse
     yield from person.picture("started")
     yield from play_or_pause(person)
-    pulse, frames = Pulse(), set()
+    pulse, frames, played_from = Pulse(), set(), run.done
     for _ in range(round(STUDY_S / 0.1)):
         frames.add(person.scene.frame_current)
-        if run.done >= 1:
+        if run.done > played_from + 1 and len(frames) > 1:
             break
         yield 0.1
     for x, y in ((pause_at[0] - 1, pause_at[1]), pause_at):
@@ -121,11 +121,11 @@ def run_beside_the_work(person: Person) -> Steps:
     person.expect("there is something left to do", paused_at < RUNS, True)
     yield PAUSE_S
     person.expect("no draw ends while it is paused", run.done, paused_at)
-    person.expect("draws have ended while the timeline played", paused_at >= 1 and len(frames) > 1, True)
+    person.expect("draws have ended while the timeline played", paused_at > played_from and len(frames) > 1, True)
     yield from person.click("bda.resume_study")
     yield from person.wait_for("it goes on", lambda: run.done > paused_at, STUDY_S)
     person.expect("the timeline plays all the time", person.playing, True)
-    yield from person.illustrate("study_at_work", person.view)
+    yield from person.picture("at_work")
     pulse.stop()
     yield from play_or_pause(person)
     for what, waits in pulse.waits().items():
