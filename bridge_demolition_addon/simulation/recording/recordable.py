@@ -32,11 +32,12 @@ def check_recordable(scene: bpy.types.Scene) -> None:
             f"scene {scene.name!r} has a unit scale of {unit_scale:g}, and Bullet takes every unit for a metre: "
             "set the unit scale to 1 and build the scene in metres"
         )
-    if lacks_ground(scene):
+    loose = loose_connections(scene)
+    if loose and lacks_ground(scene):
         raise SimulationError(
             f"the ground of scene {scene.name!r} is gone: undo what took it away, or build the scenario anew"
         )
-    if loose := loose_connections(scene):
+    if loose:
         more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""
         raise SimulationError(
             f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
