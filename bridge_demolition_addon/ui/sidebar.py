@@ -31,9 +31,9 @@ def letters_of(context: bpy.types.Context) -> int:
 
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "ERROR") -> None:
     """Draw a sentence on as many lines as it needs, as Blender cuts off what is wider than the sidebar."""
-    column = layout.column(align=True)
+    column, below = layout.column(align=True), "NONE" if icon == "NONE" else "BLANK1"
     for number, line in enumerate(textwrap.wrap(text, letters_of(context))):
-        column.label(text=line, icon="BLANK1" if number else icon)
+        column.label(text=line, icon=below if number else icon)
 
 
 def path_property(name: str, description: str, subtype: str = "FILE_PATH") -> Any:
