@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from blocks import Blocks
 from shard_scenes import DENSITY_KG_M3, ShardScene
+from torn_block import check_fall, torn_block
 
 from bridge_demolition_addon.core.mechanics.strength import MATERIALS, Ductility, Strength
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
@@ -126,33 +127,11 @@ def test_deck_comes_down_near_the_load_of_beam_theory_however_finely_it_is_cut(b
     assert 0.45 < load / expected < 1.5
 
 
-def torn(blocks, tmp_path, mass, strength_share, elongation, frames):
-    """A block that hangs from a section that breaks under its weight at once, with a ductile rest."""
-    area = 0.04
-    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), mass)
-    connection = blocks.connect("FIXED", (0, 0, 9.5), ceiling, block)
-    connection["bda_area_m2"], connection["bda_normal"] = area, (0.0, 0.0, -1.0)
-    tension = 0.5 * mass * GRAVITY / area
-    breaking = Breaking(Strength(1e9, tension, 1e9, 1e9, 1e9), 0.0, Ductility(strength_share / 0.5, elongation))
-    keep_breaking(blocks.scene, breaking)
-    return blocks.play(tmp_path, frames)
-
-
 @pytest.mark.parametrize("substeps", (10, 40))
 def test_tie_gives_way_under_its_yield_force_and_lets_go(blender, tmp_path, substeps):
-    """Of the weight, 0.4 is held back over the elongation: a fall at 0.6 g, then free."""
-    blocks, elongation = Blocks(substeps_per_frame=substeps), 0.3
-    results = torn(blocks, tmp_path, 100.0, 0.4, elongation, 24)
-    fallen = 9.0 - results.frames.positions_m[:, 1, 2]
-    speed = -results.frames.velocities_m_s[:, 1, 2]
-    held = np.flatnonzero((fallen > 0.05) & (fallen < elongation))
-    free = np.flatnonzero(fallen > elongation + 0.1)
-    assert len(held) and len(free)
-    # The section held the block for a sub-step, and the tie lets go within one: half a per cent each of the fall.
-    np.testing.assert_allclose(speed[held] ** 2, 2 * 0.6 * GRAVITY * fallen[held], rtol=0.05)
-    energy = 0.6 * GRAVITY * elongation + GRAVITY * (fallen[free] - elongation)
-    np.testing.assert_allclose(speed[free] ** 2 / 2, energy, rtol=0.05)
-    assert results.frames.loads.connection_forces_n[held[0], 0, 2] == pytest.approx(-0.4 * 100.0 * GRAVITY, rel=1e-6)
+    blocks = Blocks(substeps_per_frame=substeps)
+    torn_block(blocks, 0.4, 0.3)
+    check_fall(blocks.play(tmp_path, 24), 0.4, 0.3)
 
 
 def test_tie_that_is_strong_enough_holds_on(blender, tmp_path):

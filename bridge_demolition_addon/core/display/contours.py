@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 
@@ -248,9 +249,14 @@ class ContourSeries:
         """Return the frame of a row as it was recorded."""
         return self.recorded[row]
 
+    @cached_property
+    def _first(self) -> Frame:
+        """The frame from which displacements are: looking one up may read it from the disk."""
+        return self.recorded[0]
+
     def magnified(self, row: int, magnification: float) -> Frame:
         """Return the frame of a row with its bodies displaced and turned so many times as much as they are."""
-        frame, first = self.recorded[row], self.recorded[0]
+        frame, first = self.recorded[row], self._first
         if magnification == 1.0:
             return frame
         turns = rotation_vectors(first.rotations, frame.rotations)
@@ -308,7 +314,7 @@ class ContourSeries:
         """Return the values (n,) of a row, whether bodies move or not."""
         frame = self.recorded[row]
         if quantity == Quantity.DISPLACEMENT:
-            return length(frame.positions_m - self.recorded[0].positions_m)
+            return length(frame.positions_m - self._first.positions_m)
         return _peaks(quantity, frame.loads) if peak else _means(quantity, frame.loads)
 
 
