@@ -57,7 +57,7 @@ def main() -> None:
                 for way in ("bare step", "rigid", "elastic", "elastic, anew in every sub-step"):
                     forget_elasticity(scene)
                     if way.startswith("elastic"):
-                        keep_elasticity(scene, made, model.stiffness, ratio)
+                        keep_elasticity(scene, made, model.stiffness, ratio, model.thicknesses_m())
                     recorded = nullcontext() if way == "bare step" else _recording(scene, Path(folder))
                     turned = 0.0 if "anew" in way else structure.TURNED_RAD
                     with recorded, _refreshed_from(turned):

@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
 DATA = ROOT / "docs" / "data" / "breaking_loads.csv"
-SHARDS = (40, 120, 200)
+SHARDS = (40, 120, 200, 1000)
 LENGTH_M, WIDTH_M, DEPTH_M, DENSITY_KG_M3 = 5.1, 1.5, 0.3, 2400.0
 DURATION_S, STEADY_S, LARGEST = 2.5, 0.1, 5.6
 """How long it is simulated, from when on its weight grows, and how many times as heavy it is at last."""

@@ -103,7 +103,8 @@ def _build(
             forget_elasticity(scene)
         else:
             ratio = scenario.connections.damping_ratio
-            keep_elasticity(scene, made, model.stiffness, DAMPING_RATIO if ratio is None else ratio)
+            ratio = DAMPING_RATIO if ratio is None else ratio
+            keep_elasticity(scene, made, model.stiffness, ratio, model.thicknesses_m())
     if not charge_objects(scene):  # those that the user has placed stay the objects that they are
         create_charges(scene, scenario.charges)
     keep_blast(scene, scenario.blast)

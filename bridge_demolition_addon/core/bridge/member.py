@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..geometry.mesh import TriangleMesh
+from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +38,12 @@ class Member:
     def volume_m3(self) -> float:
         """Volume of the solid, m³."""
         return self.solid.volume
+
+    @property
+    def thickness_m(self) -> float:
+        """Twice the volume by the surface, m: the thickness of a plate, the wall of a box, half the side of a bar."""
+        areas, _ = triangle_areas_and_normals(self.solid.corners)
+        return 2.0 * self.volume_m3 / float(areas.sum())
 
     @property
     def mass_kg(self) -> float:

@@ -104,6 +104,11 @@ class ElasticStructure:
         Damping over stiffness, β.
     positions_m, rotations : (3, n) and (3, 3, n) float
         Where nothing is deformed: what rounding leaves of the frames there counts as none.
+
+    Attributes
+    ----------
+    part_of_connection : (m,) int
+        What hung together when the sub-step began: a number for each part, -1 for connections that had broken.
     """
 
     def __init__(
@@ -183,7 +188,7 @@ class ElasticStructure:
         part_of_connection = np.where(self._moves[first], label[first], label[second])
         numbers = np.unique(part_of_connection)
         self._part_of_body = np.full(self._count, -1)
-        self._part_of_connection = np.full(len(self._frames), -1)
+        self.part_of_connection = np.full(len(self._frames), -1)
         self._parts: list[_Part] = []
         within = np.full(self._count, -1)
         for number, which in enumerate(numbers.tolist()):
@@ -191,7 +196,7 @@ class ElasticStructure:
             connections = kept[part_of_connection == which]
             within[bodies] = np.arange(len(bodies))
             self._part_of_body[bodies] = number
-            self._part_of_connection[connections] = number
+            self.part_of_connection[connections] = number
             self._parts.append(
                 _Part(
                     bodies,
@@ -210,7 +215,7 @@ class ElasticStructure:
         broken = self._intact & ~intact
         if broken.any():
             self._intact = intact.copy()
-            self._stale[self._part_of_connection[broken]] = True
+            self._stale[self.part_of_connection[broken]] = True
             self._stale[-1] = False
             self._has_broken = True
 
@@ -223,7 +228,7 @@ class ElasticStructure:
 
     def _acting(self, awake: np.ndarray) -> np.ndarray:
         """Connections (k,) that are intact, and in awake parts (p + 1,)."""
-        return np.flatnonzero(self._intact & awake[self._part_of_connection])
+        return np.flatnonzero(self._intact & awake[self.part_of_connection])
 
     def _refresh(self, states: BodyStates, awake: np.ndarray, acting: np.ndarray, places: JointPlaces) -> None:
         """Make rows and equations of parts anew that have turned or lost a connection."""
@@ -235,7 +240,7 @@ class ElasticStructure:
             return
         bodies = stale[self._part_of_body]
         self._rotations[..., bodies] = states.rotations[..., bodies]
-        chosen = np.flatnonzero(stale[self._part_of_connection[acting]])
+        chosen = np.flatnonzero(stale[self.part_of_connection[acting]])
         connections = acting[chosen]
         rows = places.only(chosen).rows()
         self._rows.set(connections, rows)

@@ -111,18 +111,54 @@ class SectionCuts:
         holds = intact[self.faces[entries]]
         owners, entries = owners[holds], entries[holds]
         faces, cosines = self.faces[entries], self.cosines[entries]
-        total = _Totals(owners, len(cuts))
-        shares = areas[faces] * cosines
-        cut_areas = total.of(shares)
-        centres = total.of(shares[:, None] * points[faces]) / cut_areas[:, None]
-        levers = points[faces] - centres[owners]
-        pulls = self.signs[entries, None] * forces[faces]
-        turns = self.signs[entries, None] * moments[faces] + np.cross(levers, pulls)
         axes = np.concatenate((axes, axes))
-        across = transformed_back(axes[owners], levers)[:, 1:]
-        own = second_moments[faces] * cosines[:, None, None]
-        cut_moments = total.of(own + shares[:, None, None] * _moved_axes(across))
-        return section_forces(axes, total.of(pulls), total.of(turns)), cut_areas, cut_moments
+        return cut_loads(
+            owners, faces, self.signs[entries], cosines, forces, moments, points, axes, areas, second_moments
+        )
+
+
+def cut_loads(
+    owners: np.ndarray,
+    faces: np.ndarray,
+    signs: np.ndarray,
+    cosines: np.ndarray,
+    forces: np.ndarray,
+    moments: np.ndarray,
+    points: np.ndarray,
+    axes: np.ndarray,
+    areas: np.ndarray,
+    second_moments: np.ndarray,
+) -> tuple[SectionForces, np.ndarray, np.ndarray]:
+    """Loads and sizes of k cuts through faces that stay plane together.
+
+    Parameters
+    ----------
+    owners, faces : (e,) int
+        Cuts, from 0 to k - 1 in order, and the connections whose faces are in them.
+    signs, cosines : (e,) float
+        1 where the load of that connection's first body counts, -1 where its opposite does; and between the normals of
+        the face and of the cut.
+    forces, moments, points, areas, second_moments : (m, 3), (m, 3), (m, 3), (m,), (m, 2, 2) float
+        Of all connections, as in `SectionCuts.sections`.
+    axes : (k, 3, 3) float
+        Of the cuts, as columns.
+
+    Returns
+    -------
+    loads, areas_m2, second_moments_m4
+        Of the k cuts.
+    """
+    total = _Totals(owners, len(axes))
+    shares = areas[faces] * cosines
+    cut_areas = total.of(shares)
+    centres = total.of(shares[:, None] * points[faces]) / cut_areas[:, None]
+    levers = points[faces] - centres[owners]
+    pulls = signs[:, None] * forces[faces]
+    turns = signs[:, None] * moments[faces] + np.cross(levers, pulls)
+    across = transformed_back(axes[owners], levers)[:, 1:]
+    own = second_moments[faces] * cosines[:, None, None]
+    cut_moments = total.of(own + shares[:, None, None] * _moved_axes(across))
+    return section_forces(axes, total.of(pulls), total.of(turns)), cut_areas, cut_moments
 
 
 def worst_around(pairs: np.ndarray, used: np.ndarray, is_shard: np.ndarray) -> np.ndarray:

@@ -10,8 +10,10 @@ from ..elasticity.equilibrium import Equilibrium, equilibrium
 from ..elasticity.joint_rows import JointFrames
 from ..elasticity.section_stiffness import SectionStiffness, in_frames
 from ..mechanics.joint import MOTIONS, Joint
-from ..mechanics.section_forces import section_axes, section_forces
-from ..mechanics.strength import rectangular_sections, utilisation
+from ..mechanics.member_sections import MemberSections, kinds_of
+from ..mechanics.overloads import ConnectionLoads, Overloads
+from ..mechanics.section_forces import section_axes
+from ..mechanics.strength import Strength
 from ..units import STANDARD_GRAVITY_M_S2
 from .connections import GROUND, Connections
 from .model import Model
@@ -31,17 +33,30 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
     A breaking force is compared with each direction by itself, moments included, as Bullet does.
     """
     largest = abs(rest.loads).max(axis=0, initial=0.0)
-    forces, moments = rest.loads[:3].T, rest.loads[3:].T
-    borne = section_forces(section_axes(model.connections.normals), forces, moments)
-    sections = rectangular_sections(model.connections.areas, model.second_moments_m4)
     found = np.zeros(len(model.connections), bool)
     for row, joint in enumerate(joints):
         is_one = model.joint_of_connection == row
         if joint.breaking_force_n is not None:
             found |= is_one & (largest >= joint.breaking_force_n)
         if joint.strength is not None:
-            found |= is_one & (utilisation(borne, sections, joint.strength) > 1.0)
+            found[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
     return found
+
+
+def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
+    """Return which connections (r,) with a strength would break (k,) in a simulation, before what breaks there."""
+    connections, count = model.connections, len(model.connections)
+    moves = np.append(~model.fixed, False)  # the ground, at index -1
+    pairs = connections.pairs % len(moves)
+    places = np.vstack((model.centres_m, np.zeros(3)))
+    faces = connections.normals, connections.areas, model.second_moments_m4
+    kinds = kinds_of(np.append(model.member_of_shard, -1)[pairs])
+    sections = MemberSections(pairs, connections.points, *faces, places, moves, kinds, model.thicknesses_m())
+    loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, connections.points)
+    axes = section_axes(connections.normals[rows])
+    whole, together = np.ones(count), np.zeros(count, int)
+    judged = Overloads(pairs, *faces, moves, strength, sections)
+    return judged.overloaded(rows, loads, axes, whole > 0.0, whole, together)[0]
 
 
 def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:

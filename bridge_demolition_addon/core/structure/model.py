@@ -62,6 +62,12 @@ class Model:
     fixed: np.ndarray
     stiffness: SectionStiffness | None = None
 
+    def thicknesses_m(self) -> np.ndarray:
+        """Thickness (m,) of the thinner of the members that each connection is between."""
+        of_members = np.array([member.thickness_m for member in self.members])
+        of_shards = np.append(of_members[self.member_of_shard], np.inf)  # the ground, at index -1
+        return of_shards[self.connections.pairs].min(axis=1)
+
     @property
     def density_kg_m3(self) -> float:
         """Mean density of all members, kg/m³."""

@@ -13,14 +13,19 @@ from ..custom_properties import kept_number, kept_numbers
 
 _STIFFNESS = "bda_stiffness"
 _DAMPING_RATIO = "bda_damping_ratio"
+_THICKNESS = "bda_thickness"
 _COUNT = 7
 """Axial, shear along y and z, torsion, and the three numbers of bending about y and z."""
 
 
 def keep_elasticity(
-    scene: bpy.types.Scene, connections: Sequence[bpy.types.Object], stiffness: SectionStiffness, damping_ratio: float
+    scene: bpy.types.Scene,
+    connections: Sequence[bpy.types.Object],
+    stiffness: SectionStiffness,
+    damping_ratio: float,
+    thicknesses_m: np.ndarray | None = None,
 ) -> None:
-    """Make all connections (m,) of a scene elastic."""
+    """Make all connections (m,) of a scene elastic, in members with these thicknesses (m,), where they are known."""
     scene[_DAMPING_RATIO] = damping_ratio
     bending = stiffness.bending_nm
     columns = np.column_stack(
@@ -35,6 +40,9 @@ def keep_elasticity(
     )
     for connection, numbers in zip(connections, columns.tolist(), strict=True):
         connection[_STIFFNESS] = numbers
+    if thicknesses_m is not None:
+        for connection, thickness_m in zip(connections, thicknesses_m.tolist(), strict=True):
+            connection[_THICKNESS] = thickness_m
 
 
 def forget_elasticity(scene: bpy.types.Scene) -> None:
@@ -72,3 +80,9 @@ def stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
     axial, first, second, torsion, *bending = numbers.T
     matrices = np.stack((bending[0], bending[1], bending[1], bending[2]), axis=1).reshape(-1, 2, 2)
     return SectionStiffness(axial, np.column_stack((first, second)), torsion, matrices)
+
+
+def thicknesses_of(connections: Sequence[bpy.types.Object]) -> np.ndarray:
+    """Return the thickness (m,) of the members that connections are in, m; nan where none was kept."""
+    kept = np.array([kept_number(each, _THICKNESS, 0.0) for each in connections])
+    return np.where(kept > 0.0, kept, np.nan)

@@ -11,11 +11,12 @@ import numpy as np
 from ...bullet.world import BulletWorld
 from ...core.errors import LayoutError
 from ...core.mechanics.frame_loads import FrameLoads
+from ...core.mechanics.member_sections import MemberSections, kinds_of
 from ...core.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...core.results.frames import BallHistory, Frame
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
-from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of
+from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
 from ...scene.structural_changes import events_of
 from ...scene.time_scale import time_step_at
 from .blast import Blast
@@ -88,6 +89,7 @@ class BulletReader:
             normal_substep_s,
             work,
             elastic,
+            self._member_sections(connections) if elastic and breaking.strength else None,
             every_substep=every_substep,
             loads=loads,
         )
@@ -109,6 +111,21 @@ class BulletReader:
         except LayoutError as error:
             self.rigid_because = error
             return None
+
+    def _member_sections(self, connections: Sequence[bpy.types.Object]) -> MemberSections:
+        """Return the sections across members, as they were built, that connections are judged by."""
+        inventory = self._inventory
+        return MemberSections(
+            inventory.pairs,
+            inventory.points_m,
+            inventory.normals,
+            inventory.areas_m2,
+            inventory.second_moments_m4,
+            self._built_positions_m,
+            inventory.moves,
+            kinds_of(inventory.body_members[inventory.pairs]),
+            thicknesses_of(connections),
+        )
 
     @property
     def applied_events(self) -> Sequence[AppliedEvent]:

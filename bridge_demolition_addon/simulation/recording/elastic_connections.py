@@ -111,6 +111,11 @@ class ElasticConnections:
         ratio = max(self._damping_ratio, np.pi * frequency * self._shortest_s) if frequency else 0.0
         return Elasticity(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
 
+    @property
+    def parts(self) -> np.ndarray:
+        """What connections (m,) held together as the sub-step began: a number for each part, -1 for broken ones."""
+        return self._structure.part_of_connection
+
     def begin_substep(self, substep_s: float) -> None:
         """Look at the bodies before a sub-step of a length in s, after all other loads on them."""
         self._motion = motion = self._reader.read()

@@ -11,8 +11,8 @@ from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
 from ...core.geometry.vectors import by_component, length, taken, transformed, transformed_back
 from ...core.mechanics import forces
-from ...core.mechanics.frame_loads import SubstepLoads
-from ...core.mechanics.section_forces import section_axes
+from ...core.mechanics.frame_loads import Moment, SubstepLoads
+from ...core.mechanics.section_forces import SectionForces, section_axes, section_forces
 
 
 class LoadReader:
@@ -55,6 +55,11 @@ class LoadReader:
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """Return the axes (r, 3, 3) of some connections (r,), turned with their bodies."""
         return carried_axes(self._local_axes[rows], self._bodies[rows], rotations)
+
+    def section_forces(self, loads: Moment, rows: np.ndarray) -> SectionForces:
+        """Return the loads of some connections (r,) in their own axes."""
+        axes = self.section_axes(loads.rotations, rows)
+        return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
         """Return the unit normals (m, 3) of the connections, turned with their bodies."""

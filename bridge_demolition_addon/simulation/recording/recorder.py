@@ -23,7 +23,7 @@ from ...scene.bodies import bodies_of
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
-from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of
+from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
 from ...scene.inventory import take_inventory
 from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
@@ -328,6 +328,7 @@ class Recording:
             stiffness = stiffness_of(self._connections)
             elastic = {each.name: getattr(stiffness, each.name) for each in fields(stiffness)}
             elastic["damping_ratio"] = damping_ratio_of(self.scene)
+            elastic["thicknesses_m"] = thicknesses_of(self._connections)
         matrices = np.array([body.matrix_world for body in self._bodies], float)
         places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
         return built_digest(

@@ -18,17 +18,10 @@ import numpy as np
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
-from ...core.geometry.vectors import length
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
-from ...core.mechanics.section_cuts import SectionCuts, worst_around
-from ...core.mechanics.section_forces import SectionForces, section_forces
-from ...core.mechanics.strength import (
-    largest_utilisations,
-    rectangular_sections,
-    sections_at,
-    strength_at,
-    utilisation,
-)
+from ...core.mechanics.member_sections import MemberSections
+from ...core.mechanics.overloads import ConnectionLoads, Overloads
+from ...core.mechanics.section_forces import SectionForces
 from ...core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 from ...core.results.frames import BallHistory
 from ...core.results.inventory import Inventory
@@ -44,13 +37,6 @@ _SINGLE_PRECISION = 1e-6
 
 _MOST_ROUNDS = 20
 """How often connections break one after another in one sub-step, before the rest waits for the next."""
-
-_MOST_REDISTRIBUTED = 3.0
-"""By how much the stress in an elastic face may exceed its strength as long as the whole cut bears its load.
-
-A cut evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
-further has torn, whatever the faces beside it bear. Rigid connections share a load by chance: only the cut counts.
-"""
 
 _BATCH_BYTES = 1_000_000
 """Copies of sub-steps that are kept until they are worked out; fewer take longer each, more leave more to wait for at
@@ -129,6 +115,8 @@ class SubstepRecorder:
         Adds up the work in each frame.
     elastic : ElasticConnections or None
         The connections, where they are elastic.
+    member_sections : MemberSections or None
+        Their sections, by which they are judged.
     every_substep : bool
         Whether every sub-step is recorded: the work of a frame is known only then.
     loads : bool
@@ -154,6 +142,7 @@ class SubstepRecorder:
         threshold_step_s: float,
         work: WorkAccumulator,
         elastic: ElasticConnections | None = None,
+        member_sections: MemberSections | None = None,
         *,
         every_substep: bool,
         loads: bool,
@@ -164,9 +153,6 @@ class SubstepRecorder:
         self._world, self._inventory, self._breaking = world, inventory, breaking
         self._events, self._work, self._elastic = events, work, elastic
         self._blast, self._threshold_step_s = blast, threshold_step_s
-        self._sections = rectangular_sections(inventory.areas_m2, inventory.second_moments_m4)
-        if breaking.strength:
-            self._largest_utilisations = largest_utilisations(self._sections, breaking.strength)
         self._reinforcement = None
         if breaking.ductility:
             remaining = events.remaining_strength
@@ -178,7 +164,17 @@ class SubstepRecorder:
             world.hold_connections()
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
-        self._cuts = SectionCuts.between(inventory.pairs, inventory.normals, inventory.areas_m2, can_move)
+        self._overloads = None
+        if breaking.strength:
+            self._overloads = Overloads(
+                inventory.pairs,
+                inventory.normals,
+                inventory.areas_m2,
+                inventory.second_moments_m4,
+                can_move,
+                breaking.strength,
+                member_sections,
+            )
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._unknown = None if loads else (self._frame.finish().unknown(), FrameWork.unknown(len(inventory.masses_kg)))
         self._intact = world.intact()
@@ -226,7 +222,7 @@ class SubstepRecorder:
 
     def _break_predicted(self, both_sides: np.ndarray, substep_s: float) -> np.ndarray:
         """Break what would not bear predicted loads (2, 6, m) on the bodies of connections, and return it (b,)."""
-        if self._is_warming_up or not self._breaking.strength:
+        if self._is_warming_up or not self._overloads:
             return _NONE
         loads = np.where(self._reader.sides == 0, both_sides[0], both_sides[1])
         rows = self._perhaps_overloaded(loads)
@@ -236,7 +232,7 @@ class SubstepRecorder:
         moment = self._loads([_Substep(snapshot, substep_s, self.elapsed_s, None, _NONE)])[1].moment(0)
         rows = self._overloaded(rows, moment)
         if len(rows):
-            self._foreseen.append(Breaks(self.elapsed_s, rows, self._section_forces(moment, rows)))
+            self._foreseen.append(Breaks(self.elapsed_s, rows, self._reader.section_forces(moment, rows)))
             self._let_go(rows, moment)
             self._intact[rows] = False
             self._world.let_broken_collide(self._intact)
@@ -367,7 +363,7 @@ class SubstepRecorder:
         for substep, each in enumerate(substeps):
             self._breaks += each.foreseen
             if len(each.broken):
-                forces = self._section_forces(loads.moment(substep), each.broken)
+                forces = self._reader.section_forces(loads.moment(substep), each.broken)
                 self._breaks.append(Breaks(each.end_s, each.broken, forces))
             if len(self._balls):
                 self._note_balls(bodies, loads, substep, each.end_s)
@@ -423,7 +419,7 @@ class SubstepRecorder:
             self._is_warming_up = False
             if not self._elastic:
                 self._world.release_connections()
-        if not self._breaking.strength:
+        if not self._overloads:
             return _NONE
         rows = self._perhaps_overloaded(substep.snapshot.loads)
         if not len(rows):
@@ -435,45 +431,15 @@ class SubstepRecorder:
 
     def _perhaps_overloaded(self, loads: np.ndarray) -> np.ndarray:
         """Return the intact connections (k,) whose loads (6, m) are large enough for it, whatever they act on."""
-        by_force, by_moment = self._largest_utilisations
-        force, torque = length(loads[:3].T), length(loads[3:].T)
-        most = (by_force + by_moment * self._reader.lever_arms_m) * force + by_moment * torque
-        return np.flatnonzero((most * (1.0 + _SINGLE_PRECISION) > self._events.remaining_strength) & self._intact)
+        rows = self._overloads.possible(loads, self._reader.lever_arms_m, self._events.remaining_strength)
+        return rows[self._intact[rows]]
 
-    def _overloaded(self, rows: np.ndarray, loads: Moment) -> np.ndarray:
-        """Return which connections (r,) break (k,): overloaded alone and in their cuts, and each the worst around.
-
-        When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
-        """
-        strength, inventory, left = self._breaking.strength, self._inventory, self._events.remaining_strength
-        used = utilisation(
-            self._section_forces(loads, rows), sections_at(self._sections, rows), strength_at(strength, rows)
-        )
-        used /= left[rows]
-        rows, alone = rows[used > 1.0], used[used > 1.0]
-        if not len(rows):
-            return rows
-        cut_loads, areas, second_moments = self._cuts.sections(
-            rows,
-            self._intact,
-            loads.connection_forces_n,
-            loads.connection_moments_nm,
-            loads.connection_points_m,
-            self._reader.section_axes(loads.rotations, rows),
-            inventory.areas_m2,
-            inventory.second_moments_m4,
-        )
-        of_both_cuts = strength_at(strength, np.concatenate((rows, rows)))
-        used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
-        used = used.reshape(2, -1).mean(axis=0) / left[rows]
-        if self._elastic:
-            used = np.maximum(used, alone / _MOST_REDISTRIBUTED)
-        return rows[(used > 1.0) & worst_around(inventory.pairs[rows], used, inventory.masses_kg > 0.0)]
-
-    def _section_forces(self, loads: Moment, rows: np.ndarray) -> SectionForces:
-        """Loads of some connections (r,) in their own axes."""
-        axes = self._reader.section_axes(loads.rotations, rows)
-        return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
+    def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
+        """Return which connections (r,) break (k,)."""
+        loads = ConnectionLoads(moment.connection_forces_n, moment.connection_moments_nm, moment.connection_points_m)
+        axes = self._reader.section_axes(moment.rotations, rows)
+        parts = self._elastic.parts if self._elastic else None
+        return self._overloads.among(rows, loads, axes, self._intact, self._events.remaining_strength, parts)
 
     def _note_balls(self, bodies: BodyStates, loads: SubstepLoads, substep: int, end_s: float) -> None:
         contacts = loads.contacts_of(substep)

@@ -1,0 +1,138 @@
+"""Sections across members, as far as loads spread in them: what elastic connections are judged by.
+
+Elastic connections share a load by their stiffness, so a face beside a notch, an edge or a fixed end bears more than
+the mean, and the more so the smaller the shards are. A member does not crack there before a whole section of it is
+overloaded. So a face is judged with all that a plane through it parts near it, as one section that stays plane. Such a
+section is as large with few shards as with many, and so is the load at which it breaks.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..geometry.vectors import dot
+from .section_cuts import cut_loads
+from .section_forces import SectionForces
+
+SPREAD = 7.0
+"""How far a section reaches from its middle, by the thickness of the member.
+
+A ball of 1 m that punches through a plate of 0.25 m is resisted along 4 × 1 m + 4 π × 0.25 m, the control perimeter of
+EN 1992-1-1:2004, 6.4.2. Two sections, one on either side, have that length if they reach seven thicknesses.
+"""
+
+WHOLE = 2.0
+"""Area, by the square of the thickness, from which on a section is one of its member: half that of a square bar, whose
+thickness is half its side. Smaller ones clip an edge."""
+
+
+class MemberSections:
+    """Sections through m connections as they were built.
+
+    Parameters
+    ----------
+    pairs : (m, 2) int
+        Connected bodies.
+    points_m, normals, areas_m2 : (m, 3), (m, 3), (m,) float
+        Middles of the faces, unit vectors from the first body to the second, and areas.
+    second_moments_m4 : (m, 2, 2) float
+        Of the faces, each in its own axes.
+    centres_m : (n, 3) float
+        Centres of the bodies.
+    moves : (n,) bool
+        Whether each body moves. One that does not is behind its faces, wherever its centre is.
+    kinds : (m,) int
+        A section has connections of one kind: those between the same two members.
+    thicknesses_m : (m,) float
+        Of the thinner of these members; nan where it is not known.
+    """
+
+    def __init__(
+        self,
+        pairs: np.ndarray,
+        points_m: np.ndarray,
+        normals: np.ndarray,
+        areas_m2: np.ndarray,
+        second_moments_m4: np.ndarray,
+        centres_m: np.ndarray,
+        moves: np.ndarray,
+        kinds: np.ndarray,
+        thicknesses_m: np.ndarray,
+    ):
+        self._points, self._normals, self._areas = points_m, normals, areas_m2
+        self._second_moments, self._kinds, self._thicknesses = second_moments_m4, kinds, thicknesses_m
+        self._reaches = np.where(np.isfinite(thicknesses_m), SPREAD * thicknesses_m, 0.0)
+        beyond = 2.0 * self._reaches[:, None] * normals
+        first, second = pairs.T
+        self._before = np.where(moves[first, None], centres_m[first], points_m - beyond)
+        self._behind = np.where(moves[second, None], centres_m[second], points_m + beyond)
+        self._tree = cKDTree(points_m)
+        self._found: dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+
+    def are_whole(self, rows: np.ndarray) -> np.ndarray:
+        """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
+        areas = np.array([self._areas[faces] @ cosines for faces, _, cosines in map(self._faces, rows.tolist())])
+        return areas >= WHOLE * np.square(self._thicknesses[rows])
+
+    def sections(
+        self,
+        rows: np.ndarray,
+        parts: np.ndarray,
+        forces: np.ndarray,
+        moments: np.ndarray,
+        points: np.ndarray,
+        axes: np.ndarray,
+    ) -> tuple[SectionForces, np.ndarray, np.ndarray]:
+        """Loads and sizes of the sections of some intact connections.
+
+        Parameters
+        ----------
+        rows : (k,) int
+            Which connections.
+        parts : (m,) int
+            What hangs together: a section does not reach from one part to another. Negative where a connection is
+            broken.
+        forces, moments, points : (m, 3) float
+            On the first body of each connection, about the connection's own point, which is also given, in the axes of
+            the world; N, N·m, m.
+        axes : (k, 3, 3) float
+            Of the sections of those connections, as columns.
+
+        Returns
+        -------
+        loads, areas_m2, second_moments_m4
+            Of the k sections.
+        """
+        found = [self._faces(row) for row in rows.tolist()]
+        owners = np.repeat(np.arange(len(rows)), [len(faces) for faces, _, _ in found])
+        faces, signs, cosines = (np.concatenate(each) for each in zip(*found, strict=True))
+        holds = parts[faces] == parts[rows][owners]
+        owners, faces, signs, cosines = owners[holds], faces[holds], signs[holds], cosines[holds]
+        return cut_loads(
+            owners, faces, signs, cosines, forces, moments, points, axes, self._areas, self._second_moments
+        )
+
+    def _faces(self, row: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Connections (e,) in the section of one, on which side of it their first bodies are, and their cosines.
+
+        Where the section doubles back, a face bears a load, and has no area.
+        """
+        if row not in self._found:
+            point, normal = self._points[row], self._normals[row]
+            near = np.array(sorted(self._tree.query_ball_point(point, self._reaches[row])))
+            near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
+            before, behind = dot(self._before[near] - point, normal), dot(self._behind[near] - point, normal)
+            parted = (before * behind < 0.0) | (near == row)
+            near, before, behind = near[parted], before[parted], behind[parted]
+            signs = np.where((before < behind) | (near == row), 1.0, -1.0)
+            cosines = np.maximum(signs * dot(self._normals[near], normal), 0.0)
+            self._found[row] = near, signs, cosines
+        return self._found[row]
+
+
+def kinds_of(members: np.ndarray) -> np.ndarray:
+    """Return a number (m,) for each pair of members that connections are between, of members (m, 2) of any type."""
+    _, numbers = np.unique(members, return_inverse=True)
+    low, high = np.sort(numbers.reshape(members.shape), axis=1).T
+    return low * (numbers.max(initial=0) + 1) + high
