@@ -222,7 +222,8 @@ def test_a_force_object_is_as_the_table_says(extension):
     given = {name: ticked(cell)[0] for name, cell in told.items() if cell.startswith("`")}
     assert len(given) > 12
     assert given == {name: str(getattr(empty.field, name)) for name in given}
-    assert "shown" in told["hide"] and not empty.hide_get() and not empty.hide_viewport
+    # Its collection is hidden where the connections' is, as in a scene that was built: see tests/scene/rendering.
+    assert "hidden" in told["hide"] and not empty.hide_get() and not empty.hide_viewport
     assert f"{WIDEST_M:g} m at most" in told["radial_max"]
     assert f"{WIDEST_M + LONGEST_M:g} m at most" in told["distance_max"]
     assert 0.4 < SHARE_OF_WAY < 0.5

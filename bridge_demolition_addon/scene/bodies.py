@@ -19,7 +19,7 @@ _MEMBER_KIND = "bda_member_kind"
 _GROUND_THICKNESS_M = 2.0
 
 _CONCRETE = (0.80, 0.78, 0.73)
-_SOIL = (0.18, 0.17, 0.12, 1.0)
+SOIL = (0.45, 0.39, 0.26, 1.0)
 _SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
 
 
@@ -137,7 +137,7 @@ def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings:
     solid = box((2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M), (0.0, 0.0, 0.0))
     ground = create_body(world, mesh_of("Ground", solid), Kind.GROUND, "BOX")
     ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
-    ground.color = _SOIL
+    ground.color = SOIL
     ground.rigid_body.type = "PASSIVE"
     set_surface(ground.rigid_body, settings.friction, settings.restitution, 0.0)
     return ground

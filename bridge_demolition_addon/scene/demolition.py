@@ -33,8 +33,13 @@ FIRST_STEP_FRAME = START_FRAME + 2
 """First frame that time leads to: in the frame before, Blender makes the world and no time passes."""
 
 
-def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
+def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
     """Put a model and everything around it into an empty scene, ready to be played from its start frame.
+
+    Returns
+    -------
+    list of bpy.types.Object
+        The shards, in the model's order.
 
     Raises
     ------
@@ -45,7 +50,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     """
     surfaces = _surfaces(scenario, model)
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
-        _build(scene, scenario, model, *surfaces)
+        return _build(scene, scenario, model, *surfaces)
 
 
 def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
@@ -75,7 +80,7 @@ def _surfaces(scenario: Scenario, model: Model) -> tuple[list[float], list[float
 
 def _build(
     scene: bpy.types.Scene, scenario: Scenario, model: Model, surfaces: Sequence[float], hammered: Sequence[float]
-) -> None:
+) -> list[bpy.types.Object]:
     """Build on surfaces at these heights, m, under the targets of the ball and where jackhammers begin."""
     settings = scenario.ball
     world = create_world(scene, scenario.time, last_frame(scenario))
@@ -111,6 +116,7 @@ def _build(
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
+    return shards
 
 
 @contextmanager

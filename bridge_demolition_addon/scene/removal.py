@@ -8,6 +8,8 @@ from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import ends_of, loose_connections
+from .rendering.materials import remove_unused_materials
+from .rendering.surroundings import clear_surroundings
 from .structural_changes import keep_changes
 from .time_scale import stop_animation
 from .world import START_FRAME, remove_world
@@ -15,6 +17,8 @@ from .world import START_FRAME, remove_world
 
 def remove_demolition(scene: bpy.types.Scene) -> int:
     """Remove everything that was built in a scene but the charges, and return how many bodies there were.
+
+    Sun, sky and camera go with it, and what they took the place of comes back.
 
     The scene goes to its start frame. Bodies that were not built here stay, and the rigid-body world with them; so
     do meshes that something else uses.
@@ -30,6 +34,8 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
         [field for body, field in force_objects(scene).items() if body in ours],
         bodies,
     )
+    clear_surroundings(scene)
+    remove_unused_materials()
     stop_animation(scene)
     keep_breaking(scene, Breaking())
     keep_changes(scene, ())

@@ -21,6 +21,7 @@ from ..core.structure.model import Model
 from ..scene.blast.charges import charge_objects, show_until
 from ..scene.demolition import build_demolition, first_frame_after
 from ..scene.rendering.camera import prepare_pictures, render_picture
+from ..scene.rendering.staging import stage
 from ..scene.world import START_FRAME, keep_played_frames
 from .display.film import FilmRendering, FilmSettings
 from .kept_run import keep_run
@@ -100,8 +101,8 @@ def run_scenario(
         lock = locks.enter_context(prepare_folder(output, overwrite=overwrite))
         keep_scenario(lock.folder, scenario)
         scene = _empty_scene(scenario.title)
-        build_demolition(scene, scenario, model)
-        _prepare_view(scene, scenario, model)
+        shards = build_demolition(scene, scenario, model)
+        _prepare_view(scene, scenario, model, shards)
         times = {"building": lap_s()}
         progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
         context = RunContext.of(scene, scenario.title, scenario)
@@ -204,9 +205,10 @@ def _empty_scene(title: str) -> bpy.types.Scene:
     return scene
 
 
-def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
+def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shards: Sequence[bpy.types.Object]) -> None:
     settings = scenario.pictures
-    prepare_pictures(scene, points_to_see(scenario, model.members), settings.width_px, settings.height_px)
+    prepare_pictures(scene, settings.width_px, settings.height_px)
+    stage(scene, shards, model, points_to_see(scenario, model.members))
     if scenario.blast.explosion:
         for empty, charge in zip(charge_objects(scene), scenario.charges, strict=True):
             show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))

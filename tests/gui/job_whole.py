@@ -416,22 +416,25 @@ def turn_view(person: Person) -> Steps:
 
 
 def hide_and_undo(person: Person, panels: Panels) -> Steps:
-    """Hide Connections and Forces; undo that; and hide them again."""
+    """Show Connections and Forces; undo that; show them again, and hide them."""
     yield from panels.toggle_inner(0, "bda.load_results")
-    person.expect("connections and force objects are seen at first", hidden_symbols(person) == set())
+    every = hidden_symbols(person)
+    person.expect("connections and force objects are hidden at first", len(every) > SHARDS)
+    person.expect("charges are seen", all(bpy.data.objects[name].visible_get() for name in (WEST, EAST)))
     yield from person.click("bda.toggle_symbols")
     yield 0.5
-    every = hidden_symbols(person)
-    person.expect("then none of them is", len(every) > SHARDS)
-    person.expect("charges are", all(bpy.data.objects[name].visible_get() for name in (WEST, EAST)))
+    person.expect("then all of them are seen", hidden_symbols(person), set())
     yield from person.move_to_view()
     yield from person.press("Z", ctrl=True)
     yield 1.0
-    person.expect("Ctrl-Z shows them", hidden_symbols(person), set())
+    person.expect("Ctrl-Z hides them", hidden_symbols(person), every)
+    yield from person.click("bda.toggle_symbols")
+    yield 0.5
+    person.expect("they are seen again", hidden_symbols(person), set())
+    yield from person.illustrate("shown", person.view)
     yield from person.click("bda.toggle_symbols")
     yield 0.5
     person.expect("they are hidden again", hidden_symbols(person), every)
-    yield from person.illustrate("hidden", person.view)
     person.expect_reports("nothing is reported")
     yield from panels.toggle_inner(0, "bda.load_results")
 

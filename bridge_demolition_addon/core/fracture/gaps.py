@@ -41,15 +41,15 @@ def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float)
     """
     if gap_m == 0.0:
         return tuple(shards)
-    surface, tolerance = solid.corners, _SAME_PLACE * solid.longest_extent
+    tolerance = _SAME_PLACE * solid.longest_extent
     return tuple(
-        _taken_back(shard, _is_cut(shard, surface, tolerance), gap_m / 2.0, tolerance, number)
-        for number, shard in enumerate(shards)
+        _taken_back(shard, is_cut(shard, solid), gap_m / 2.0, tolerance, number) for number, shard in enumerate(shards)
     )
 
 
-def _is_cut(shard: TriangleMesh, surface: np.ndarray, tolerance: float) -> np.ndarray:
-    """Which triangles (t,) of a shard do not lie in the surface (s, 3, 3) of its solid; none without an area."""
+def is_cut(shard: TriangleMesh, solid: TriangleMesh) -> np.ndarray:
+    """Which triangles (t,) of a shard do not lie in the surface of the solid it was cut from; none without an area."""
+    surface, tolerance = solid.corners, _SAME_PLACE * solid.longest_extent
     corners = shard.corners
     areas, normals = triangle_areas_and_normals(corners)
     middles = corners.mean(axis=1)

@@ -13,6 +13,7 @@ from ...core.errors import BlastError, DemolitionError
 from ...core.geometry.solids import sphere
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
+from ..rendering.materials import Surface, material_of
 
 MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
 """Properties of an empty that stands for a charge."""
@@ -21,7 +22,6 @@ _ROLE = "Charges"
 _SYMBOL_SIZE_M = 0.3
 _SYMBOL_SEGMENTS = 16
 _SYMBOL_MARK = "bda_charge_symbol"
-_RED = (0.8, 0.05, 0.02, 1.0)
 
 _SHOWN = {
     MASS: {"min": 0.0, "description": "Mass of the explosive itself, in kg; with 0 nothing goes off"},
@@ -77,7 +77,6 @@ def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
 def show_until(charge: bpy.types.Object, frame: int) -> None:
     """Show a charge in pictures, as a red ball, of the frames before the one in which it has gone off."""
     charge.instance_type, charge.instance_collection = "COLLECTION", _symbol()
-    charge.color = _RED  # which its instances have
     for hidden, key_frame in ((True, frame), (False, 0)):
         charge.hide_render = hidden
         charge.keyframe_insert("hide_render", frame=key_frame)
@@ -90,6 +89,7 @@ def _symbol() -> bpy.types.Collection:
         return found
     solid = sphere(_SYMBOL_SIZE_M, _SYMBOL_SEGMENTS)
     ball = bpy.data.objects.new("Charge symbol", mesh_of("Charge symbol", solid))
+    ball.data.materials.append(material_of(Surface.CHARGE))
     collection = bpy.data.collections.new("Charge symbol")
     collection[_SYMBOL_MARK] = True
     collection.objects.link(ball)

@@ -10,6 +10,7 @@ from ...scene.blast.charges import charge_collection, charge_objects, create_cha
 from ...scene.blast.force_fields import build_force_objects
 from ...scene.blast.settings import keep_blast
 from ...scene.bodies import Kind, bodies_of, kind_of
+from ...scene.visibility import hide_symbols, symbols_are_hidden
 from ..operators import Action, no_world
 from ..scenario.values import table_of
 from .prop import shown_charge
@@ -81,8 +82,12 @@ class BDA_OT_build_force_objects(Action, bpy.types.Operator):
     why_not = staticmethod(no_world)
 
     def act(self, context: bpy.types.Context) -> str:
-        keep_shown_blast(context.scene)
-        built = build_force_objects(context.scene, bodies_of(context.scene))
+        scene, layer = context.scene, context.view_layer
+        keep_shown_blast(scene)
+        hidden = symbols_are_hidden(layer, scene)
+        built = build_force_objects(scene, bodies_of(scene))
+        if hidden:
+            hide_symbols(layer, scene, hidden=True)  # the new ones as well
         return f"{built.made} force objects made, {built.kept} kept, {built.removed} removed"
 
 

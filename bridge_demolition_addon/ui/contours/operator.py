@@ -144,7 +144,7 @@ class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
     """Hide the empties of all connections and force objects, or show them; they work all the same"""
 
     bl_idname = "bda.toggle_symbols"
-    bl_label = "Hide Connections and Forces"
+    bl_label = "Show or Hide Connections and Forces"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

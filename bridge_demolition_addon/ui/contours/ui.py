@@ -67,7 +67,7 @@ class BDA_PT_overlay(SidebarPanel, bpy.types.Panel):
         row.prop(settings, "ring_damage", text="")
         hidden = symbols_are_hidden(context.view_layer, context.scene)
         text = "Show Connections and Forces" if hidden else "Hide Connections and Forces"
-        layout.operator("bda.toggle_symbols", text=text)
+        layout.operator("bda.toggle_symbols", text=text, icon="HIDE_ON" if hidden else "HIDE_OFF")
 
 
 class BDA_PT_film(SidebarPanel, bpy.types.Panel):

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import StringProperty
 
+from ...core.display.camera_targets import points_to_see
 from ...core.scenario import Scenario
 from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import checked_model
@@ -10,6 +11,7 @@ from ...scene.bodies import Kind, bodies_of, kind_of, lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
+from ...scene.rendering.staging import stage
 from ...simulation.blender_events import contours_of
 from ...simulation.kept_run import forget_run
 from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
@@ -277,7 +279,8 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
         contours_of(scene).forget()
         forget_run(scene)
         remove_demolition(scene)
-    build_demolition(scene, scenario, model)
+    shards = build_demolition(scene, scenario, model)
+    stage(scene, shards, model, points_to_see(scenario, model.members))
     if not is_shown:
         show_scenario(settings, scenario)
     settings.total_mass = ""

@@ -10,6 +10,7 @@ import bpy
 
 from ...core.scenario import Scenario
 from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
+from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from .breaking_note import breaking_note
 from .built import Change, Kept, built_values, change_of, changes_of_table
@@ -68,6 +69,12 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
     """Where a scenario comes from, and building it."""
 
     bl_label = "Scenario"
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """Show an eye for connections and force objects, once there are any."""
+        if has_symbols(context.view_layer, context.scene):
+            hidden = symbols_are_hidden(context.view_layer, context.scene)
+            self.layout.operator("bda.toggle_symbols", text="", icon="HIDE_ON" if hidden else "HIDE_OFF", emboss=False)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda

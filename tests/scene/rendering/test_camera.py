@@ -24,10 +24,11 @@ def test_camera_sees_everything_and_wastes_little(blender, points, size):
     from bpy_extras.object_utils import world_to_camera_view
     from mathutils import Vector
 
-    from bridge_demolition_addon.scene.rendering.camera import prepare_pictures
+    from bridge_demolition_addon.scene.rendering.camera import aim_camera, prepare_pictures
 
     scene = blender.context.scene
-    prepare_pictures(scene, points, *size)
+    prepare_pictures(scene, *size)
+    aim_camera(scene, points, size[0] / size[1])
     scene.view_layers[0].update()
     seen = np.array([world_to_camera_view(scene, scene.camera, Vector(point)) for point in points])
     across = seen[:, :2]
@@ -38,9 +39,9 @@ def test_camera_sees_everything_and_wastes_little(blender, points, size):
 
 
 def test_camera_stands_above_the_ground_beside_the_road(blender):
-    from bridge_demolition_addon.scene.rendering.camera import prepare_pictures
+    from bridge_demolition_addon.scene.rendering.camera import aim_camera
 
-    prepare_pictures(blender.context.scene, BRIDGE, 160, 90)
+    aim_camera(blender.context.scene, BRIDGE, 160 / 90)
     x, y, z = blender.context.scene.camera.location
     assert x < 6.5 and y < -4.25 and z > 0.0
 
@@ -51,35 +52,46 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 
     from bridge_demolition_addon.scene.demolition import build_demolition
     from bridge_demolition_addon.scene.rendering.camera import prepare_pictures, render_picture
+    from bridge_demolition_addon.scene.rendering.staging import stage
 
     scenario = replace(I235, fracture=replace(I235.fracture, shards=20))
-    scene = blender.context.scene
-    build_demolition(scene, scenario, build_model(scenario))
-    prepare_pictures(scene, np.vstack((BRIDGE, (6.5, 0.0, 11.9))), 160, 90)
+    scene, model = blender.context.scene, build_model(scenario)
+    shards = build_demolition(scene, scenario, model)
+    prepare_pictures(scene, 640, 360)
+    stage(scene, shards, model, np.vstack((BRIDGE, (6.5, 0.0, 11.9))))
     render_picture(scene, 1, tmp_path / "before.png")
     picture = imread(tmp_path / "before.png")[:, :, :3]
-    assert picture.shape == (90, 160, 3)
+    assert picture.shape == (360, 640, 3)
 
     def brightness(place):
         x, y, _ = world_to_camera_view(scene, scene.camera, Vector(place))
-        row, column = round((1.0 - y) * 89), round(x * 159)
+        row, column = round((1.0 - y) * 359), round(x * 639)
         return np.median(picture[row - 2 : row + 3, column - 2 : column + 3])  # whatever outline crosses there
 
-    # The ball of steel is nearly black, the deck of concrete is light, and the soil in front of it lies between.
-    ball, deck, soil = brightness((6.5, 0.0, 11.22)), brightness((6.5, 0.0, 5.55)), brightness((12.0, -8.0, 0.0))
-    assert ball < soil - 0.05 < soil + 0.05 < deck
+    (x, y, z), (end, _, top) = min(
+        (each.solid.bounds for each in model.members if each.kind == "pier"), key=lambda b: b[0, 1]
+    )
+    # The ball of steel and the asphalt are dark, the cast side of a pier is light, and the soil lies between.
+    ball, road, pier = (
+        brightness((6.5, 0.0, 11.22)),
+        brightness((6.5, 0.0, 5.55)),
+        brightness(((x + end) / 2, y, 0.6 * top + z)),
+    )
+    soil = brightness((12.0, -8.0, 0.0))
+    assert max(ball, road) < soil - 0.05 < soil + 0.05 < pier
     assert not (tmp_path / "before.png.png").exists()
 
 
 def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
     from bridge_demolition_addon.core.blast.charges import Charge
     from bridge_demolition_addon.scene.blast.charges import create_charges, show_until
-    from bridge_demolition_addon.scene.rendering.camera import prepare_pictures, render_picture
+    from bridge_demolition_addon.scene.rendering.camera import aim_camera, prepare_pictures, render_picture
 
     scene = blender.context.scene
     charges = [Charge(name=name, place_m=place, mass_kg=1.0) for name, place in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))]
     first, second = create_charges(scene, charges)
-    prepare_pictures(scene, np.array(list(product((-1.5, 1.5), (-0.5, 0.5), (-0.5, 0.5)))), 160, 90)
+    prepare_pictures(scene, 160, 90)
+    aim_camera(scene, np.array(list(product((-1.5, 1.5), (-0.5, 0.5), (-0.5, 0.5)))), 160 / 90)
     show_until(first, 5)
     show_until(second, 99)
     assert first.instance_collection == second.instance_collection

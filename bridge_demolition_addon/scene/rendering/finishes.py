@@ -1,0 +1,41 @@
+"""Materials on the faces of bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import bpy
+import numpy as np
+
+from ...core.fracture.finishes import Finish, finishes
+from ...core.structure.model import Model
+from ..bodies import Kind, kind_of
+from .materials import BUILT_AT, Surface, material_of
+
+_OF_FINISH = {Finish.CAST: Surface.CONCRETE, Finish.BROKEN: Surface.BROKEN_CONCRETE, Finish.ROAD: Surface.ASPHALT}
+_OF_KIND = {
+    Kind.BALL: Surface.STEEL,
+    Kind.TOOL: Surface.STEEL,
+    Kind.CRANE: Surface.PAINT,
+    Kind.GROUND: Surface.SOIL,
+}
+
+
+def finish_shards(shards: Sequence[bpy.types.Object], model: Model) -> None:
+    """Give the faces of shards, in the order of their model, the looks of cast and broken concrete and of asphalt."""
+    materials = [material_of(_OF_FINISH[finish]) for finish in Finish]
+    for shard, found in zip(shards, finishes(model.shards, model.members, model.member_of_shard), strict=True):
+        for material in materials:
+            shard.data.materials.append(material)
+        shard.data.polygons.foreach_set("material_index", found.astype(np.int32))
+        shard[BUILT_AT] = tuple(shard.location)
+
+
+def finish_others(bodies: Iterable[bpy.types.Object]) -> None:
+    """Give ball, tools, crane and ground their materials; a ball is smooth."""
+    for body in bodies:
+        kind = kind_of(body)
+        if kind in _OF_KIND and not body.data.materials:
+            body.data.materials.append(material_of(_OF_KIND[kind]))
+        if kind == Kind.BALL:
+            body.data.polygons.foreach_set("use_smooth", np.ones(len(body.data.polygons), bool))

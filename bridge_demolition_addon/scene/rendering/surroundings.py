@@ -1,0 +1,142 @@
+"""Sun, sky and camera around a bridge, in a collection of their own."""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+import numpy as np
+
+from ...core.geometry.solids import box
+from ..bodies import SOIL, mesh_of
+from ..collections import collection_for, find_collection
+from .camera import aim_camera
+from .materials import Surface, material_of
+from .startup_objects import bring_startup_objects_back, put_startup_objects_away
+
+_ROLE = "Surroundings"
+_MARK = "bda_role"
+_SKY = "Sky"
+_WORLD_BEFORE = "bda_world_before"
+"""Property of our sky: the world that it took the place of."""
+
+_LAND_THICKNESS_M = 0.02
+_SUN_W_M2 = 4.5
+_SUN_ANGLE_DEG = 0.53
+"""How large the sun looks from the earth."""
+
+_SUN_TURN_DEG = (48.0, 0.0, -35.0)
+"""From the vertical, and about it: over the shoulder of whoever looks from `camera._VIEW_FROM`."""
+
+_SKY_STRENGTH = 0.7
+_HAZE, _BLUE = (0.62, 0.70, 0.78), (0.13, 0.27, 0.52)
+PLAIN_SKY = (0.36, 0.45, 0.55)
+"""Of renderers that know no gradient, such as Workbench."""
+
+_STARTUP_NAME = "World"
+_STARTUP_NODES = {"ShaderNodeOutputWorld", "ShaderNodeBackground"}
+_STARTUP_GREY = 0.0509
+
+
+def surround(scene: bpy.types.Scene, points: np.ndarray) -> None:
+    """Put a scene under sun and sky, before a camera that sees points (n, 3) float, m.
+
+    Blender's start-up objects are put away. A camera and a world of the user's own stay the scene's.
+    """
+    clear_surroundings(scene)  # left where the user has taken the world away by Blender's own button
+    put_startup_objects_away(scene)
+    if scene.world is None or _is_of_startup(scene.world):
+        _put_sky_up(scene)
+    collection, own = collection_for(scene, _ROLE), scene.camera
+    camera = aim_camera(scene, points, scene.render.resolution_x / scene.render.resolution_y, collection)
+    scene.camera = own or camera
+    land = _land(camera.data.clip_end / 2.0)
+    for each in (_sun(), land):
+        collection.objects.link(each)
+    for each in collection.objects:
+        each[_MARK] = _ROLE
+    for layer in scene.view_layers:
+        land.hide_set(True, view_layer=layer)  # for pictures alone: View All would show nothing else
+
+
+def clear_surroundings(scene: bpy.types.Scene) -> None:
+    """Take away what `surround` has made, and bring back what it has put away."""
+    if collection := find_collection(scene, _ROLE):
+        ours = [each for each in collection.objects if each.get(_MARK) == _ROLE]
+        data = {each.data for each in ours if each.data}
+        bpy.data.batch_remove(ours)
+        bpy.data.batch_remove([each for each in data if not each.users])
+        if not collection.objects and not collection.children:
+            bpy.data.collections.remove(collection)
+    sky = scene.world
+    if sky and sky.get(_MARK) == _SKY:
+        before = sky.get(_WORLD_BEFORE)
+        scene.world = before if isinstance(before, bpy.types.World) else None
+        if not sky.users:
+            bpy.data.worlds.remove(sky)
+    bring_startup_objects_back(scene)
+
+
+def _sun() -> bpy.types.Object:
+    light = bpy.data.lights.new("Sun", "SUN")
+    light.energy, light.angle = _SUN_W_M2, math.radians(_SUN_ANGLE_DEG)
+    sun = bpy.data.objects.new("Sun", light)
+    sun.rotation_euler = [math.radians(turn) for turn in _SUN_TURN_DEG]
+    sun.location = (0.0, 0.0, 30.0)
+    return sun
+
+
+def _land(half_size_m: float) -> bpy.types.Object:
+    """Make ground to the horizon, just below that of the simulation."""
+    size = 2.0 * half_size_m
+    mesh = mesh_of("Land", box((size, size, _LAND_THICKNESS_M), (0.0, 0.0, -_LAND_THICKNESS_M)))
+    mesh.materials.append(material_of(Surface.SOIL))
+    land = bpy.data.objects.new("Land", mesh)
+    land.color, land.hide_select = SOIL, True
+    return land
+
+
+def _is_of_startup(world: bpy.types.World) -> bool:
+    """Return whether a world is the grey one that Blender starts with."""
+    if world.library or world.name != _STARTUP_NAME or not world.node_tree:
+        return False
+    if {node.bl_idname for node in world.node_tree.nodes} != _STARTUP_NODES:
+        return False
+    background = next(node for node in world.node_tree.nodes if node.bl_idname == "ShaderNodeBackground")
+    return all(abs(channel - _STARTUP_GREY) < 1e-3 for channel in background.inputs["Color"].default_value[:3])
+
+
+def _put_sky_up(scene: bpy.types.Scene) -> None:
+    sky = bpy.data.worlds.new(_SKY)
+    sky[_MARK] = _SKY
+    if scene.world:
+        sky[_WORLD_BEFORE] = scene.world  # a user of it, so that it is saved with the file
+    sky.color = PLAIN_SKY
+    if bpy.app.version < (5, 0, 0):
+        sky.use_nodes = True
+    _lay_out(sky.node_tree)
+    scene.world = sky
+
+
+def _lay_out(tree: bpy.types.NodeTree) -> None:
+    """Haze at the horizon, blue overhead."""
+    tree.nodes.clear()
+    place, parts, ramp, background, output = (
+        tree.nodes.new(kind)
+        for kind in (
+            "ShaderNodeTexCoord",
+            "ShaderNodeSeparateXYZ",
+            "ShaderNodeValToRGB",
+            "ShaderNodeBackground",
+            "ShaderNodeOutputWorld",
+        )
+    )
+    ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (*_HAZE, 1.0), (*_BLUE, 1.0)
+    ramp.color_ramp.elements[1].position = 0.6
+    background.inputs["Strength"].default_value = _SKY_STRENGTH
+    tree.links.new(place.outputs["Generated"], parts.inputs[0])
+    tree.links.new(parts.outputs["Z"], ramp.inputs[0])
+    tree.links.new(ramp.outputs[0], background.inputs["Color"])
+    tree.links.new(background.outputs[0], output.inputs["Surface"])
+    for number, node in enumerate(tree.nodes):
+        node.location = (220.0 * number, 0.0)
