@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .colour_scale import tick_text
-from .contours import PEAKS_OF_SUBSTEPS, TITLES, ContourFrame, ContourSettings, Quantity, unit_of
+from .contours import PEAKS_OF_SUBSTEPS, TITLES, ContourFrame, ContourSettings, Quantity, RangeKind, unit_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,12 +54,15 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
 
 
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
+    since = "of the whole run" if settings.whole_run else "so far"
     if settings.quantity == Quantity.DISPLACEMENT:
         if settings.peak:
-            yield "peak so far"
+            yield f"peak {since}"
     elif settings.peak:
-        yield "sub-step peak so far" if settings.quantity in PEAKS_OF_SUBSTEPS else "frame mean, peak so far"
+        yield f"sub-step peak {since}" if settings.quantity in PEAKS_OF_SUBSTEPS else f"frame mean, peak {since}"
     else:
         yield "frame mean"
+    if settings.percentile < 100.0 and settings.range_kind != RangeKind.FIXED:
+        yield f"up to percentile {settings.percentile:g}"
     if settings.magnification != 1.0:
         yield f"shape × {settings.magnification:g}"

@@ -50,6 +50,9 @@ PEAKS_OF_SUBSTEPS = (Quantity.RESULTANT, Quantity.SUM)
 """Quantities whose largest value of all sub-steps of a frame is recorded beside the mean over the frame."""
 
 
+_BALL = "ball"
+
+
 class RangeKind(StrEnum):
     """Which values the lowest and the highest colour stand for."""
 
@@ -68,6 +71,8 @@ class ContourSettings:
         What bodies are coloured by.
     peak
         Whether to show the largest value up to a frame instead of that of the frame.
+    whole_run
+        Whether that is the largest value of all frames, whichever is shown: where the bridge will be loaded most.
     range_kind
         Of all frames so far, of each frame by itself, or fixed.
     low, high
@@ -76,8 +81,12 @@ class ContourSettings:
         Whether equal steps of colour stand for equal ratios. Signs are left out then.
     decades
         Powers of ten in an automatic range that is logarithmic.
+    percentile
+        Share of the values other than 0 that lie within an automatic range, %; the few beyond it have its end's colour.
     colour_map
         Which colours.
+    shaded
+        Whether faces are darker the more they look away from the light; without it each colour is as in the bar.
     magnification
         How many times as far as they are displaced bodies are shown.
 
@@ -89,12 +98,15 @@ class ContourSettings:
 
     quantity: Quantity = Quantity.RESULTANT
     peak: bool = False
+    whole_run: bool = False
     range_kind: RangeKind = RangeKind.RUN
-    low: float = 0.0
+    low: float = 1e3
     high: float = 1e6
-    logarithmic: bool = False
+    logarithmic: bool = True
     decades: float = 3.0
-    colour_map: ColourMap = ColourMap.BLUE_TO_RED
+    percentile: float = 100.0
+    colour_map: ColourMap = ColourMap.VIRIDIS
+    shaded: bool = True
     magnification: float = 1.0
 
     def __post_init__(self) -> None:
@@ -191,7 +203,8 @@ class ContourSeries:
     Parameters
     ----------
     inventory : Inventory
-        Its bodies and connections. Bodies that do not move are not coloured and do not count for ranges.
+        Its bodies and connections. Bodies that do not move are not coloured and do not count for ranges; a ball is
+        coloured and does not count, as the force on it is larger than that on any shard.
     recorded : sequence of Frame
         Its frames, each of which is looked up when it is needed; there may be more of them later.
 
@@ -204,12 +217,14 @@ class ContourSeries:
     def __init__(self, inventory: Inventory, recorded: Sequence[Frame]):
         self.body_names = inventory.body_names.tolist()
         self.moves, self.pairs, self.points_m = inventory.moves, inventory.pairs, inventory.points_m
+        self._counts = inventory.moves & (inventory.body_kinds != _BALL)
         self.recorded = recorded
         self._rows: dict[int, int] = {}
         self._numbers: list[int] = []
         self._times_s: list[float] = []
         self._values: dict[tuple[Quantity, bool], list[np.ndarray]] = {}
         self._extents: dict[tuple[Quantity, bool], list[tuple[float, float]]] = {}
+        self._percentiles: dict[tuple[Quantity, bool, float], tuple[int, tuple[float, float]]] = {}
 
     @classmethod
     def of_results(cls, results: Results) -> ContourSeries:
@@ -273,26 +288,43 @@ class ContourSeries:
 
     def show(self, row: int, settings: ContourSettings) -> ContourFrame:
         """Return the colours of a row."""
-        values = self.values(row, settings.quantity, peak=settings.peak)
-        scale = self._scale(row, settings)
+        of = len(self) - 1 if settings.peak and settings.whole_run else row
+        values = self.values(of, settings.quantity, peak=settings.peak)
+        scale = self._scale(of, settings)
         painted = colours(settings.colour_map, scale.shares(values))
         return ContourFrame(self._numbers[row], self._times_s[row], values, scale, painted)
 
-    def extent(self, row: int | None, quantity: Quantity, *, peak: bool = False) -> tuple[float, float]:
+    def extent(
+        self, row: int | None, quantity: Quantity, *, peak: bool = False, percentile: float = 100.0
+    ) -> tuple[float, float]:
         """Return the lowest and highest value, N, Pa or m, of a row, or of all rows for None; 0 is always among them.
 
-        As in 2019 a range has 0 in it, so that what is free of load has the colour of that.
+        As in 2019 a range has 0 in it, so that what is free of load has the colour of that. Below 100 the percentile is
+        that of the values above 0, and of those below it.
         """
         self._fill(quantity, peak)
+        if percentile < 100.0:
+            return self._percentile(row, quantity, peak, percentile)
         extents = self._extents[quantity, peak]
         chosen = extents if row is None else extents[row : row + 1]
         return min(each[0] for each in chosen), max(each[1] for each in chosen)
+
+    def _percentile(self, row: int | None, quantity: Quantity, peak: bool, percentile: float) -> tuple[float, float]:
+        values = self._values[quantity, peak]
+        if row is not None:
+            return _percentiles(values[row][self._counts], percentile)
+        rows, found = self._percentiles.get((quantity, peak, percentile), (0, (0.0, 0.0)))
+        if rows < len(values):
+            found = _percentiles(np.concatenate([each[self._counts] for each in values]), percentile)
+            self._percentiles[quantity, peak, percentile] = len(values), found
+        return found
 
     def _scale(self, row: int, settings: ContourSettings) -> Scale:
         if settings.range_kind == RangeKind.FIXED:
             return Scale(settings.low, settings.high, settings.logarithmic)
         of_frame = settings.range_kind == RangeKind.FRAME
-        low, high = self.extent(row if of_frame else None, settings.quantity, peak=settings.peak)
+        rows = row if of_frame else None
+        low, high = self.extent(rows, settings.quantity, peak=settings.peak, percentile=settings.percentile)
         if not settings.logarithmic:
             return Scale(low, high)
         largest = max(-low, high)
@@ -306,7 +338,7 @@ class ContourSeries:
             found = np.where(self.moves, self._found(row, quantity, peak), np.nan)
             if peak and values:
                 found = np.fmax(values[-1], found)
-            known = found[np.isfinite(found)]
+            known = found[self._counts & np.isfinite(found)]
             values.append(found)
             extents.append((float(known.min(initial=0.0)), float(known.max(initial=0.0))))
 
@@ -316,6 +348,15 @@ class ContourSeries:
         if quantity == Quantity.DISPLACEMENT:
             return length(frame.positions_m - self._first.positions_m)
         return _peaks(quantity, frame.loads) if peak else _means(quantity, frame.loads)
+
+
+def _percentiles(values: np.ndarray, percentile: float) -> tuple[float, float]:
+    """Return the percentile of the values (n,) below 0, downwards, and of those above it; 0 where there are none."""
+    ends = []
+    for side in (-1.0, 1.0):
+        beyond = (side * values)[side * values > 0.0]
+        ends.append(side * float(np.percentile(beyond, percentile)) if len(beyond) else 0.0)
+    return ends[0], ends[1]
 
 
 def _means(quantity: Quantity, loads: FrameLoads) -> np.ndarray:

@@ -16,7 +16,8 @@ from mathutils import Matrix, Vector
 from ...core.display.colour_scale import linear
 
 _ROLE = "bda_role"
-_MATERIAL = "Contours"
+_MATERIALS = ("Contours", "Shaded contours")
+"""Flat and shaded."""
 _LOOK = "bda_look_before"
 _HAD_MATERIAL, _MATERIAL_BEFORE = "bda_contours", "bda_material_before"
 
@@ -27,10 +28,23 @@ _PLAIN = {
         "color_type": "OBJECT",
         "show_shadows": False,
         "show_cavity": False,
+        "show_specular_highlight": False,
         "show_object_outline": True,
     },
 }
 """Settings that leave colours in a render as they are."""
+
+SHADED_LIGHT = "STUDIO"
+_STUDIO_LIGHT = "paint.sl"
+"""Blender's own, of white light alone, which keeps hues as they are."""
+
+_SHADED = {**_PLAIN, "display.shading": {**_PLAIN["display.shading"], "light": SHADED_LIGHT}}
+_KEPT = {**_PLAIN, "display.shading": {**_PLAIN["display.shading"], "studio_light": _STUDIO_LIGHT}}
+"""Settings of which one of the two changes any."""
+
+_LIGHT_FROM = Vector((0.35, -0.55, 0.76))
+_DARKEST = 0.45
+"""Part of its colour that a face has which looks away from the light."""
 
 
 def paint(
@@ -98,33 +112,39 @@ def unpaint(scene: bpy.types.Scene) -> None:
                 _set_colour(body, layer.depsgraph, body.color)
 
 
-def show_colours(scene: bpy.types.Scene) -> None:
-    """Make every renderer show the objects' colours as they are: one material for all, no light, no tone mapping.
+def show_colours(scene: bpy.types.Scene, *, shaded: bool = False) -> None:
+    """Make every renderer show the objects' colours as they are: one material for all, no lamps, no tone mapping.
 
-    What was set before is kept in the scene, and so survives undo and goes into files.
+    Shaded, a face is darker the more it looks away from a light over the shoulder; where `place` has turned a body,
+    Workbench shades it as it was turned before. What was set before is kept in the scene, and so survives undo and goes
+    into files.
     """
     if _LOOK not in scene:
         scene[_LOOK] = {
             f"{path}.{name}": getattr(scene.path_resolve(path), name)
-            for path, settings in _PLAIN.items()
+            for path, settings in _KEPT.items()
             for name in settings
         }
-    for path, settings in _PLAIN.items():
+    for path, settings in (_SHADED if shaded else _PLAIN).items():
+        owner = scene.path_resolve(path)
         for name, value in settings.items():
-            setattr(scene.path_resolve(path), name, value)
+            if getattr(owner, name) != value:  # any setting counts as a change, and costs Blender what it has played
+                setattr(owner, name, value)
+    if shaded:  # which other lights it has depends on the kind of light
+        scene.display.shading.studio_light = _STUDIO_LIGHT
     for layer in scene.view_layers:
         if _HAD_MATERIAL not in layer:
             layer[_HAD_MATERIAL] = True
             if layer.material_override:
                 layer[_MATERIAL_BEFORE] = layer.material_override
-        layer.material_override = _material()
+        layer.material_override = _material(shaded)
 
 
 def show_materials(scene: bpy.types.Scene) -> None:
     """Put back what `show_colours` has replaced, if it has."""
     if _LOOK in scene:
         kept = scene[_LOOK].to_dict() if hasattr(scene[_LOOK], "to_dict") else {}  # it can be edited by hand
-        for path, settings in _PLAIN.items():
+        for path, settings in _KEPT.items():
             for name in settings:
                 if (value := kept.get(f"{path}.{name}")) is not None:
                     setattr(scene.path_resolve(path), name, value)
@@ -135,14 +155,7 @@ def show_materials(scene: bpy.types.Scene) -> None:
             for name in (_HAD_MATERIAL, _MATERIAL_BEFORE):
                 if name in layer:
                     del layer[name]
-    ours = _find_material()
-    if ours and not ours.users:
-        bpy.data.materials.remove(ours)
-
-
-def colours_are_shown(scene: bpy.types.Scene) -> bool:
-    """Return whether colours are shown, by `show_colours`."""
-    return _LOOK in scene
+    bpy.data.batch_remove([each for each in bpy.data.materials if each.get(_ROLE) in _MATERIALS and not each.users])
 
 
 def _bodies(scene: bpy.types.Scene) -> bpy.types.bpy_prop_collection | tuple:
@@ -160,17 +173,14 @@ def _known(painted: np.ndarray) -> list[bool]:
     return np.isfinite(painted).all(axis=1).tolist()
 
 
-def _find_material() -> bpy.types.Material | None:
-    return next((each for each in bpy.data.materials if each.get(_ROLE) == _MATERIAL), None)
-
-
-def _material() -> bpy.types.Material:
-    """Return a material that shines in the colour of its object."""
-    material = _find_material()
+def _material(shaded: bool) -> bpy.types.Material:
+    """Return a material that shines in the colour of its object, less so where it looks away from the light."""
+    role = _MATERIALS[shaded]
+    material = next((each for each in bpy.data.materials if each.get(_ROLE) == role), None)
     if material:
         return material
-    material = bpy.data.materials.new(_MATERIAL)
-    material[_ROLE] = _MATERIAL
+    material = bpy.data.materials.new(role)
+    material[_ROLE] = role
     if bpy.app.version < (5, 0, 0):
         material.use_nodes = True
     tree = material.node_tree
@@ -180,4 +190,20 @@ def _material() -> bpy.types.Material:
     )
     tree.links.new(info.outputs["Color"], shine.inputs["Color"])
     tree.links.new(shine.outputs["Emission"], output.inputs["Surface"])
+    if shaded:
+        _dim(tree, shine.inputs["Strength"])
     return material
+
+
+def _dim(tree: bpy.types.NodeTree, strength: bpy.types.NodeSocket) -> None:
+    """Let the strength fall from 1, towards the light, to `_DARKEST` away from it."""
+    face, turned, share = (
+        tree.nodes.new(kind) for kind in ("ShaderNodeNewGeometry", "ShaderNodeVectorMath", "ShaderNodeMapRange")
+    )
+    turned.operation = "DOT_PRODUCT"
+    turned.inputs[1].default_value = _LIGHT_FROM.normalized()
+    share.inputs["From Min"].default_value, share.inputs["To Min"].default_value = -1.0, _DARKEST
+    # The true normal is found from where the face is, also where bodies were placed and Blender has not noticed.
+    tree.links.new(face.outputs["True Normal"], turned.inputs[0])
+    tree.links.new(turned.outputs["Value"], share.inputs["Value"])
+    tree.links.new(share.outputs["Result"], strength)

@@ -13,7 +13,7 @@ from ...core.errors import ContourError
 from ...core.results.arrays import Results
 from ...core.results.frames import Frame
 from ...scene.bodies import bodies_of
-from ...scene.rendering.body_colours import colours_are_shown, paint, place, show_colours, show_materials, unpaint
+from ...scene.rendering.body_colours import paint, place, show_colours, show_materials, unpaint
 from ..recording.recorder import Recording
 
 
@@ -55,8 +55,7 @@ class ContourDisplay:
         """Colour the bodies from now on, whatever frame is gone to."""
         self._show_true_shape()
         self.settings, self.error = settings, None
-        if not colours_are_shown(self.scene):
-            show_colours(self.scene)
+        show_colours(self.scene, shaded=settings.shaded)
         self.refresh()
 
     def hide(self) -> None:

@@ -84,18 +84,26 @@ class ContourProperties:
         "impact that is many times the mean over its frame",
         update=_follow,
     )
+    contour_whole_run: BoolProperty(
+        name="Of Whole Run",
+        description="Show the largest value of all frames in every frame: at the start, where the bridge will be "
+        "loaded most",
+        update=_follow,
+    )
     contour_range: EnumProperty(
         name="Range", description="What the lowest and highest colour stand for", items=_RANGES, update=_follow
     )
     contour_low: FloatProperty(
-        name="Lowest", description="Low end of the fixed range, kN, N/mm² or mm", default=0.0, update=_follow
+        name="Lowest", description="Low end of the fixed range, kN, N/mm² or mm", default=1.0, update=_follow
     )
     contour_high: FloatProperty(
         name="Highest", description="High end of the fixed range, kN, N/mm² or mm", default=1000.0, update=_follow
     )
     contour_logarithmic: BoolProperty(
         name="Logarithmic",
-        description="Equal steps of colour stand for equal ratios; signs are left out",
+        description="Equal steps of colour stand for equal ratios, so that weight and impact are told apart in one "
+        "picture; signs are left out",
+        default=True,
         update=_follow,
     )
     contour_decades: FloatProperty(
@@ -106,7 +114,26 @@ class ContourProperties:
         max=12.0,
         update=_follow,
     )
-    contour_map: EnumProperty(name="Colours", description="Colour map", items=_MAPS, update=_follow)
+    contour_percentile: FloatProperty(
+        name="Percentile",
+        description="Share of the values other than 0 that lie within an automatic range, such as 98; the few beyond "
+        "it have the colour of its end",
+        default=100.0,
+        min=50.0,
+        max=100.0,
+        subtype="PERCENTAGE",
+        update=_follow,
+    )
+    contour_map: EnumProperty(
+        name="Colours", description="Colour map", items=_MAPS, default=ColourMap.VIRIDIS.name, update=_follow
+    )
+    contour_shaded: BoolProperty(
+        name="Shaded",
+        description="Make faces darker the more they look away from the light; without it each colour is exactly "
+        "that of the bar",
+        default=True,
+        update=_follow,
+    )
     contour_magnification: FloatProperty(
         name="Magnify Shape",
         description="How many times as far as they are displaced bodies are shown, once the recording has ended",

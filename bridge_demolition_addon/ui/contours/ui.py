@@ -26,6 +26,8 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         column.use_property_split, column.use_property_decorate = True, False
         column.prop(settings, "contour_quantity")
         column.prop(settings, "contour_peak")
+        if settings.contour_peak:
+            column.prop(settings, "contour_whole_run")
         column.prop(settings, "contour_range")
         if settings.contour_range == "FIXED":
             unit = unit_of_range(Quantity[settings.contour_quantity]).name
@@ -35,7 +37,10 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "contour_logarithmic")
         if settings.contour_logarithmic and settings.contour_range != "FIXED":
             column.prop(settings, "contour_decades")
+        if settings.contour_range != "FIXED":
+            column.prop(settings, "contour_percentile")
         column.prop(settings, "contour_map")
+        column.prop(settings, "contour_shaded")
         column.prop(settings, "contour_magnification")
         column.prop(settings, "colour_bar")
         layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")

@@ -7,6 +7,7 @@ import bpy
 from ...core.display.colour_scale import ColourMap
 from ...core.display.contours import ContourSettings, Quantity, RangeKind, unit_of_range
 from ...core.errors import DemolitionError
+from ...scene.rendering.body_colours import SHADED_LIGHT
 from ...simulation.blender_events import contours_of
 
 _COLOURS_BEFORE = "bda_colours_before"
@@ -34,6 +35,9 @@ def settings_of(scene: bpy.types.Scene) -> ContourSettings:
         high=settings.contour_high * size,
         logarithmic=settings.contour_logarithmic,
         decades=settings.contour_decades,
+        whole_run=settings.contour_whole_run,
+        percentile=settings.contour_percentile,
+        shaded=settings.contour_shaded,
         colour_map=ColourMap[settings.contour_map],
         magnification=settings.contour_magnification,
     )
@@ -99,7 +103,7 @@ def _follow_all() -> None:
 
 
 def _show_colours_in_views(scene: bpy.types.Scene) -> None:
-    """Make solid 3D views show the objects' colours, without light; each screen keeps what was set before."""
+    """Make solid 3D views show the objects' colours, flat if asked for; each screen keeps what was set before."""
     for area in _views(scene):
         screen, number = area.id_data, str(list(area.id_data.areas).index(area))
         before = screen.get(_COLOURS_BEFORE, {})
@@ -107,7 +111,7 @@ def _show_colours_in_views(scene: bpy.types.Scene) -> None:
         shading = area.spaces.active.shading
         if number not in before:
             screen[_COLOURS_BEFORE] = {**before, number: [shading.color_type, shading.light]}
-        shading.color_type, shading.light = "OBJECT", "FLAT"
+        shading.color_type, shading.light = "OBJECT", SHADED_LIGHT if scene.bda.contour_shaded else "FLAT"
 
 
 def _show_materials_in_views(scene: bpy.types.Scene) -> None:

@@ -7,6 +7,7 @@ import pytest
 from sample_results import FRAME_S, POINTS, G, hanging_chain
 
 from bridge_demolition_addon.core.display.colour_bar import colour_bar
+from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours
 from bridge_demolition_addon.core.display.contours import (
     ContourSeries,
     ContourSettings,
@@ -110,8 +111,10 @@ def test_a_growing_series_is_the_finished_one(series):
 
 
 def test_range_over_the_run_and_of_each_frame(series):
-    run, frame = ContourSettings(), ContourSettings(range_kind=RangeKind.FRAME)
-    assert series.show(1, run).scale == Scale(0.0, pytest.approx(3000 * G))
+    linear = {"logarithmic": False, "colour_map": ColourMap.BLUE_TO_RED}
+    run, frame = ContourSettings(**linear), ContourSettings(range_kind=RangeKind.FRAME, **linear)
+    # The ball's 3000 g do not count; a push of 1000 N for half a frame, across the weight of both, is the most.
+    assert series.show(1, run).scale == Scale(0.0, pytest.approx(np.hypot(300 * G, 500.0)))
     assert series.show(1, frame).scale == Scale(0.0, pytest.approx(300 * G))
     assert series.show(1, frame).screen_colours[UPPER].tolist() == [1.0, 0.0, 0.0]
     # The first frame, in which no time passes, is free of load: everything is blue, as in the report's Figure 55.
@@ -119,12 +122,52 @@ def test_range_over_the_run_and_of_each_frame(series):
 
 
 def test_fixed_and_logarithmic_ranges(series):
-    fixed = ContourSettings(range_kind=RangeKind.FIXED, low=0.0, high=600 * G)
+    fixed = ContourSettings(
+        range_kind=RangeKind.FIXED, low=0.0, high=600 * G, logarithmic=False, colour_map=ColourMap.BLUE_TO_RED
+    )
     assert series.show(1, fixed).screen_colours[UPPER] == pytest.approx([0.5, 1.0, 0.0])
     logarithmic = ContourSettings(logarithmic=True, decades=2.0)
     scale = series.show(1, logarithmic).scale
-    assert (scale.low, scale.high) == pytest.approx((30 * G, 3000 * G))
-    assert scale.shares([30 * G, 300 * G, -3000 * G, 0.0]) == pytest.approx([0.0, 0.5, 1.0, 0.0])
+    most = np.hypot(300 * G, 500.0)
+    assert (scale.low, scale.high) == pytest.approx((most / 100.0, most))
+    assert scale.shares([most / 100.0, most / 10.0, -most, 0.0]) == pytest.approx([0.0, 0.5, 1.0, 0.0])
+
+
+def test_the_ball_has_a_colour_and_no_say_in_the_scale(series):
+    shown = series.show(4, ContourSettings(logarithmic=False))
+    assert shown.values[BALL] > 5.0 * shown.scale.high
+    assert shown.screen_colours[BALL].tolist() == colours(ColourMap.VIRIDIS, [1.0])[0].tolist()
+
+
+def test_a_percentile_leaves_the_few_largest_out(series):
+    # Of the two shards, over the run: 200, 200, 206, 300, 300, 300 and 304 g, and some zeros. The middle one is 300 g.
+    half = ContourSettings(logarithmic=False, percentile=50.0)
+    shown = series.show(3, half)
+    assert shown.scale == Scale(0.0, pytest.approx(300 * G))
+    assert shown.screen_colours[UPPER].tolist() == colours(ColourMap.VIRIDIS, [1.0])[0].tolist()
+    assert colour_bar(half, shown).subtitle == "frame mean, up to percentile 50"
+    of_frame = replace(half, range_kind=RangeKind.FRAME)
+    assert series.show(1, of_frame).scale == Scale(0.0, pytest.approx(250 * G))  # of 200 and 300
+    assert series.show(0, of_frame).scale == Scale(0.0, 0.0)  # in the first frame nothing bears a load
+
+
+def test_a_percentile_follows_a_series_that_grows(series):
+    results, recorded = hanging_chain(), []
+    growing, settings = ContourSeries(results.inventory, recorded), ContourSettings(percentile=80.0)
+    for row in range(5):
+        recorded.append(results.frames[row])
+        growing.follow()
+        growing.show(row, settings)
+    assert growing.show(2, settings).scale == series.show(2, settings).scale
+
+
+def test_the_peak_of_the_whole_run_is_that_of_the_last_frame_in_every_frame(series):
+    whole = ContourSettings(peak=True, whole_run=True)
+    first = series.show(0, whole)
+    assert np.array_equal(first.values, series.values(4, Quantity.RESULTANT, peak=True), equal_nan=True)
+    assert first.values[BALL] == pytest.approx(6000 * G) and first.frame == series.frames[0]
+    assert colour_bar(whole, first).subtitle == "sub-step peak of the whole run"
+    assert series.show(0, ContourSettings(peak=True)).values[BALL] == 0.0
 
 
 @pytest.mark.parametrize(("low", "high", "logarithmic"), [(1.0, 1.0, False), (2.0, 1.0, False), (0.0, 1.0, True)])

@@ -1,18 +1,20 @@
 """Contours in a scene: colours in renders and after scrubbing, and everything as it was afterwards."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from blocks import Blocks
 from matplotlib.image import imread
 
-from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours
+from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
 from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity, RangeKind
 from bridge_demolition_addon.core.errors import ContourError, OutputError
 
 FRAMES = 6
 ONE_LEVEL = 1.01 / 255.0
 """What eight bits per channel allow, up and down."""
-FRAME_BY_FRAME = ContourSettings(quantity=Quantity.SUM, range_kind=RangeKind.FRAME, colour_map=ColourMap.VIRIDIS)
+FRAME_BY_FRAME = ContourSettings(quantity=Quantity.SUM, range_kind=RangeKind.FRAME, logarithmic=False, shaded=False)
 
 
 @pytest.fixture
@@ -81,12 +83,29 @@ def test_rendered_colours_are_those_of_the_map(hanging, tmp_path, engine):
     assert (abs(render(scene, engine, tmp_path / "render.png") - expected) <= tolerance).all()
 
 
+@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])
+def test_a_shaded_picture_keeps_hues_and_darkens_what_looks_away(hanging, tmp_path, engine):
+    from bridge_demolition_addon.simulation.blender_events import contours_of
+
+    scene = hanging.scene
+    scene.frame_set(FRAMES)
+    pictures = []
+    for shaded in (False, True, False):
+        contours_of(scene).show(replace(FRAME_BY_FRAME, shaded=shaded))
+        pictures.append(render(scene, engine, tmp_path / "render.png"))
+    flat, shaded, again = (linear(each) for each in pictures)
+    assert np.array_equal(flat, again)
+    dimmed = shaded / flat
+    assert (dimmed < 0.97).all() and (dimmed > 0.2).all()
+    # One factor for red, green and blue, but for the 255 levels of a picture and a highlight.
+    assert (np.ptp(dimmed, axis=1) < 0.25 * dimmed.max(axis=1)).all()
+
+
 def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
-    from bridge_demolition_addon.core.display.colour_scale import linear
     from bridge_demolition_addon.simulation.blender_events import contours_of
 
     scene, recording = hanging.scene, contours_of(hanging.scene).recording
-    contours_of(scene).show(ContourSettings(quantity=Quantity.SUM))
+    contours_of(scene).show(ContourSettings(quantity=Quantity.SUM, logarithmic=False, colour_map=ColourMap.BLUE_TO_RED))
     sums = np.array([frame.loads.body_sums_n for frame in recording.frames])
     names, moving = recording.inventory.body_names.tolist(), [1, 3]
     for frame in (2, 5, 3, 5):

@@ -33,12 +33,15 @@ def shown(blocks, number=1):
 
 
 def test_ticking_the_box_colours_and_unticking_puts_back(recorded):
+    from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
+
     settings = recorded.scene.bda
     settings.contour_range = "FRAME"
     recorded.scene.frame_set(3)
     before, others = shown(recorded), ours_in_handlers()
     settings.contours = True
-    assert shown(recorded) == (1.0, 0.0, 0.0)  # the only load is the highest, and that is red
+    # The only load is the highest: the last colour of the map.
+    assert shown(recorded) == pytest.approx(linear(colours(ColourMap.VIRIDIS, [1.0]))[0], abs=1e-6)
     settings.contours = False
     assert shown(recorded) == before
     assert ours_in_handlers() == others
@@ -108,7 +111,11 @@ def test_a_range_that_is_none_is_told_and_changes_nothing(recorded):
     settings.contour_range = "FIXED"
     assert "has to be below" in contour_view.trouble(recorded.scene)
     assert shown(recorded) == before
-    settings.contour_high = 1.0
+    settings.contour_high = 2.0
+    assert contour_view.trouble(recorded.scene) == ""
+    settings.contour_low = 0.0
+    assert "has to begin above 0" in contour_view.trouble(recorded.scene)
+    settings.contour_logarithmic = False
     assert contour_view.trouble(recorded.scene) == ""
 
 
