@@ -3,21 +3,26 @@
 
 import numpy as np
 
+from bridge_demolition_addon.core.elasticity.steel_bars import Steel
 from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
+RIGID_PLASTIC = Steel(yield_pa=2e6, hardening=1.0)
 MASS_KG, HEIGHT_M = 100.0, 9.0
 
 
 def torn_block(blocks, held_share, elongation_m):
-    """The connection that it hangs from; its reinforcement yields at a share of the block's weight."""
+    """The connection that it hangs from; its reinforcement yields at a share of the block's weight.
+
+    Where connections are elastic, it yields at once and does not harden.
+    """
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, HEIGHT_M), MASS_KG)
     connection, area_m2 = blocks.connect("FIXED", (0, 0, 9.5), ceiling, block), 0.04
     connection["bda_area_m2"], connection["bda_normal"] = area_m2, (0.0, 0.0, -1.0)
     strength = Strength(1e9, 0.5 * MASS_KG * GRAVITY / area_m2, 1e9, 1e9, 1e9)
-    keep_breaking(blocks.scene, Breaking(strength, 0.0, Ductility(held_share / 0.5, elongation_m)))
+    keep_breaking(blocks.scene, Breaking(strength, 0.0, Ductility(held_share / 0.5, elongation_m), 0.0, RIGID_PLASTIC))
     return connection
 
 

@@ -143,7 +143,7 @@ def _breaking(settings: ConnectionSettings, strength: Strength | None) -> Breaki
         return Breaking(warm_up_s=settings.warm_up_s, warm_up_damping=settings.warm_up_damping)
     share, elongation = settings.ductile_share, settings.ductile_elongation_m
     ductility = Ductility(share, elongation) if share > 0.0 else None
-    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping)
+    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping, settings.steel)
 
 
 def last_frame(scenario: Scenario) -> int:

@@ -72,21 +72,27 @@ class JointPlaces:
     def deformations(self) -> np.ndarray:
         """Return the shifts in m and turns in rad (6, m) of the second frames against the first."""
         one, other = self.first_axes, self.second_axes
-        sines = np.stack((-_dot(one[:, 1], other[:, 2]), _dot(one[:, 0], other[:, 2]), -_dot(one[:, 0], other[:, 1])))
+        sines = np.stack(
+            (
+                -dot_products(one[:, 1], other[:, 2]),
+                dot_products(one[:, 0], other[:, 2]),
+                -dot_products(one[:, 0], other[:, 1]),
+            )
+        )
         upright = np.sqrt(np.maximum(1.0 - sines[1] * sines[1], 0.0))
-        cosines = np.stack((_dot(one[:, 2], other[:, 2]), upright, _dot(one[:, 0], other[:, 0])))
-        return np.concatenate((_along_first(one, self.shifts_m), arctangent(sines, cosines)))
+        cosines = np.stack((dot_products(one[:, 2], other[:, 2]), upright, dot_products(one[:, 0], other[:, 0])))
+        return np.concatenate((turned_back(one, self.shifts_m), arctangent(sines, cosines)))
 
     def rows(self) -> JointRows:
         """Return the rows at these places."""
         first_z, second_x = self.first_axes[:, 2], self.second_axes[:, 0]
-        y = _cross(first_z, second_x)
-        turning = np.stack([_unit(each) for each in (_cross(y, first_z), y, _cross(second_x, y))])
+        y = cross_products(first_z, second_x)
+        turning = np.stack([_unit(each) for each in (cross_products(y, first_z), y, cross_products(second_x, y))])
         along = transposed(self.first_axes)
         return JointRows(
             along,
-            np.stack([_cross(self.first_levers_m, axis) for axis in along]),
-            np.stack([_cross(axis, self.second_levers_m) for axis in along]),
+            np.stack([cross_products(self.first_levers_m, axis) for axis in along]),
+            np.stack([cross_products(axis, self.second_levers_m) for axis in along]),
             turning,
         )
 
@@ -133,10 +139,10 @@ class JointRows:
             Velocities, then angular velocities, of the bodies.
         """
         velocity, spin = first[:3] - second[:3], first[3:] - second[3:]
-        shifting = _along_second(self.along, velocity)
-        shifting += _along_second(self.first_turning, first[3:])
-        shifting += _along_second(self.second_turning, second[3:])
-        return np.concatenate((shifting, _along_second(self.turning, spin)))
+        shifting = turned(self.along, velocity)
+        shifting += turned(self.first_turning, first[3:])
+        shifting += turned(self.second_turning, second[3:])
+        return np.concatenate((shifting, turned(self.turning, spin)))
 
     def loads(self, amounts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return what amounts (6, m) in the rows do to the first and to the second bodies.
@@ -146,10 +152,10 @@ class JointRows:
         first, second : (6, m) float
             Forces, or impulses, then torques about the centres of the bodies.
         """
-        force = _along_first(self.along, amounts[:3])
-        torque = _along_first(self.turning, amounts[3:])
-        first = _along_first(self.first_turning, amounts[:3]) + torque
-        second = _along_first(self.second_turning, amounts[:3]) - torque
+        force = turned_back(self.along, amounts[:3])
+        torque = turned_back(self.turning, amounts[3:])
+        first = turned_back(self.first_turning, amounts[:3]) + torque
+        second = turned_back(self.second_turning, amounts[:3]) - torque
         return np.concatenate((force, first)), np.concatenate((-force, second))
 
     def matrices(self) -> tuple[np.ndarray, np.ndarray]:
@@ -171,8 +177,8 @@ def joint_places(frames: JointFrames, positions_m: np.ndarray, rotations: np.nda
         Of all n bodies.
     """
     first, second = rotations.take(frames.first, axis=2), rotations.take(frames.second, axis=2)
-    first_levers = _along_second(first, frames.first_points_m)
-    second_levers = _along_second(second, frames.second_points_m)
+    first_levers = turned(first, frames.first_points_m)
+    second_levers = turned(second, frames.second_points_m)
     between = positions_m.take(frames.second, axis=1) - positions_m.take(frames.first, axis=1)
     return JointPlaces(
         matrix_products(first, frames.first_axes),
@@ -196,29 +202,31 @@ def transposed(matrices: np.ndarray) -> np.ndarray:
     return np.swapaxes(matrices, 0, 1)
 
 
-def _along_second(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Products (3, m) of matrices (3, 3, m) with vectors (3, m)."""
+def turned(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Return the products (3, m) of matrices (3, 3, m) with vectors (3, m)."""
     return matrices[:, 0] * vectors[0] + matrices[:, 1] * vectors[1] + matrices[:, 2] * vectors[2]
 
 
-def _along_first(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Products (3, m) of transposed matrices (3, 3, m) with vectors (3, m)."""
+def turned_back(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Return the products (3, m) of transposed matrices (3, 3, m) with vectors (3, m)."""
     return matrices[0] * vectors[0] + matrices[1] * vectors[1] + matrices[2] * vectors[2]
+
+
+def dot_products(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the products (m,) of vectors (3, m)."""
+    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
+
+
+def cross_products(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the cross products (3, m) of vectors (3, m)."""
+    (x, y, z), (a, b, c) = first, second
+    return np.stack((y * c - z * b, z * a - x * c, x * b - y * a))
 
 
 def _beside(left: np.ndarray, right: np.ndarray) -> np.ndarray:
     return np.concatenate((left, right), axis=1)
 
 
-def _dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
-
-
-def _cross(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    (x, y, z), (a, b, c) = first, second
-    return np.stack((y * c - z * b, z * a - x * c, x * b - y * a))
-
-
 def _unit(vectors: np.ndarray) -> np.ndarray:
-    lengths = np.sqrt(_dot(vectors, vectors))
+    lengths = np.sqrt(dot_products(vectors, vectors))
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)

@@ -18,8 +18,12 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from .cracks import Cracks, CrackStep
 from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places, matrix_products, transposed
 from .sparse_system import BlockSystem
+
+_MOST_GUESSES = 12
+"""How often the equations are solved for bars that yield; what is not found by then goes into the next sub-step."""
 
 TURNED_RAD = 1e-4
 """How far bodies may turn before rows and equations are made anew: loads are then off by as much, relative."""
@@ -59,6 +63,10 @@ class ElasticStep:
         How fast they shrink in it, m/s and rad/s.
     of_first, of_second : (6, k) float
         Impulses on the two bodies, and about their centres.
+    cracks : (c,) int
+        Broken connections in whose place reinforcement acts.
+    of_cracks_on_first, of_cracks_on_second : (6, c) float
+        Its impulses on the two bodies, and about their centres.
     of_bodies : (6, n) float
         The sum on every body.
     """
@@ -68,6 +76,9 @@ class ElasticStep:
     rates: np.ndarray
     of_first: np.ndarray
     of_second: np.ndarray
+    cracks: np.ndarray
+    of_cracks_on_first: np.ndarray
+    of_cracks_on_second: np.ndarray
     of_bodies: np.ndarray
 
 
@@ -104,6 +115,8 @@ class ElasticStructure:
         Damping over stiffness, β.
     positions_m, rotations : (3, n) and (3, 3, n) float
         Where nothing is deformed: what rounding leaves of the frames there counts as none.
+    cracks : Cracks or None
+        Reinforcement in place of connections that broke, if there is any.
 
     Attributes
     ----------
@@ -120,6 +133,7 @@ class ElasticStructure:
         damping_s: float,
         positions_m: np.ndarray,
         rotations: np.ndarray,
+        cracks: Cracks | None = None,
     ):
         self._frames, self._stiffness = frames, stiffness
         self._masses, self._inertias, self._damping_s = masses_kg, inertias_kg_m2, damping_s
@@ -130,6 +144,7 @@ class ElasticStructure:
         self._intact = np.ones(len(frames), bool)
         self._moves = masses_kg > 0.0
         self._substep_s = 0.0
+        self._cracks, self._has_broken = cracks, False
         self._partition()
 
     def step(self, states: BodyStates, intact: np.ndarray, substep_s: float) -> ElasticStep:
@@ -142,7 +157,8 @@ class ElasticStructure:
         acting = self._acting(awake)
         frames = self._frames.only(acting)
         places = joint_places(frames, states.positions_m, states.rotations)
-        self._refresh(states, awake, acting, places)
+        cracks = self._acting_cracks(states, awake)
+        self._refresh(states, awake, acting, places, cracks)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         deformations = places.deformations()
         first, second = (states.velocities.take(each, axis=1) for each in (frames.first, frames.second))
@@ -150,18 +166,33 @@ class ElasticStructure:
         implicit = substep_s * (substep_s + self._damping_s)
         strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
         amounts = stressed(stiffness, strains)
-        changes = self._solved(awake, summed_on_bodies(frames, rows.loads(amounts), self._count))
+        loads = summed_on_bodies(frames, rows.loads(amounts), self._count)
+        changes = self._solved(awake, loads if cracks is None else loads + self._of_cracks(cracks, states.velocities))
+        if cracks is not None:
+            for _ in range(_MOST_GUESSES):
+                if cracks.agrees(states.velocities + changes):
+                    break
+                self._refresh(states, awake, acting, places, cracks)
+                changes = self._solved(awake, loads + self._of_cracks(cracks, states.velocities))
         first, second = (changes.take(each, axis=1) for each in (frames.first, frames.second))
         slowing = rows.rates(first, second)
         amounts -= stressed(stiffness, implicit * slowing)
         of_first, of_second = rows.loads(amounts)
+        of_bodies = summed_on_bodies(frames, (of_first, of_second), self._count)
+        of_cracks = np.zeros((2, 6, 0))
+        if cracks is not None:
+            of_cracks = cracks.loads(states.velocities + changes)
+            of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
         return ElasticStep(
             acting=acting,
             deformations=deformations,
             rates=rates + slowing,
             of_first=of_first,
             of_second=of_second,
-            of_bodies=summed_on_bodies(frames, (of_first, of_second), self._count),
+            cracks=np.zeros(0, int) if cracks is None else cracks.rows,
+            of_cracks_on_first=of_cracks[0],
+            of_cracks_on_second=of_cracks[1],
+            of_bodies=of_bodies,
         )
 
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
@@ -173,7 +204,19 @@ class ElasticStructure:
         stored = np.zeros(len(self._frames))
         for amount, deformation in zip(amounts, deformations, strict=True):
             stored[rows] += 0.5 * amount * deformation
+        if self._cracks is not None and len(self._cracks):
+            stored[self._cracks.rows] = self._cracks.stored_j(positions_m, rotations)
         return stored
+
+    def settle_cracks(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        """Take over, before a sub-step, how far reinforcement has yielded, and let go what has ruptured."""
+        if self._cracks is None or not len(self._cracks):
+            return
+        gone = self._cracks.settle(positions_m, rotations)
+        if len(gone):
+            self._stale[self.part_of_connection[gone]] = True
+            self._stale[-1] = False
+            self._has_broken = True
 
     def end_substep(self) -> None:
         """Look anew which bodies hang together, if any connection broke since this was done last."""
@@ -182,7 +225,10 @@ class ElasticStructure:
 
     def _partition(self) -> None:
         """Find the parts, and leave out bodies that never move."""
-        kept = np.flatnonzero(self._intact)
+        holds = self._intact.copy()
+        if self._cracks is not None:
+            holds[self._cracks.rows] = True
+        kept = np.flatnonzero(holds)
         first, second = self._frames.first[kept], self._frames.second[kept]
         label = connected_parts(self._moves, first, second)
         part_of_connection = np.where(self._moves[first], label[first], label[second])
@@ -230,8 +276,30 @@ class ElasticStructure:
         """Connections (k,) that are intact, and in awake parts (p + 1,)."""
         return np.flatnonzero(self._intact & awake[self.part_of_connection])
 
-    def _refresh(self, states: BodyStates, awake: np.ndarray, acting: np.ndarray, places: JointPlaces) -> None:
-        """Make rows and equations of parts anew that have turned or lost a connection."""
+    def _acting_cracks(self, states: BodyStates, awake: np.ndarray) -> CrackStep | None:
+        """Cracks in awake parts (p + 1,) that reinforcement holds; None where there is none."""
+        if self._cracks is None:
+            return None
+        chosen = np.flatnonzero(awake[self.part_of_connection[self._cracks.rows]])
+        if not len(chosen):
+            return None
+        return self._cracks.in_substep(chosen, states.positions_m, states.rotations, self._substep_s)
+
+    def _of_cracks(self, cracks: CrackStep, velocities: np.ndarray) -> np.ndarray:
+        """Impulses (6, n) of cracks on bodies that have velocities (6, n) at the end of the sub-step."""
+        return cracks.of_bodies(cracks.loads(velocities), self._count)
+
+    def _refresh(
+        self,
+        states: BodyStates,
+        awake: np.ndarray,
+        acting: np.ndarray,
+        places: JointPlaces,
+        cracks: CrackStep | None,
+    ) -> None:
+        """Make rows and equations of parts anew that have turned, lost a connection, or have bars that yield."""
+        if cracks is not None:
+            self._stale[self.part_of_connection[cracks.rows[cracks.changed()]]] = True
         turned = abs(states.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
         turned &= self._part_of_body >= 0
         self._stale[self._part_of_body[turned]] = True
@@ -248,6 +316,10 @@ class ElasticStructure:
         blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
         own = mass_matrices(self._masses, self._inertias, states.rotations, np.flatnonzero(bodies))
         row_of_body = np.cumsum(bodies) - 1
+        if cracks is not None:
+            of_stale = np.flatnonzero(stale[self.part_of_connection[cracks.rows]])
+            blocks = [np.concatenate(each, axis=2) for each in zip(blocks, cracks.blocks(of_stale), strict=True)]
+            connections = np.concatenate((connections, cracks.rows[of_stale]))
         place_of = np.full(len(self._frames), len(connections))
         place_of[connections] = np.arange(len(connections))
         blocks = [np.concatenate((each, np.zeros((6, 6, 1))), axis=2) for each in blocks]  # what broke since has none

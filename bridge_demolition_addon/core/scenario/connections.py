@@ -1,10 +1,11 @@
 """Which shards are connected, how, and what breaks a connection: for all of them, and between certain members."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import astuple, dataclass, fields, replace
 from typing import ClassVar, Self
 
 from ..elasticity.section_stiffness import ElasticModuli
+from ..elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
 from ..errors import ScenarioError
 from ..mechanics.joint import MOTIONS, TYPES, Joint, Springs
 from ..mechanics.materials import MODULUS, POISSON, Material, moduli, strengths
@@ -105,6 +106,8 @@ ELASTIC_TYPES = ("FIXED", "GENERIC", "GENERIC_SPRING")
 """Kinds of connections that can be elastic: those whose rows Bullet lets be told what to expect."""
 
 _OWN_MATERIAL = "the name of one of `[[materials]]`"
+
+_STEEL = ("ductile_yield_n_mm2", "ductile_hardening", "ductile_rupture_strain")
 
 _JOINT = tuple(item.name for item in fields(JointSettings))
 
@@ -250,7 +253,7 @@ class ConnectionSettings(JointSettings):
     )
     ductile_share: float = key(
         "Part of a material's tensile strength that a connection keeps when it breaks, as reinforcement across the "
-        "crack; 0 for none.",
+        "crack: the force at which that yields, by area. 0 for none.",
         default=0.0,
         at_least=0,
         at_most=1,
@@ -260,6 +263,28 @@ class ConnectionSettings(JointSettings):
         default=None,
         unit="m",
         above=0,
+    )
+    ductile_yield_n_mm2: float | None = key(
+        "Yield strength of the reinforcement, with `stiffness` `elastic`; 500 where it is left out. Until then it "
+        "stretches by its modulus of elasticity, 200 000 N/mm².",
+        default=None,
+        unit="N/mm²",
+        above=0,
+        at_most=5000,
+    )
+    ductile_hardening: float | None = key(
+        "Tensile strength of the reinforcement over its yield strength, with `stiffness` `elastic`; 1.08 where it is "
+        "left out, as of class B in EN 1992-1-1, table C.1.",
+        default=None,
+        at_least=1,
+        at_most=3,
+    )
+    ductile_rupture_strain: float | None = key(
+        "Strain at which the reinforcement ruptures, with `stiffness` `elastic`; 0.05 where it is left out, as of "
+        "class B. `ductile_elongation_m` by this is the length over which a bar stretches at a crack.",
+        default=None,
+        above=0,
+        at_most=0.5,
     )
     warm_up_s: float = key(
         "Time from the start in which no connection breaks, so that the bridge settles under its own weight; shards "
@@ -277,6 +302,15 @@ class ConnectionSettings(JointSettings):
     )
     foundation: bool = key("Whether shards that stand on the ground are connected to it.", default=True)
     between: tuple[ConnectionBetween, ...] = ()
+
+    @property
+    def steel(self) -> Steel:
+        """Return what the reinforcement of elastic connections is made of."""
+        given = self.ductile_yield_n_mm2, self.ductile_hardening, self.ductile_rupture_strain
+        units = NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0
+        usual = astuple(USUAL_STEEL)
+        found = (value if own is None else unit * own for own, unit, value in zip(given, units, usual, strict=True))
+        return Steel(*found)
 
     @property
     def is_elastic(self) -> bool:
@@ -341,11 +375,29 @@ class ConnectionSettings(JointSettings):
                 f"a number above 0 (m) with a connections.ductile_share above 0, and none with {self.ductile_share}"
             )
             raise self.unexpected("ductile_elongation_m", wanted)
+        self._check_steel()
         if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
             raise self.unexpected("warm_up_damping", "0 where connections.warm_up_s is 0")
         self._check_elastic()
         self._check_method("search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
+
+    def _check_steel(self) -> None:
+        """Check that what reinforcement is made of is given where it counts, and that it yields before it ruptures."""
+        for name in _STEEL:
+            if getattr(self, name) is not None and not (self.is_elastic and self.ductile_share > 0.0):
+                wanted = 'none but with connections.stiffness "elastic" and a connections.ductile_share above 0'
+                raise self.unexpected(name, wanted)
+        given = self.ductile_rupture_strain is not None
+        rupture = self.ductile_rupture_strain if given else USUAL_STEEL.rupture_strain
+        yield_pa = USUAL_STEEL.yield_pa
+        if self.ductile_yield_n_mm2 is not None:
+            yield_pa = self.ductile_yield_n_mm2 * NEWTON_PER_SQUARE_MILLIMETRE
+        if rupture <= yield_pa / MODULUS_PA:
+            wanted = f"less: by 200 000 N/mm² it would be a strain above that at rupture, {rupture:g}"
+            if given:
+                wanted = f"more than {yield_pa / MODULUS_PA:.3g}, the strain at which the reinforcement yields"
+            raise self.unexpected("ductile_rupture_strain" if given else "ductile_yield_n_mm2", wanted)
 
     def _check_elastic(self) -> None:
         """Check that what only elastic connections have goes with them, and that these have all that they need."""

@@ -8,6 +8,7 @@ from dataclasses import astuple, dataclass, fields
 import bpy
 import numpy as np
 
+from ...core.elasticity.steel_bars import USUAL_STEEL, Steel
 from ...core.mechanics.strength import Ductility, Strength
 from ..custom_properties import kept_number, kept_numbers
 
@@ -15,6 +16,7 @@ _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
 _DAMPING = "bda_warm_up_damping"
 _DUCTILITY = "bda_ductility"
+_STEEL = "bda_steel"
 
 _UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
 """Strength of a connection that no stress breaks."""
@@ -34,18 +36,22 @@ class Breaking:
         What is left of a broken connection; None for nothing.
     warm_up_damping : float
         Share of their velocities that shards lose in one second of the warm-up, from 0 to 1.
+    steel : Steel
+        What the reinforcement of elastic connections is made of.
     """
 
     strength: Strength | None = None
     warm_up_s: float = 0.0
     ductility: Ductility | None = None
     warm_up_damping: float = 0.0
+    steel: Steel = USUAL_STEEL
 
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
     """Keep it in the scene, and so in its file."""
     scene[_WARM_UP], scene[_DAMPING] = breaking.warm_up_s, breaking.warm_up_damping
-    for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility)):
+    steel = breaking.steel if breaking.ductility else None
+    for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility), (_STEEL, steel)):
         if values:
             scene[name] = astuple(values)
         elif name in scene:
@@ -67,4 +73,10 @@ def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] 
         other = astuple(strength or _UNBREAKABLE)
         strength = Strength(*np.array([kept_numbers(each, _STRENGTH, other) for each in connections]).T)
     ductility = Ductility(*kept_numbers(scene, _DUCTILITY, (0.0, 0.0))) if _DUCTILITY in scene else None
-    return Breaking(strength, kept_number(scene, _WARM_UP, 0.0), ductility, kept_number(scene, _DAMPING, 0.0))
+    return Breaking(
+        strength,
+        kept_number(scene, _WARM_UP, 0.0),
+        ductility,
+        kept_number(scene, _DAMPING, 0.0),
+        Steel(*kept_numbers(scene, _STEEL, astuple(USUAL_STEEL))),
+    )

@@ -329,6 +329,8 @@ class Recording:
             elastic = {each.name: getattr(stiffness, each.name) for each in fields(stiffness)}
             elastic["damping_ratio"] = damping_ratio_of(self.scene)
             elastic["thicknesses_m"] = thicknesses_of(self._connections)
+            if breaking.ductility:
+                elastic["steel"] = np.array(astuple(breaking.steel))
         matrices = np.array([body.matrix_world for body in self._bodies], float)
         places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
         return built_digest(

@@ -154,8 +154,10 @@ class SubstepRecorder:
         self._events, self._work, self._elastic = events, work, elastic
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._reinforcement = None
-        if breaking.ductility:
-            remaining = events.remaining_strength
+        remaining = events.remaining_strength
+        if breaking.ductility and elastic:
+            elastic.reinforce(breaking.ductility, breaking.steel, breaking.strength.tension_pa, remaining)
+        elif breaking.ductility:
             self._reinforcement = Reinforcement(
                 world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining
             )
@@ -243,6 +245,9 @@ class SubstepRecorder:
         self._world.break_connections(rows)
         if self._reinforcement and len(rows):
             self._reinforcement.add(rows, loads.connection_points_m[rows])
+        elif self._elastic:
+            axes = self._reader.section_axes(loads.rotations, rows)
+            self._elastic.tear(rows, loads.connection_points_m[rows], axes)
 
     def _threshold_factor(self, substep_s: float) -> float:
         """Impulse of a steady force in this sub-step over that in the one that thresholds were made for."""
@@ -312,6 +317,7 @@ class SubstepRecorder:
         intact[self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, _NONE))] = False
         broken = np.flatnonzero(self._intact & ~intact)
         self._intact = intact
+        self._press_cracks(snapshot, substep_s)
         stored_j = self._elastic.stored_j(intact) if self._elastic else None
         foreseen, self._foreseen = self._foreseen, []
         self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken, stored_j, foreseen))
@@ -323,8 +329,16 @@ class SubstepRecorder:
         snapshot = self._snapshot(substep_s) if self._breaking.strength or self._elastic else None
         self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, self._tie_forces(), _NONE))
         self._foreseen = []
+        self._press_cracks(snapshot, substep_s)
         self._intact = self._world.intact()
         self._world.let_broken_collide(self._intact)
+
+    def _press_cracks(self, snapshot: Snapshot | None, substep_s: float) -> None:
+        """Tell elastic connections what contacts pressed together in a sub-step."""
+        if self._elastic and self._elastic.has_cracks:
+            substep = _Substep(snapshot, substep_s, self.elapsed_s, None, _NONE)
+            loads = self._loads([substep])[1]
+            self._elastic.press(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m)
 
     def _tie_forces(self) -> np.ndarray | None:
         return self._reinforcement.forces_n.copy() if self._reinforcement else None

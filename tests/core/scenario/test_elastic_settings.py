@@ -5,11 +5,21 @@ from dataclasses import replace
 import pytest
 
 from bridge_demolition_addon.core.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
+from bridge_demolition_addon.core.elasticity.steel_bars import Steel
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.mechanics.strength import MATERIALS
 from bridge_demolition_addon.core.scenario.connections import ConnectionBetween, ConnectionSettings
 
 ELASTIC = ConnectionSettings(type="FIXED", method="face", material="concrete", stiffness="elastic")
+
+TIED = {"ductile_share": 0.5, "ductile_elongation_m": 0.1}
+
+
+def test_reinforcement_is_of_class_b_unless_another_is_given():
+    """EN 1992-1-1:2004, table C.1: f_yk 500 N/mm² here, k at least 1.08, eps_uk at least 5 %."""
+    assert replace(ELASTIC, **TIED).steel == Steel(500e6, 1.08, 0.05)
+    own = replace(ELASTIC, **TIED, ductile_yield_n_mm2=240.0, ductile_hardening=1.3, ductile_rupture_strain=0.2)
+    assert own.steel == Steel(240e6, 1.3, 0.2)
 
 
 def test_moduli_are_those_of_the_material_unless_others_are_given():
@@ -60,6 +70,12 @@ def test_rigid_connections_have_no_moduli():
         ({"elastic_modulus_n_mm2": 0.0}, "connections.elastic_modulus_n_mm2"),
         ({"elastic_modulus_n_mm2": 1e8}, "connections.elastic_modulus_n_mm2"),
         ({"damping_ratio": 1.5}, "connections.damping_ratio"),
+        ({"ductile_hardening": 1.1}, 'none but with connections.stiffness "elastic" and a connections.ductile_share'),
+        (TIED | {"stiffness": "rigid", "ductile_rupture_strain": 0.1}, "none but with connections.stiffness"),
+        (TIED | {"ductile_hardening": 0.9}, "connections.ductile_hardening"),
+        (TIED | {"ductile_rupture_strain": 0.002}, "more than 0.0025, the strain at which the reinforcement yields"),
+        (TIED | {"ductile_yield_n_mm2": 2000.0, "ductile_rupture_strain": 0.009}, "more than 0.01, the strain"),
+        (TIED | {"ductile_yield_n_mm2": 0.0}, "connections.ductile_yield_n_mm2"),
     ],
 )
 def test_what_does_not_go_together_is_refused(changes, message):

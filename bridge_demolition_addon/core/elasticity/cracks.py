@@ -1,0 +1,312 @@
+"""Cracks that reinforcement holds together: what its bars do in a sub-step, in the equations of the structure.
+
+Of a connection that broke, four bars stay, which have the yield force, the middle and the second moments of bars that
+are spread evenly over its face: at Gauss's points of the rectangle with the same second moments. Bars push as they
+pull; where a crack is closed, contact bears the rest.
+
+A sub-step is implicit, as of connections, but forces of bars are not linear: the equations are made for the forces at a
+guess, and anew for the opening that follows, until both agree (Newton).
+
+All arrays have their components first. Bars are numbered corner by corner, in each of these all cracks.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
+from .steel_bars import Bars, Steel, stretched
+
+CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]) / np.sqrt(3.0)
+"""Where the bars are, as shares of half of the sides of the rectangle."""
+
+_COUNT = len(CORNERS)
+
+_AGREES = 1e-4
+"""Part of its yield force by which the force of a bar may be off."""
+
+
+class Cracks:
+    """All cracks between n bodies, in place of some of m connections.
+
+    Parameters
+    ----------
+    steel : Steel
+        What the bars are made of.
+    elongation_m : float
+        How far a crack opens where a bar ruptures.
+    yield_n : (m,) float
+        Force at which all bars of a crack yield together.
+    shares : (m,) float
+        Part of the bars that is left, kept up to date by whoever gives it.
+
+    Attributes
+    ----------
+    rows : (t,) int
+        Connections in whose place cracks are that hold, in the order in which they came.
+    """
+
+    def __init__(self, steel: Steel, elongation_m: float, yield_n: np.ndarray, shares: np.ndarray):
+        self._steel, self._elongation_m, self._yield_n, self._shares = steel, elongation_m, yield_n, shares
+        self.rows = np.zeros(0, int)
+        self._first, self._second = np.zeros(0, int), np.zeros(0, int)
+        self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
+        self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
+        self._solved_for = np.zeros((3, 3, 0))
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def add(
+        self,
+        rows: np.ndarray,
+        first: np.ndarray,
+        second: np.ndarray,
+        places_m: np.ndarray,
+        positions_m: np.ndarray,
+        rotations: np.ndarray,
+    ) -> None:
+        """Let bars hold in place of connections.
+
+        Parameters
+        ----------
+        rows, first, second : (r,) int
+            The connections, and their bodies.
+        places_m : (3, 4, r) float
+            Where their bars cross the cracks, which are still closed.
+        positions_m, rotations : (3, n) and (3, 3, n) float
+            Of all bodies.
+        """
+        ends = [np.tile(each, _COUNT) for each in (first, second)]
+        anchors = [turned_back(rotations[..., each], places_m.reshape(3, -1) - positions_m[:, each]) for each in ends]
+        count = len(ends[0])
+        self.rows = np.concatenate((self.rows, rows))
+        self._first, self._second = (_joined(*each) for each in zip((self._first, self._second), ends, strict=True))
+        self._first_anchors = _joined(self._first_anchors, anchors[0])
+        self._second_anchors = _joined(self._second_anchors, anchors[1])
+        self._slips, self._flows = _joined(self._slips, np.zeros((3, count))), _joined(self._flows, np.zeros(count))
+        self._holds = _joined(self._holds, np.ones(count, bool))
+        self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
+
+    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Take over how far bars have yielded by now; return the connections (d,) in whose place none holds any more.
+
+        Parameters
+        ----------
+        positions_m, rotations : (3, n) and (3, 3, n) float
+            Of all bodies.
+        """
+        gaps = self._gaps(positions_m, rotations)
+        self._holds = self._holds & (dot_products(gaps, gaps) <= self._elongation_m * self._elongation_m)
+        answer = stretched(self._bars(), self._in_first(gaps, rotations), self._slips, self._flows)
+        self._slips = np.where(self._holds, answer.slips_m, self._slips)
+        self._flows = np.where(self._holds, answer.flows_m, self._flows)
+        holds = self._holds.reshape(_COUNT, -1).any(axis=0) & (self._shares[self.rows] > 0.0)
+        gone = self.rows[~holds]
+        if len(gone):
+            self._keep(holds)
+        return gone
+
+    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Return the energy (t,) that bars would give back."""
+        bars = self._bars()
+        gaps = self._in_first(self._gaps(positions_m, rotations), rotations)
+        forces = stretched(bars, gaps, self._slips, self._flows).forces_n
+        doubled = np.divide(
+            dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=self._holds
+        )
+        return 0.5 * _summed(doubled)
+
+    def in_substep(
+        self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
+    ) -> CrackStep:
+        """Return what some cracks (c,) do in a sub-step of a length in s."""
+        which = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
+        first, second = self._first[which], self._second[which]
+        first_levers = turned(rotations[..., first], self._first_anchors[:, which])
+        second_levers = turned(rotations[..., second], self._second_anchors[:, which])
+        gaps = positions_m[:, second] + second_levers - positions_m[:, first] - first_levers
+        return CrackStep(
+            self.rows[chosen],
+            first,
+            second,
+            first_levers + 0.5 * gaps,
+            second_levers - 0.5 * gaps,
+            gaps,
+            self._bars().times(self._holds)[which],
+            turned(rotations[..., first], self._slips[:, which]),
+            self._flows[which],
+            substep_s,
+            self._solved_for,
+            which,
+        )
+
+    def _bars(self) -> Bars:
+        """All bars, with what is left of them."""
+        whole = self._yield_n[self.rows] * self._shares[self.rows] / _COUNT
+        return Bars.of(np.tile(whole, _COUNT), self._steel, self._elongation_m)
+
+    def _gaps(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        first, second = (
+            positions_m[:, ends] + turned(rotations[..., ends], anchors)
+            for ends, anchors in ((self._first, self._first_anchors), (self._second, self._second_anchors))
+        )
+        return second - first
+
+    def _in_first(self, gaps: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Gaps (3, b) in the axes of the first bodies."""
+        return turned_back(rotations[..., self._first], gaps)
+
+    def _keep(self, chosen: np.ndarray) -> None:
+        """Forget all cracks but those chosen (t,)."""
+        bars = np.tile(chosen, _COUNT)
+        self.rows = self.rows[chosen]
+        for name in ("_first", "_second", "_first_anchors", "_second_anchors", "_slips", "_flows", "_holds"):
+            setattr(self, name, getattr(self, name)[..., bars])
+        self._solved_for = self._solved_for[..., bars]
+
+
+class CrackStep:
+    """What the 4 c bars of c cracks do in a sub-step.
+
+    Parameters
+    ----------
+    rows : (c,) int
+        Connections in whose place the cracks are.
+    first, second : (4 c,) int
+        Bodies of each bar.
+    first_arms_m, second_arms_m, gaps_m : (3, 4 c) float
+        From the centres of these to the middle of its crack, and how far that is open.
+    bars, slips_m, flows_m : Bars, (3, 4 c), (4 c,) float
+        The bars, and how far they have yielded, in the axes of the world.
+    substep_s : float
+    solved_for : (3, 3, b) float
+        Tangents of all bars for which equations were made last.
+    which : (4 c,) int
+        Which of these the bars are.
+
+    Attributes
+    ----------
+    rows : (c,) int
+        As given.
+    """
+
+    def __init__(
+        self,
+        rows: np.ndarray,
+        first: np.ndarray,
+        second: np.ndarray,
+        first_arms_m: np.ndarray,
+        second_arms_m: np.ndarray,
+        gaps_m: np.ndarray,
+        bars: Bars,
+        slips_m: np.ndarray,
+        flows_m: np.ndarray,
+        substep_s: float,
+        solved_for: np.ndarray,
+        which: np.ndarray,
+    ):
+        self.rows = rows
+        self._first, self._second = first, second
+        self._first_arms, self._second_arms, self._gaps = first_arms_m, second_arms_m, gaps_m
+        self._bars, self._slips, self._flows, self._substep_s = bars, slips_m, flows_m, substep_s
+        self._solved_for, self._which = solved_for, which
+        self._begin_at(gaps_m)
+
+    def changed(self) -> np.ndarray:
+        """Which cracks (c,) have other tangents than their equations."""
+        differs = (self._tangents != self._solved_for[..., self._which]).any(axis=(0, 1))
+        return differs.reshape(_COUNT, -1).any(axis=0)
+
+    def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return what cracks (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
+        bars = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
+        tangents = self._tangents[..., bars]
+        self._solved_for[..., self._which[bars]] = tangents
+        implicit = self._substep_s * self._substep_s * tangents
+        first, second = (_motion_of_points(each[:, bars]) for each in (self._first_arms, self._second_arms))
+        by_first, by_second = matrix_products(implicit, first), matrix_products(implicit, second)
+        return (
+            _summed(matrix_products(transposed(first), by_first)),
+            _summed(matrix_products(transposed(second), by_second)),
+            -_summed(matrix_products(transposed(first), by_second)),
+        )
+
+    def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
+        opening = self._substep_s * self._rates(velocities)
+        pull = self._substep_s * (self._forces + turned(self._tangents, opening))
+        first = np.concatenate((pull, cross_products(self._first_arms, pull)))
+        second = np.concatenate((-pull, -cross_products(self._second_arms, pull)))
+        return _summed(first), _summed(second)
+
+    def agrees(self, velocities: np.ndarray) -> bool:
+        """Whether the forces are those of the opening that follows from velocities (6, n); if not, begin there."""
+        opening = self._substep_s * self._rates(velocities)
+        answer = stretched(self._bars, self._gaps + opening, self._slips, self._flows)
+        off = answer.forces_n - self._forces - turned(self._tangents, opening)
+        if (abs(off) <= _AGREES * self._bars.yield_n).all():
+            return True
+        self._begin_at(self._gaps + opening)
+        return False
+
+    def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+        """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
+        cracks = len(self.rows)
+        bodies = np.concatenate((self._first[:cracks], self._second[:cracks]))
+        return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+
+    def _begin_at(self, gaps_m: np.ndarray) -> None:
+        """Take forces for linear about gaps (3, 4 c)."""
+        answer = stretched(self._bars, gaps_m, self._slips, self._flows)
+        self._tangents = answer.tangents_n_m
+        self._forces = answer.forces_n + turned(answer.tangents_n_m, self._gaps - gaps_m)
+
+    def _rates(self, velocities: np.ndarray) -> np.ndarray:
+        """How fast the gaps (3, 4 c) open."""
+        first, second = velocities[:, self._first], velocities[:, self._second]
+        moving = second[:3] + cross_products(second[3:], self._second_arms)
+        return moving - first[:3] - cross_products(first[3:], self._first_arms)
+
+
+def bar_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
+    """Return where the bars (3, 4, r) of cracks are.
+
+    Parameters
+    ----------
+    points_m : (3, r) float
+        Middles of the cracks.
+    axes : (3, 2, r) float
+        The principal axes of their faces, as columns.
+    sides_m : (2, r) float
+        Sides along these of the rectangles with the same second moments.
+    """
+    halves = 0.5 * CORNERS[:, :, None] * sides_m
+    return points_m[:, None] + axes[:, 0, None] * halves[:, 0] + axes[:, 1, None] * halves[:, 1]
+
+
+def _joined(before: np.ndarray, added: np.ndarray) -> np.ndarray:
+    """Numbers of bars (…, b), with those of more."""
+    shape = before.shape[:-1]
+    parts = (before.reshape(*shape, _COUNT, -1), added.reshape(*shape, _COUNT, -1))
+    return np.concatenate(parts, axis=-1).reshape(*shape, -1)
+
+
+def _summed(values: np.ndarray) -> np.ndarray:
+    """Sums (…, c) over the bars (…, 4 c) of each crack."""
+    corners = values.reshape(*values.shape[:-1], _COUNT, -1)
+    total = corners[..., 0, :]
+    for corner in range(1, _COUNT):
+        total = total + corners[..., corner, :]
+    return total
+
+
+def _motion_of_points(arms_m: np.ndarray) -> np.ndarray:
+    """Matrices (3, 6, b) that give the velocities of points at arms (3, b) from those of their bodies."""
+    x, y, z = arms_m
+    matrices = np.zeros((3, 6, len(x)))
+    matrices[[0, 1, 2], [0, 1, 2]] = 1.0
+    matrices[0, 4], matrices[0, 5] = z, -y
+    matrices[1, 3], matrices[1, 5] = -z, x
+    matrices[2, 3], matrices[2, 4] = y, -x
+    return matrices
