@@ -1,13 +1,15 @@
-"""Cracks that reinforcement holds together: what its bars do in a sub-step, in the equations of the structure.
+"""Cracks that reinforcement holds together: what they bear in a sub-step, in the equations of the structure.
 
-Of a connection that broke, four bars stay, which have the yield force, the middle and the second moments of bars that
-are spread evenly over its face: at Gauss's points of the rectangle with the same second moments. Bars push as they
-pull; where a crack is closed, contact bears the rest.
+A connection that broke leaves four places at the corners of the rectangle with the same second moments as its face. In
+each is a quarter of the bars, and there the sides of the crack press on each other where it is closed, as stiff as the
+connection was. So bars have the plastic moment of such that are spread evenly over the face: all of them yield, about
+the pressed edge.
 
-A sub-step is implicit, as of connections, but forces of bars are not linear: the equations are made for the forces at a
-guess, and anew for the opening that follows, until both agree (Newton).
+A sub-step is implicit, as of connections, but these forces are not linear: the equations are made for the forces at a
+guess, and anew for the opening that follows, until both agree (Newton). Each guess takes energy off, so that this ends:
+the energy is convex.
 
-All arrays have their components first. Bars are numbered corner by corner, in each of these all cracks.
+All arrays have their components first. Places are numbered corner by corner, in each of these all cracks.
 """
 
 from __future__ import annotations
@@ -17,10 +19,22 @@ import numpy as np
 from .joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
 from .steel_bars import Bars, Steel, stretched
 
-CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]) / np.sqrt(3.0)
-"""Where the bars are, as shares of half of the sides of the rectangle."""
+CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
+"""Places as shares of half of the sides of the rectangle."""
+
+DOWEL_SHARE = 1.3 * 4.0 / np.pi * np.sqrt(35.0 / 500.0)
+"""Force along a crack that bars bear as dowels, by that across it: 1.3 d² √(f_c f_y) by π/4 d² f_y, for C35/45 and B500
+(B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are on an
+ellipse, as normal and shear stress by von Mises' criterion.
+
+Bars do not pull as hard along an inclined crack as across it: otherwise cracks that zigzag, and are longer, would have
+more of them.
+"""
 
 _COUNT = len(CORNERS)
+
+_HALVINGS = 12
+"""How finely the way from one guess to the next is searched."""
 
 _AGREES = 1e-4
 """Part of its yield force by which the force of a bar may be off."""
@@ -39,6 +53,8 @@ class Cracks:
         Force at which all bars of a crack yield together.
     shares : (m,) float
         Part of the bars that is left, kept up to date by whoever gives it.
+    pressed_n_m : (m,) float
+        Stiffness of connections along their normals, with which the sides of a closed crack press on each other.
 
     Attributes
     ----------
@@ -46,11 +62,20 @@ class Cracks:
         Connections in whose place cracks are that hold, in the order in which they came.
     """
 
-    def __init__(self, steel: Steel, elongation_m: float, yield_n: np.ndarray, shares: np.ndarray):
+    def __init__(
+        self,
+        steel: Steel,
+        elongation_m: float,
+        yield_n: np.ndarray,
+        shares: np.ndarray,
+        pressed_n_m: np.ndarray,
+    ):
         self._steel, self._elongation_m, self._yield_n, self._shares = steel, elongation_m, yield_n, shares
+        self._pressed_n_m = pressed_n_m / _COUNT
         self.rows = np.zeros(0, int)
         self._first, self._second = np.zeros(0, int), np.zeros(0, int)
         self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
+        self._normals = np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
         self._solved_for = np.zeros((3, 3, 0))
 
@@ -63,6 +88,7 @@ class Cracks:
         first: np.ndarray,
         second: np.ndarray,
         places_m: np.ndarray,
+        normals: np.ndarray,
         positions_m: np.ndarray,
         rotations: np.ndarray,
     ) -> None:
@@ -74,6 +100,8 @@ class Cracks:
             The connections, and their bodies.
         places_m : (3, 4, r) float
             Where their bars cross the cracks, which are still closed.
+        normals : (3, r) float
+            From the first to the second bodies.
         positions_m, rotations : (3, n) and (3, 3, n) float
             Of all bodies.
         """
@@ -84,6 +112,8 @@ class Cracks:
         self._first, self._second = (_joined(*each) for each in zip((self._first, self._second), ends, strict=True))
         self._first_anchors = _joined(self._first_anchors, anchors[0])
         self._second_anchors = _joined(self._second_anchors, anchors[1])
+        normals = turned_back(rotations[..., ends[0]], np.tile(normals, _COUNT))
+        self._normals = _joined(self._normals, normals)
         self._slips, self._flows = _joined(self._slips, np.zeros((3, count))), _joined(self._flows, np.zeros(count))
         self._holds = _joined(self._holds, np.ones(count, bool))
         self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
@@ -98,7 +128,8 @@ class Cracks:
         """
         gaps = self._gaps(positions_m, rotations)
         self._holds = self._holds & (dot_products(gaps, gaps) <= self._elongation_m * self._elongation_m)
-        answer = stretched(self._bars(), self._in_first(gaps, rotations), self._slips, self._flows)
+        local = _as_bars(turned_back(rotations[..., self._first], gaps), self._normals)
+        answer = stretched(self._bars(), local, self._slips, self._flows)
         self._slips = np.where(self._holds, answer.slips_m, self._slips)
         self._flows = np.where(self._holds, answer.flows_m, self._flows)
         holds = self._holds.reshape(_COUNT, -1).any(axis=0) & (self._shares[self.rows] > 0.0)
@@ -108,14 +139,15 @@ class Cracks:
         return gone
 
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Return the energy (t,) that bars would give back."""
+        """Return the energy (t,) that bars and pressed sides would give back."""
         bars = self._bars()
-        gaps = self._in_first(self._gaps(positions_m, rotations), rotations)
-        forces = stretched(bars, gaps, self._slips, self._flows).forces_n
+        gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
+        forces = stretched(bars, _as_bars(gaps, self._normals), self._slips, self._flows).forces_n
         doubled = np.divide(
             dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=self._holds
         )
-        return 0.5 * _summed(doubled)
+        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
+        return 0.5 * _summed(doubled + self._stiffness_pressed() * closing * closing)
 
     def in_substep(
         self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
@@ -136,6 +168,8 @@ class Cracks:
             self._bars().times(self._holds)[which],
             turned(rotations[..., first], self._slips[:, which]),
             self._flows[which],
+            turned(rotations[..., first], self._normals[:, which]),
+            self._stiffness_pressed()[which],
             substep_s,
             self._solved_for,
             which,
@@ -153,15 +187,23 @@ class Cracks:
         )
         return second - first
 
-    def _in_first(self, gaps: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Gaps (3, b) in the axes of the first bodies."""
-        return turned_back(rotations[..., self._first], gaps)
+    def _stiffness_pressed(self) -> np.ndarray:
+        return np.tile(self._pressed_n_m[self.rows], _COUNT)
 
     def _keep(self, chosen: np.ndarray) -> None:
         """Forget all cracks but those chosen (t,)."""
         bars = np.tile(chosen, _COUNT)
         self.rows = self.rows[chosen]
-        for name in ("_first", "_second", "_first_anchors", "_second_anchors", "_slips", "_flows", "_holds"):
+        for name in (
+            "_first",
+            "_second",
+            "_first_anchors",
+            "_second_anchors",
+            "_normals",
+            "_slips",
+            "_flows",
+            "_holds",
+        ):
             setattr(self, name, getattr(self, name)[..., bars])
         self._solved_for = self._solved_for[..., bars]
 
@@ -179,6 +221,8 @@ class CrackStep:
         From the centres of these to the middle of its crack, and how far that is open.
     bars, slips_m, flows_m : Bars, (3, 4 c), (4 c,) float
         The bars, and how far they have yielded, in the axes of the world.
+    normals, pressed_n_m : (3, 4 c), (4 c,) float
+        Normals of the cracks, and how stiff places are that are pressed.
     substep_s : float
     solved_for : (3, 3, b) float
         Tangents of all bars for which equations were made last.
@@ -202,6 +246,8 @@ class CrackStep:
         bars: Bars,
         slips_m: np.ndarray,
         flows_m: np.ndarray,
+        normals: np.ndarray,
+        pressed_n_m: np.ndarray,
         substep_s: float,
         solved_for: np.ndarray,
         which: np.ndarray,
@@ -210,8 +256,10 @@ class CrackStep:
         self._first, self._second = first, second
         self._first_arms, self._second_arms, self._gaps = first_arms_m, second_arms_m, gaps_m
         self._bars, self._slips, self._flows, self._substep_s = bars, slips_m, flows_m, substep_s
+        self._normals, self._pressed_n_m = normals, pressed_n_m
         self._solved_for, self._which = solved_for, which
-        self._begin_at(gaps_m)
+        self._guess: tuple[np.ndarray, np.ndarray] | None = None
+        self._begin_at(np.zeros_like(gaps_m))
 
     def changed(self) -> np.ndarray:
         """Which cracks (c,) have other tangents than their equations."""
@@ -241,14 +289,45 @@ class CrackStep:
         return _summed(first), _summed(second)
 
     def agrees(self, velocities: np.ndarray) -> bool:
-        """Whether the forces are those of the opening that follows from velocities (6, n); if not, begin there."""
+        """Whether the forces are those of the opening that follows from velocities (6, n); if not, guess anew."""
         opening = self._substep_s * self._rates(velocities)
-        answer = stretched(self._bars, self._gaps + opening, self._slips, self._flows)
-        off = answer.forces_n - self._forces - turned(self._tangents, opening)
-        if (abs(off) <= _AGREES * self._bars.yield_n).all():
+        balance = self._forces + turned(self._tangents, opening)
+        if (abs(self._out_of_balance(opening, balance)) <= _AGREES * self._bars.yield_n).all():
             return True
-        self._begin_at(self._gaps + opening)
+        if self._guess is not None:
+            opening, balance = self._least(*self._guess, opening, balance)
+        self._guess = opening, balance
+        self._begin_at(opening)
         return False
+
+    def _out_of_balance(self, opening: np.ndarray, balance: np.ndarray) -> np.ndarray:
+        """What cracks would bear more (3, 4 c), opened so far, than is in balance with all else then."""
+        return self._borne(opening)[0] - balance
+
+    def _borne(self, opening: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Forces (3, 4 c) of cracks that have opened further, and how they change with that (3, 3, 4 c)."""
+        gaps = self._gaps + opening
+        answer = stretched(self._bars, _as_bars(gaps, self._normals), self._slips, self._flows)
+        across = self._normals[:, None] * self._normals
+        bearing = DOWEL_SHARE * np.eye(3)[:, :, None] + (1.0 - DOWEL_SHARE) * across
+        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
+        pressed = np.where(closing < 0.0, self._pressed_n_m, 0.0)
+        tangents = matrix_products(bearing, matrix_products(answer.tangents_n_m, bearing))
+        return turned(bearing, answer.forces_n) + pressed * closing * self._normals, tangents + pressed * across
+
+    def _least(
+        self, opening: np.ndarray, balance: np.ndarray, coming: np.ndarray, coming_balance: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Go from one guess towards the next as long as that takes energy off; what balances changes evenly."""
+        step, change = coming - opening, coming_balance - balance
+        low, high = 0.0, 1.0
+        if float((self._out_of_balance(coming, coming_balance) * step).sum()) <= 0.0:
+            return coming, coming_balance
+        for _ in range(_HALVINGS):
+            share = 0.5 * (low + high)
+            rises = float((self._out_of_balance(opening + share * step, balance + share * change) * step).sum()) > 0.0
+            low, high = (low, share) if rises else (share, high)
+        return opening + high * step, balance + high * change
 
     def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
@@ -256,11 +335,10 @@ class CrackStep:
         bodies = np.concatenate((self._first[:cracks], self._second[:cracks]))
         return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
 
-    def _begin_at(self, gaps_m: np.ndarray) -> None:
-        """Take forces for linear about gaps (3, 4 c)."""
-        answer = stretched(self._bars, gaps_m, self._slips, self._flows)
-        self._tangents = answer.tangents_n_m
-        self._forces = answer.forces_n + turned(answer.tangents_n_m, self._gaps - gaps_m)
+    def _begin_at(self, opening: np.ndarray) -> None:
+        """Take forces for linear about cracks that have opened further (3, 4 c)."""
+        forces, self._tangents = self._borne(opening)
+        self._forces = forces - turned(self._tangents, opening)
 
     def _rates(self, velocities: np.ndarray) -> np.ndarray:
         """How fast the gaps (3, 4 c) open."""
@@ -269,8 +347,8 @@ class CrackStep:
         return moving - first[:3] - cross_products(first[3:], self._first_arms)
 
 
-def bar_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
-    """Return where the bars (3, 4, r) of cracks are.
+def corner_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
+    """Return the corners (3, 4, r) of cracks.
 
     Parameters
     ----------
@@ -283,6 +361,11 @@ def bar_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -> n
     """
     halves = 0.5 * CORNERS[:, :, None] * sides_m
     return points_m[:, None] + axes[:, 0, None] * halves[:, 0] + axes[:, 1, None] * halves[:, 1]
+
+
+def _as_bars(gaps_m: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """How far bars are stretched (3, b) by gaps (3, b) of cracks with normals (3, b): along these less, as dowels."""
+    return DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * dot_products(gaps_m, normals) * normals
 
 
 def _joined(before: np.ndarray, added: np.ndarray) -> np.ndarray:

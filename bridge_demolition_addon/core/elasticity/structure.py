@@ -22,7 +22,7 @@ from .cracks import Cracks, CrackStep
 from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places, matrix_products, transposed
 from .sparse_system import BlockSystem
 
-_MOST_GUESSES = 12
+_MOST_GUESSES = 40
 """How often the equations are solved for bars that yield; what is not found by then goes into the next sub-step."""
 
 TURNED_RAD = 1e-4

@@ -12,16 +12,9 @@ from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import check_frames
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
-from ...core.elasticity.cracks import Cracks, bar_places
+from ...core.elasticity.cracks import Cracks, corner_places
 from ...core.elasticity.equilibrium import Equilibrium, equilibrium
-from ...core.elasticity.joint_rows import (
-    JointFrames,
-    JointRows,
-    cross_products,
-    joint_places,
-    matrix_products,
-    transposed,
-)
+from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
 from ...core.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...core.elasticity.steel_bars import Steel
 from ...core.elasticity.structure import BodyStates, ElasticStructure
@@ -101,15 +94,17 @@ class ElasticConnections:
         self._stiffness = in_frames(
             stiffness, matrix_products(transposed(places.first_axes), sections), self._rows.held
         )
+        self._axial_n_m = stiffness.axial_n_m
         self._masses = inventory.masses_kg
         self._inertias = _inertias(self._reader.inverse_inertias(), motion.rotations, self._masses)
         self._shortest_s = scene_time_step(scene).substep_s
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
         self._rest = self._settle(motion)
         self._structure: ElasticStructure | None = None
+        self._is_first = is_first
         self._inventory, self._cracks = inventory, None
         self._built = motion
-        self._substep_s, self._pressed = 0.0, 0.0
+        self._substep_s = 0.0
         self._loads = np.zeros((2, 6, len(self._frames)))
         world.hold_connections()
 
@@ -126,10 +121,10 @@ class ElasticConnections:
             Part of its strength that each connection has left, kept up to date by whoever gives it.
         """
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
-        self._bar_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
-        self._bar_directions = np.moveaxis(sections.directions, 0, 2)
+        self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
+        self._face_directions = np.moveaxis(sections.directions, 0, 2)
         yield_n = ductility.strength_share * tension_pa * self._inventory.areas_m2
-        self._cracks = Cracks(steel, ductility.elongation_m, yield_n, left)
+        self._cracks = Cracks(steel, ductility.elongation_m, yield_n, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke just now.
@@ -143,41 +138,11 @@ class ElasticConnections:
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()
-        across = matrix_products(np.moveaxis(axes, 0, 2)[:, 1:], self._bar_directions[..., rows])
-        places = bar_places(points_m.T, across, self._bar_sides_m[:, rows])
+        across = matrix_products(np.moveaxis(axes, 0, 2)[:, 1:], self._face_directions[..., rows])
+        places = corner_places(points_m.T, across, self._face_sides_m[:, rows])
+        outwards = np.where(self._is_first[rows], 1.0, -1.0) * axes[:, :, 0].T
         first, second = self._frames.first[rows], self._frames.second[rows]
-        self._cracks.add(rows, first, second, places, motion.positions_m, motion.rotations)
-
-    @property
-    def has_cracks(self) -> bool:
-        """Whether reinforcement holds anywhere in place of connections."""
-        return self._cracks is not None and len(self._cracks) > 0
-
-    def press(self, pairs: np.ndarray, impulses_ns: np.ndarray, points_m: np.ndarray) -> None:
-        """Take note of how the sides of cracks were pressed together in the last sub-step.
-
-        Bullet finds out what they are pressed by in the coming one when bars have pulled already: to these it is as
-        before.
-
-        Parameters
-        ----------
-        pairs : (k, 2) int
-            Bodies in contact.
-        impulses_ns, points_m : (k, 3) float
-            Impulse on the first of them, and where it acts.
-        """
-        count = len(self._masses)
-        rows = self._cracks.rows
-        of_cracks = _pair_numbers(self._frames.first[rows], self._frames.second[rows], count)
-        chosen = np.isin(_pair_numbers(*pairs.T, count), of_cracks)
-        first, second = pairs[chosen].T
-        impulses, points = impulses_ns[chosen].T, points_m[chosen].T
-        centres = self._reader.read().positions_m
-        pressed = np.zeros((6, count))
-        for bodies, pushes in ((first, impulses), (second, -impulses)):
-            turning = cross_products(points - centres[:, bodies], pushes)
-            pressed += [np.bincount(bodies, each, count) for each in (*pushes, *turning)]
-        self._pressed = pressed / self._substep_s
+        self._cracks.add(rows, first, second, places, outwards, motion.positions_m, motion.rotations)
 
     @property
     def elasticity(self) -> Elasticity:
@@ -199,8 +164,7 @@ class ElasticConnections:
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
         velocities = power(self._left_per_second, substep_s) * motion.velocities
-        velocities += substep_s * self._accelerations(motion, motion.loads + self._pressed)
-        self._pressed = 0.0
+        velocities += substep_s * self._accelerations(motion, motion.loads)
         self._structure.settle_cracks(motion.positions_m, motion.rotations)
         self._states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
 
@@ -214,7 +178,7 @@ class ElasticConnections:
         """
         intact = self._world.intact()
         self._coming = step = self._structure.step(self._states, intact, self._substep_s)
-        self._loads[:, :, ~self._holding(intact)] = 0.0
+        self._loads[:, :, ~self.holding(intact)] = 0.0
         for loads, of_connections, of_cracks in (
             (self._loads[0], step.of_first, step.of_cracks_on_first),
             (self._loads[1], step.of_second, step.of_cracks_on_second),
@@ -234,15 +198,15 @@ class ElasticConnections:
     def stored_j(self, intact: np.ndarray) -> np.ndarray:
         """Return the energy that is now in connections (m,) that are intact, or in what holds in their place."""
         motion = self._reader.read()
-        return self._structure.stored_j(motion.positions_m, motion.rotations) * self._holding(intact)
+        return self._structure.stored_j(motion.positions_m, motion.rotations) * self.holding(intact)
 
     def loads_on(self, sides: np.ndarray) -> np.ndarray:
         """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
         return np.where(sides == 0, self._loads[0], self._loads[1])
 
-    def _holding(self, intact: np.ndarray) -> np.ndarray:
-        """Which connections (m,) hold, by themselves or by reinforcement."""
-        if not self.has_cracks:
+    def holding(self, intact: np.ndarray) -> np.ndarray:
+        """Return which connections (m,) hold, those that are intact and those in whose place reinforcement does."""
+        if self._cracks is None:
             return intact
         holding = intact.copy()
         holding[self._cracks.rows] = True
@@ -310,11 +274,6 @@ class ElasticConnections:
         ):
             points = motion.positions_m[:, bodies] + levers
             check_frames(axes, points, matrices[:, :3, 3].T, np.moveaxis(turned.reshape(-1, 3, 3), 0, 2), names)
-
-
-def _pair_numbers(first: np.ndarray, second: np.ndarray, count: int) -> np.ndarray:
-    """One number (k,) for each pair of n bodies, in whichever order."""
-    return np.minimum(first, second) * count + np.maximum(first, second)
 
 
 def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:

@@ -237,7 +237,7 @@ class SubstepRecorder:
             self._foreseen.append(Breaks(self.elapsed_s, rows, self._reader.section_forces(moment, rows)))
             self._let_go(rows, moment)
             self._intact[rows] = False
-            self._world.let_broken_collide(self._intact)
+            self._let_collide(self._intact)
         return rows
 
     def _let_go(self, rows: np.ndarray, loads: Moment) -> None:
@@ -317,11 +317,10 @@ class SubstepRecorder:
         intact[self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, _NONE))] = False
         broken = np.flatnonzero(self._intact & ~intact)
         self._intact = intact
-        self._press_cracks(snapshot, substep_s)
         stored_j = self._elastic.stored_j(intact) if self._elastic else None
         foreseen, self._foreseen = self._foreseen, []
         self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken, stored_j, foreseen))
-        self._world.let_broken_collide(intact)
+        self._let_collide(intact)
 
     def _follow(self, substep_s: float) -> None:
         """Break what is overloaded in a sub-step of which no loads are kept, and let go of what is broken."""
@@ -329,16 +328,12 @@ class SubstepRecorder:
         snapshot = self._snapshot(substep_s) if self._breaking.strength or self._elastic else None
         self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, self._tie_forces(), _NONE))
         self._foreseen = []
-        self._press_cracks(snapshot, substep_s)
         self._intact = self._world.intact()
-        self._world.let_broken_collide(self._intact)
+        self._let_collide(self._intact)
 
-    def _press_cracks(self, snapshot: Snapshot | None, substep_s: float) -> None:
-        """Tell elastic connections what contacts pressed together in a sub-step."""
-        if self._elastic and self._elastic.has_cracks:
-            substep = _Substep(snapshot, substep_s, self.elapsed_s, None, _NONE)
-            loads = self._loads([substep])[1]
-            self._elastic.press(loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m)
+    def _let_collide(self, intact: np.ndarray) -> None:
+        """Let bodies collide that no connection (m,) holds together, nor reinforcement in place of one."""
+        self._world.let_broken_collide(self._elastic.holding(intact) if self._elastic else intact)
 
     def _tie_forces(self) -> np.ndarray | None:
         return self._reinforcement.forces_n.copy() if self._reinforcement else None
