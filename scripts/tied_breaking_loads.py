@@ -2,11 +2,11 @@
 """Measure at which load a reinforced slab with elastic connections comes down, by its shards, for docs/elastic.md.
 
 A slab of concrete, 5.1 m long, 1.5 m wide and 0.3 m deep, lies on two bearings that let it turn, one of which lets it
-slide. Its reinforcement is spread evenly over the section, and yields under as much as the concrete bears in tension. Its
-weight grows until it comes down. The load is over that at which plastic theory has a hinge in the middle:
+slide. Its reinforcement is spread evenly over the section, and yields under as much as the concrete bears in tension.
+Its weight grows until it comes down. The load is over that at which plastic theory has a hinge in the middle:
 w L² / 8 = A_s f_y h / 2, with all bars yielding about the pressed edge. Each slab has a process of its own.
-Usage: tied_breaking_loads.py [SEEDS] writes docs/data/tied_breaking_loads.csv; tied_breaking_loads.py SHARDS SEED prints
-one.
+Usage: tied_breaking_loads.py [SEEDS] writes docs/data/tied_breaking_loads.csv; tied_breaking_loads.py SHARDS SEED
+prints one.
 """
 
 from __future__ import annotations
