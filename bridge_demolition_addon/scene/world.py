@@ -95,6 +95,13 @@ def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
     return TimeStep(scene.render.fps, scene.render.fps_base, world.substeps_per_frame, world.time_scale)
 
 
+def start_over(scene: bpy.types.Scene) -> None:
+    """Go to the start frame, and have frames that were played before simulated again instead of played back."""
+    world = scene.rigidbody_world
+    world.substeps_per_frame = world.substeps_per_frame  # Blender takes any setting for a change
+    scene.frame_set(world.point_cache.frame_start)
+
+
 def keep_played_frames(scene: bpy.types.Scene) -> None:
     """Turn the frames played so far into a bake, which is saved with the file and played back as it was.
 

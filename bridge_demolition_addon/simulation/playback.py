@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import time
 
-import bpy
-
 from ..core.errors import SimulationError
 from ..core.sequence.rest import Rest
+from ..scene.world import start_over
 from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording
 
@@ -120,10 +119,3 @@ def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
         playing.end()
     if recording.error:
         raise recording.error
-
-
-def start_over(scene: bpy.types.Scene) -> None:
-    """Go to the start frame, and have frames that were played before simulated again instead of played back."""
-    world = scene.rigidbody_world
-    world.substeps_per_frame = world.substeps_per_frame  # Blender takes any setting for a change
-    scene.frame_set(world.point_cache.frame_start)

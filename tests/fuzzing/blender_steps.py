@@ -23,7 +23,7 @@ from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
-from bridge_demolition_addon.scene.world import keep_played_frames
+from bridge_demolition_addon.scene.world import keep_played_frames, start_over
 
 from .sequences import Player, WrongError
 
@@ -209,7 +209,7 @@ class BlenderPlayer(Player):
         elif button == "build_force_objects" and scene.rigidbody_world:
             build_force_objects(scene, bodies_of(scene))
         elif button in ("register_handler", "run") and scene.rigidbody_world:
-            scene.frame_set(scene.frame_start)
+            start_over(scene)
             if button == "run":
                 _play(scene, min(scene.frame_end, scene.frame_start + LONGEST_FRAMES) - scene.frame_start)
         return f"without {button}"

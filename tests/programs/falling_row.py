@@ -11,10 +11,10 @@ from pathlib import Path
 import bpy
 from blocks import Blocks
 
+from bridge_demolition_addon.scene.world import start_over
 from bridge_demolition_addon.simulation import blender_events
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.crash_guards import safe_undo
-from bridge_demolition_addon.simulation.playback import start_over
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
 

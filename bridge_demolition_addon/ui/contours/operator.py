@@ -9,9 +9,9 @@ from ...core.results.arrays import load_results, results_in
 from ...core.results.files import FRAMES_FILE
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
+from ...scene.world import start_over
 from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
-from ...simulation.playback import start_over
 from ..operators import Action, Refusing, absolute, recording_runs, refused
 from . import view as contour_view
 

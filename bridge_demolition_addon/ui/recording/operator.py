@@ -16,9 +16,9 @@ from ...core.sequence.rest import Rest
 from ...core.sequence.undisturbed import told_fall
 from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
+from ...scene.world import start_over
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
 from ...simulation.kept_run import keep_run
-from ...simulation.playback import start_over
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
