@@ -131,13 +131,13 @@ class BlenderPlayer(Player):
         return self._press(random.choices(list(BUTTONS), list(BUTTONS.values()))[0], random)
 
     def _press(self, button: str, random: Random) -> str:
+        if not self.is_on:
+            return "off"
         if self.bare:
             bpy.context.view_layer.update()  # as Blender does before and after an operator that a script calls
             done = self._do_without(button)
             bpy.context.view_layer.update()
             return done
-        if not self.is_on:
-            return "off"
         if button in ("run", "render_contours"):
             scene = bpy.context.scene
             scene.frame_end = min(scene.frame_end, scene.frame_start + LONGEST_FRAMES)
@@ -216,7 +216,7 @@ class BlenderPlayer(Player):
 
     def use_standard_settings(self, random: Random) -> str:
         self.scenario = random.choice(self.scenarios)
-        if not self.is_on:
+        if self.bare or not self.is_on:
             return "off"
         settings, path = bpy.context.scene.bda, str(self.scenario)
         settings.scenario_path = path
@@ -229,7 +229,7 @@ class BlenderPlayer(Player):
         return path
 
     def change_a_setting(self, random: Random) -> str:
-        if not self.is_on:
+        if self.bare or not self.is_on:
             return "off"
         group = bpy.context.scene.bda
         while True:
@@ -254,9 +254,10 @@ class BlenderPlayer(Player):
         return "on" if on else "off"
 
     def _switch(self, *, on: bool) -> None:
-        if on != self.is_on and not self.bare:
-            (bridge_demolition_addon.register if on else bridge_demolition_addon.unregister)()
+        if on != self.is_on:
             self.is_on = on
+            if not self.bare:
+                (bridge_demolition_addon.register if on else bridge_demolition_addon.unregister)()
 
     # Time
 
