@@ -217,6 +217,8 @@ def _outcome(process: subprocess.Popen[str], news: queue.Queue[str], drawn: Draw
     except queue.Empty:
         return Outcome(Ending.HANG, tuple(done), _last_words(printed))
     process.wait(HANG_S)
+    if process.returncode > 0 and not done:
+        raise RuntimeError(f"the process that plays ended with status {process.returncode} before it did a step")
     ending = Ending.HANG if process.returncode == -signal.SIGPROF else Ending.CRASH
     return Outcome(ending, tuple(done), f"status {process.returncode}\n{_last_words(printed)}")
 

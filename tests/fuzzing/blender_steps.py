@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Steps in Blender: the add-on's buttons and settings, mixed with Blender's own edits, undo, files and scenes.
 
-In bare Blender, without the add-on, a demolition is built as mere data, and what would be recorded is just played.
+In bare Blender, without the add-on, a demolition is built as mere data, what would be recorded is just played, and
+mere settings are registered as the add-on is switched on, so that memory that Blender has freed is used again.
 """
 
 from __future__ import annotations
@@ -67,6 +68,16 @@ BUTTONS = {
 TEXTS = ("", "deck", "pier*", "[1, 2, 3]", "50% of $1 {x} \\ Ü", "not = [toml", "results", "//results", "no/x.toml")
 LARGEST = 40
 """Of numbers, so that nothing takes minutes: shards, seconds, frames, pixels."""
+
+SETTINGS = [
+    type(
+        f"Settings{number}",
+        (bpy.types.PropertyGroup,),
+        {"__annotations__": dict.fromkeys("abcde", bpy.props.FloatProperty())},
+    )
+    for number in range(130)
+]
+"""As many classes as the add-on has, which do nothing."""
 
 MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT", "TEXTURE_PAINT", "POSE")
 
@@ -254,10 +265,13 @@ class BlenderPlayer(Player):
         return "on" if on else "off"
 
     def _switch(self, *, on: bool) -> None:
-        if on != self.is_on:
-            self.is_on = on
-            if not self.bare:
-                (bridge_demolition_addon.register if on else bridge_demolition_addon.unregister)()
+        if on == self.is_on:
+            return
+        self.is_on = on
+        if self.bare:
+            _switch_settings(on=on)
+        else:
+            (bridge_demolition_addon.register if on else bridge_demolition_addon.unregister)()
 
     # Time
 
@@ -529,6 +543,11 @@ def _short(path: Path, folder: Path) -> Path:
     short = folder / path.name
     short.write_text(scenario_text(scenario), encoding="utf-8")
     return short
+
+
+def _switch_settings(*, on: bool) -> None:
+    for each in SETTINGS:
+        (bpy.utils.register_class if on else bpy.utils.unregister_class)(each)
 
 
 def _play(scene: bpy.types.Scene, count: int) -> None:
