@@ -46,10 +46,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         "study", metavar="STUDY.toml", help="study file, see docs/studies.md; with --again, the folder of a study"
     )
     parser.add_argument("--output", metavar="DIR", type=Path, help="folder of the study, made if new")
-    parser.add_argument("--jobs", metavar="N", type=_jobs, help="draws at a time (as many as this machine has cores)")
-    parser.add_argument(
-        "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
-    )
+    add_engine_options(parser)
     parser.add_argument("--report", action="store_true", help="make the report of the study at its end, in DIR/report")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--check", action="store_true", help="print some draws and how long it takes, and run nothing")
@@ -62,6 +59,14 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help="say how likely debris leaves this zone of the scenario, from the runs of the study in a folder",
     )
     parser.set_defaults(execute=execute)
+
+
+def add_engine_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where draws run."""
+    parser.add_argument("--jobs", metavar="N", type=_jobs, help="draws at a time (as many as this machine has cores)")
+    parser.add_argument(
+        "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
+    )
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -86,7 +91,7 @@ def _run(study: Study, arguments: argparse.Namespace) -> None:
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     with (
         signals_noted() as signals,
-        closing(_engine(study, arguments)) as engine,
+        closing(engine_of(study, arguments)) as engine,
         StudyFolder(arguments.output, study, engine.versions) as folder,
     ):
         run = StudyRun(study, folder, engine)
@@ -113,7 +118,8 @@ def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
         progress.finish()
 
 
-def _engine(study: Study, arguments: argparse.Namespace) -> Engine:
+def engine_of(study: Study, arguments: argparse.Namespace) -> Engine:
+    """Return what runs the draws of a study, by the options of the command line."""
     limits = Limits.of(study.settings)
     if arguments.dask is None:
         return LocalProcesses(arguments.jobs or cores(), limits)

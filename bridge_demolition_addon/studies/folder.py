@@ -19,6 +19,7 @@ from ..core.errors import OutputError, ScenarioError, UnreadableError, writing
 from ..core.folder_lock import LOCK_FILE, FolderLock, check_unlocked
 from ..core.reading import MEGABYTE, file_text
 from ..core.results.files import SCENARIO_FILE
+from ..core.search.file import Search
 from ..core.study.file import Study, read_study
 from ..core.study.files import DRAW_FOLDER, OUTCOME_FILE, STUDY_FILE, VERSIONS_FILE
 from ..core.study.runs_table import KILLED, OUT_OF_MEMORY, STATUSES
@@ -39,7 +40,7 @@ class StudyFolder:
     path
         Where it is or is to be.
     study
-        What is asked.
+        What is asked: a study or a search.
     versions
         What its draws are run with.
 
@@ -50,7 +51,7 @@ class StudyFolder:
         is at work in it. Nothing in it is changed then.
     """
 
-    def __init__(self, path: Path, study: Study, versions: Mapping[str, str]):
+    def __init__(self, path: Path, study: Study | Search, versions: Mapping[str, str]):
         self.path = path
         check_study_folder(path, study, versions)
         with writing(path):
@@ -59,10 +60,12 @@ class StudyFolder:
         try:
             with writing(path):
                 self._clear_parts()
-                if not (path / STUDY_FILE).exists():
+                if not (path / study.file_name).exists():
                     write_whole_text(path / VERSIONS_FILE, json.dumps(dict(versions), indent=2) + "\n")
                     write_whole_text(path / SCENARIO_FILE, study.scenario_text)
-                    write_whole_text(path / STUDY_FILE, study.text)  # last: it says that the folder is one of a study
+                    write_whole_text(
+                        path / study.file_name, study.text
+                    )  # last: it says that the folder is one of a study
         except BaseException:
             self._lock.release()
             raise
@@ -136,8 +139,8 @@ def end_in(draw: Path) -> End | None:
         return None
 
 
-def check_study_folder(path: Path, study: Study, versions: Mapping[str, str]) -> None:
-    """See that a folder is new, or of that very study, without changing anything.
+def check_study_folder(path: Path, study: Study | Search, versions: Mapping[str, str]) -> None:
+    """See that a folder is new, or of that very study or search, without changing anything.
 
     Raises
     ------
@@ -150,11 +153,11 @@ def check_study_folder(path: Path, study: Study, versions: Mapping[str, str]) ->
         if not path.exists():
             return
         check_unlocked(path)
-        if not (path / STUDY_FILE).exists():
+        if not (path / study.file_name).exists():
             _check_empty(path)
             return
-    if _text(path / STUDY_FILE) != study.text or _text(path / SCENARIO_FILE) != study.scenario_text:
-        name = SCENARIO_FILE if _text(path / STUDY_FILE) == study.text else STUDY_FILE
+    if _text(path / study.file_name) != study.text or _text(path / SCENARIO_FILE) != study.scenario_text:
+        name = SCENARIO_FILE if _text(path / study.file_name) == study.text else study.file_name
         raise OutputError(
             f"{path}: was begun with another study or scenario, see {name} there: go on with the same, or choose "
             "another folder"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
@@ -16,6 +17,7 @@ from ..schema import shown
 from ..toml_tables import table_of_document, tables_text, toml_document
 from .criteria import Criterion, check_criteria
 from .distributions import Distribution
+from .files import STUDY_FILE
 from .keys import ScenarioKey, changed, keys_named
 from .settings import StudySettings, Vary
 from .statements import check_runs
@@ -74,6 +76,11 @@ class Study:
         return self.settings.criteria
 
     @property
+    def file_name(self) -> str:
+        """Return what the file is called in the folder of the study."""
+        return STUDY_FILE
+
+    @property
     def text(self) -> str:
         """Return the study file in one way of writing, for a folder that has the scenario in ``scenario.toml``."""
         return tables_text(replace(self.settings, scenario=SCENARIO_FILE))
@@ -118,8 +125,19 @@ def study_of(settings: StudySettings, scenario: Scenario) -> Study:
     """
     check_runs(settings.runs, settings.quantile, settings.confidence, settings.rank)
     check_criteria(settings.criteria, scenario)
+    return Study(settings, scenario, variations_of(settings.vary, scenario))
+
+
+def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation, ...]:
+    """Return what varies in a scenario, for each key of all tables.
+
+    Raises
+    ------
+    ScenarioError
+        The scenario lacks it, or a draw could not be run.
+    """
     variations: dict[str, Variation] = {}
-    for number, vary in enumerate(settings.vary, start=1):
+    for number, vary in enumerate(tables, start=1):
         try:
             found = _variations(scenario, vary)
             _check_not_twice(found, variations)
@@ -127,7 +145,7 @@ def study_of(settings: StudySettings, scenario: Scenario) -> Study:
         except ScenarioError as error:
             raise ScenarioError(f"[[{Vary.table}]] number {number}: {error}") from error
         variations |= {each.key.name: each for each in found}
-    return Study(settings, scenario, tuple(variations.values()))
+    return tuple(variations.values())
 
 
 def _file_text(path: Path) -> str:

@@ -1,0 +1,133 @@
+"""Where to try next: B. T. Neyer's D-optimal test of sensitivity, with several trials at once.
+
+B. T. Neyer (1994), A D-optimality-based sensitivity test, Technometrics 36, 61-70. Until both kinds of outcome are
+there, the range is searched and left if need be; then it is halved down to the guess of the spread, which shrinks until
+trials overlap; from then on each trial is where it adds most to the determinant of Fisher's information on the median
+and the spread.
+
+Trials whose outcome is not there yet count as information: how much a trial gives does not depend on its outcome. So
+several at once are a greedy D-optimal batch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+
+import numpy as np
+from scipy.special import log_ndtr
+
+from .probit import Normal, Trials, fitted
+
+SHRINKS = 0.8
+"""By how much the guess of the spread shrinks with each trial without overlap."""
+
+_ROUNDING = 1e-9
+_FARTHEST = 5.0
+_PLACES = 2001
+
+
+class NeyerTest:
+    """The levels of a test, one after another.
+
+    Parameters
+    ----------
+    lowest, highest : float
+        Range in which the median is expected; higher levels succeed more often.
+    spread : float
+        Guess of the spread.
+    rounded : callable, optional
+        What makes a level that can be tried of one that was chosen.
+    pending : int
+        How many trials are under way while the next is chosen.
+    """
+
+    def __init__(
+        self,
+        lowest: float,
+        highest: float,
+        spread: float,
+        rounded: Callable[[float], float] = float,
+        pending: int = 0,
+    ):
+        self.lowest, self.highest, self.spread = lowest, highest, spread
+        self.rounded, self.pending = rounded, pending
+
+    def levels(self, outcomes: Sequence[bool], count: int) -> np.ndarray:
+        """Return the levels (count,) of the first trials, of which the outcomes of the first n are known.
+
+        Each was chosen when the outcomes of all trials but the last `pending` before it were known, so that count is at
+        most n + pending + 1.
+        """
+        return np.array(list(islice(self.played(outcomes.__getitem__), count)))
+
+    def played(self, outcome: Callable[[int], bool]) -> Iterator[float]:
+        """Give one level after another, and ask for the outcome of a trial, from 0 on, as soon as that decides one."""
+        levels: list[float] = []
+        outcomes: list[bool] = []
+        guess = self.spread
+        while True:
+            if len(levels) > self.pending:
+                outcomes.append(bool(outcome(len(outcomes))))
+            known = len(outcomes)
+            trials = Trials(np.array(levels[:known]), np.array(outcomes, bool))
+            level, guess = self._next(trials, np.array(levels[known:]), guess)
+            levels.append(self.rounded(level))
+            yield levels[-1]
+
+    def _next(self, trials: Trials, under_way: np.ndarray, guess: float) -> tuple[float, float]:
+        """The next level, and the guess of the spread after it."""
+        if trials.overlap:
+            found = fitted(trials)
+            low, high = trials.levels.min(), trials.levels.max()
+            normal = Normal(float(np.clip(found.median, low, high)), min(found.spread, high - low))
+            return most_informative(np.concatenate((trials.levels, under_way)), normal), guess
+        place, width = self._search(trials, guess)
+        halves = place is not None
+        if halves and not len(under_way):
+            return place, guess
+        if halves:
+            return most_informative(under_way, Normal(place, width)), guess
+        low, high = trials.levels.min(), trials.levels.max()
+        middle = float(np.clip((trials.lowest_success + trials.highest_failure) / 2.0, low, high))
+        normal = Normal(middle, min(guess, high - low))
+        return most_informative(np.concatenate((trials.levels, under_way)), normal), SHRINKS * guess
+
+    def _search(self, trials: Trials, guess: float) -> tuple[float | None, float]:
+        """Where to look for both kinds of outcome, and how far that may be off; None once they are a guess apart."""
+        if not len(trials):
+            return (self.lowest + self.highest) / 2.0, (self.highest - self.lowest) / 4.0
+        low, high = float(trials.levels.min()), float(trials.levels.max())
+        if not trials.successes.any():
+            place = max((self.highest + high) / 2.0, high + 2.0 * guess, 2.0 * high - low)
+            return place, max(guess, (place - high) / 2.0)
+        if trials.successes.all():
+            place = min((self.lowest + low) / 2.0, low - 2.0 * guess, 2.0 * low - high)
+            return place, max(guess, (low - place) / 2.0)
+        apart = trials.lowest_success - trials.highest_failure
+        if apart > guess * (1.0 + _ROUNDING):
+            return (trials.lowest_success + trials.highest_failure) / 2.0, apart / 4.0
+        return None, guess
+
+
+def most_informative(levels: np.ndarray, normal: Normal) -> float:
+    """Level that adds most to the determinant of the information that levels (n,) give on a distribution."""
+    scores = (levels - normal.median) / normal.spread
+    weights = information(scores)
+    b11, b12, b22 = weights.sum(), (weights * scores).sum(), (weights * scores * scores).sum()
+    places = np.linspace(-_FARTHEST, _FARTHEST, _PLACES)
+    added = information(places)
+    gain = (b11 + added) * (b22 + added * places * places) - np.square(b12 + added * places)
+    best = int(np.argmax(gain))
+    # The top of the parabola through the best of the places and its neighbours.
+    if 0 < best < _PLACES - 1:
+        before, top, after = gain[best - 1 : best + 2]
+        bend = before - 2.0 * top + after
+        shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+        return normal.median + normal.spread * float(places[best] + shift * (places[1] - places[0]))
+    return normal.median + normal.spread * float(places[best])
+
+
+def information(scores: np.ndarray) -> np.ndarray:
+    """Information (n,) that trials at scores (x - μ) / σ give on the median, φ² / (Φ (1 - Φ))."""
+    return np.exp(-scores * scores - np.log(2.0 * np.pi) - log_ndtr(scores) - log_ndtr(-scores))

@@ -1,0 +1,189 @@
+"""The probability of success along one quantity as a normal distribution, from trials that succeeded or did not.
+
+P(success at x) = Φ((x - μ) / σ). Trials overlap where a success is lower than a failure; only then is σ above 0 by
+maximum likelihood (M. J. Silvapulle, 1981, Journal of the Royal Statistical Society B 43, 310-313). Limits are those of
+the likelihood ratio, which hold with few trials, unlike those by the curvature of the likelihood (B. T. Neyer, 1992,
+Sensitivity testing and analysis, 16th International Pyrotechnics Seminar).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+from scipy.special import log_ndtr, ndtr, ndtri
+from scipy.stats import f as f_distribution
+
+_ITERATIONS = 100
+_SAME = 1e-12
+_STEEPEST = 1e6
+"""Slope, by the range of the trials, that is as good as a jump."""
+
+
+@dataclass(frozen=True, slots=True)
+class Normal:
+    """How the probability of success rises.
+
+    Attributes
+    ----------
+    median, spread : float
+        μ and σ; a spread of 0 where trials do not overlap: success at and above the median, failure below.
+    """
+
+    median: float
+    spread: float
+
+    def quantile(self, probability: float) -> float:
+        """Where success has a probability."""
+        return self.median + self.spread * float(ndtri(probability))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trials:
+    """n trials.
+
+    Attributes
+    ----------
+    levels : (n,) float
+        Where.
+    successes : (n,) bool
+        Whether each succeeded.
+    """
+
+    levels: np.ndarray
+    successes: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.levels)
+
+    @property
+    def lowest_success(self) -> float:
+        """∞ where there is none."""
+        return float(self.levels[self.successes].min(initial=np.inf))
+
+    @property
+    def highest_failure(self) -> float:
+        """-∞ where there is none."""
+        return float(self.levels[~self.successes].max(initial=-np.inf))
+
+    @property
+    def overlap(self) -> bool:
+        """Whether a success is lower than a failure, and successes are higher on the whole: σ is known then."""
+        if not self.lowest_success < self.highest_failure:
+            return False
+        return bool(self.levels[self.successes].mean() > self.levels[~self.successes].mean())
+
+
+def fitted(trials: Trials) -> Normal | None:
+    """Return the likeliest distribution; None where trials are all of one kind, or succeed the less the higher."""
+    if trials.successes.all() or not trials.successes.any():
+        return None
+    if trials.overlap:
+        return _likeliest(trials)
+    if trials.lowest_success > trials.highest_failure:
+        return Normal((trials.lowest_success + trials.highest_failure) / 2.0, 0.0)
+    if trials.lowest_success == trials.highest_failure:
+        return Normal(trials.lowest_success, 0.0)
+    return None
+
+
+def _likeliest(trials: Trials) -> Normal:
+    """By Newton's method: the logarithm of the likelihood is concave in 1 / σ and -μ / σ."""
+    middle, unit = trials.levels.mean(), np.ptp(trials.levels)
+    x = (trials.levels - middle) / unit
+    signs = np.where(trials.successes, 1.0, -1.0)
+    intercept, slope = 0.0, 1.0
+    value = log_ndtr(signs * (intercept + slope * x)).sum()
+    for _ in range(_ITERATIONS):
+        argument = signs * (intercept + slope * x)
+        mills = np.exp(-0.5 * argument * argument - 0.5 * np.log(2.0 * np.pi) - log_ndtr(argument))
+        first = signs * mills
+        second = mills * (argument + mills)
+        gradient = np.array((first.sum(), (first * x).sum()))
+        a, b, c = second.sum(), (second * x).sum(), (second * x * x).sum()
+        determinant = a * c - b * b
+        step = np.array((c * gradient[0] - b * gradient[1], a * gradient[1] - b * gradient[0])) / determinant
+        share = 1.0
+        while True:
+            tried = intercept + share * step[0], slope + share * step[1]
+            better = log_ndtr(signs * (tried[0] + tried[1] * x)).sum()
+            if better >= value or share < _SAME:
+                break
+            share /= 2.0
+        (intercept, slope), gain, value = tried, better - value, max(better, value)
+        if gain <= _SAME:
+            break
+    return Normal(middle - intercept / slope * unit, unit / slope)
+
+
+def log_likelihood(trials: Trials, normal: Normal) -> float:
+    """Logarithm of the probability of what trials came to."""
+    if normal.spread == 0.0:
+        return 0.0 if trials.highest_failure <= normal.median <= trials.lowest_success else -np.inf
+    signs = np.where(trials.successes, 1.0, -1.0)
+    return float(log_ndtr(signs * (trials.levels - normal.median) / normal.spread).sum())
+
+
+def profile_likelihood(trials: Trials, place: float, probability: float) -> float:
+    """Largest logarithm of the likelihood of all distributions that have this probability of success at a place."""
+    signs = np.where(trials.successes, 1.0, -1.0)
+    offsets, base = trials.levels - place, float(ndtri(probability))
+    unit = max(np.ptp(trials.levels), abs(offsets).max(), 1e-300)
+
+    def loss(slope: float) -> float:
+        return -log_ndtr(signs * (base + slope * offsets / unit)).sum()
+
+    # Concave in the slope, from 0, as good anywhere, to a jump.
+    high = 1.0
+    while high < _STEEPEST and loss(2.0 * high) < loss(high):
+        high *= 2.0
+    found = minimize_scalar(loss, bounds=(0.0, 4.0 * high), method="bounded", options={"xatol": 1e-7 * high})
+    return -min(float(found.fun), loss(0.0), loss(_STEEPEST))
+
+
+def limit(trials: Trials, probability: float, confidence: float, side: int) -> float:
+    """Limit of the place where success has a probability.
+
+    Twice the logarithm of the ratio of likelihoods is compared with the F distribution with 1 and n - 2 degrees of
+    freedom instead of χ², its limit for many trials: with few, the design follows the answers, and σ comes out small.
+
+    Parameters
+    ----------
+    trials : Trials
+    probability, confidence : float
+        Of success there; and with which the limit holds.
+    side : int
+        1 for an upper limit, -1 for a lower one.
+
+    Returns
+    -------
+    float
+        ± ∞ where the trials set no limit.
+    """
+    normal = fitted(trials)
+    if normal is None or len(trials) < 4:
+        return side * np.inf
+    most = log_likelihood(trials, normal)
+    least = most - f_distribution.ppf(confidence, 2, len(trials) - 2)
+
+    def above(place: float) -> float:
+        return profile_likelihood(trials, place, probability) - least
+
+    inside = normal.quantile(probability)
+    step = max(normal.spread, np.ptp(trials.levels) / len(trials), 1e-12)
+    for _ in range(60):
+        outside = inside + side * step
+        if above(outside) < 0.0:
+            return float(brentq(above, inside, outside, xtol=1e-6 * step))
+        if step > 1e3 * max(np.ptp(trials.levels), normal.spread):
+            break
+        step *= 2.0
+    return side * np.inf
+
+
+def chance(normal: Normal, places: np.ndarray) -> np.ndarray:
+    """Probability of success (k,) at places (k,)."""
+    if normal.spread == 0.0:
+        return np.where(places >= normal.median, 1.0, 0.0)
+    return ndtr((places - normal.median) / normal.spread)
