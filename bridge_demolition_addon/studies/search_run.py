@@ -87,7 +87,7 @@ class SearchRun:
     @property
     def values(self) -> np.ndarray:
         """Values (n,) of the quantity in them."""
-        return np.array([self._search.scale.value(float(each)) for each in self.trials.levels])
+        return np.array([self._search.scale.tried(float(each)) for each in self.trials.levels])
 
     def step(self, timeout_s: float) -> None:
         """Begin as many trials as may be begun, and take in those that have ended, waiting for one at most so long.
@@ -137,7 +137,7 @@ class SearchRun:
         """Have a trial made, unless it is there."""
         if number > len(self._levels):
             self._levels = self._test.levels(self._outcomes, number)
-        value = self._search.scale.value(float(self._levels[number - 1]))
+        value = self._search.scale.tried(float(self._levels[number - 1]))
         try:
             trial = self._search.trial(number, value)
         except ScenarioError as error:

@@ -51,10 +51,14 @@ class Scale:
             return level
         return math.exp(level) if abs(level) < _LARGEST_EXPONENT else math.copysign(math.inf, level)
 
-    def rounded(self, level: float) -> float:
-        """The level that is tried: within the range, and of a multiple of the step."""
+    def tried(self, level: float) -> float:
+        """Value that is tried for a level: within the range, and a multiple of the step."""
         settings = self.settings
         value = self.value(level)
         if settings.step is not None and math.isfinite(value):
             value = round(value / settings.step) * settings.step
-        return self.level(min(max(value, settings.lowest), settings.highest))
+        return min(max(value, settings.lowest), settings.highest)
+
+    def rounded(self, level: float) -> float:
+        """Level of the value that is tried for a level."""
+        return self.level(self.tried(level))
