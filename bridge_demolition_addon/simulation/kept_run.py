@@ -33,26 +33,42 @@ def has_run(scene: bpy.types.Scene) -> bool:
     return _FOLDER in scene
 
 
+def digest_of_run(scene: bpy.types.Scene) -> str:
+    """Return what the results of the run that is kept with a scene are known by."""
+    return str(scene.get(_DIGEST))
+
+
 def is_run_of(scene: bpy.types.Scene, folder: Path) -> bool:
     """Return whether a folder holds the results of the run that is kept with a scene."""
     return has_run(scene) and _digest_in(folder) == scene.get(_DIGEST)
 
 
+def folder_of_run(scene: bpy.types.Scene) -> Path:
+    """Return where the results of the run are that is kept with a scene: its folder, or one that moved with the file.
+
+    Raises
+    ------
+    OutputError
+        They are not there any more, or are of another run by now.
+    """
+    for folder in _places(Path(str(scene[_FOLDER]))):
+        if _digest_in(folder) == scene.get(_DIGEST):
+            return folder
+    raise OutputError(
+        f"{scene[_FOLDER]}: holds the results of this scene's run no more; load them from where they are, or run the "
+        "scene again"
+    )
+
+
 def results_of_run(scene: bpy.types.Scene) -> Results:
-    """Return the results of the run that is kept with a scene: from its folder, or from one that moved with the file.
+    """Return the results of the run that is kept with a scene.
 
     Raises
     ------
     OutputError
         They are not there any more, are of another run by now, or cannot be read.
     """
-    for folder in _places(Path(str(scene[_FOLDER]))):
-        if _digest_in(folder) == scene.get(_DIGEST):
-            return load_results(folder / RESULTS_FILE)
-    raise OutputError(
-        f"{scene[_FOLDER]}: holds the results of this scene's run no more; load them from where they are, or run the "
-        "scene again"
-    )
+    return load_results(folder_of_run(scene) / RESULTS_FILE)
 
 
 def _places(folder: Path) -> Iterator[Path]:

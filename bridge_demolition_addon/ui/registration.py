@@ -14,16 +14,17 @@ from .recording import log_paths, run, session
 from .recording import operator as recording_operator
 from .recording import ui as recording_ui
 from .results import operator as results_operator
+from .results import shown_run
 from .results import ui as results_ui
+from .scenario import number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
-from .scenario import table_list, user_meshes
 from .scenario import ui as scenario_ui
 from .study import operator as study_operator
 from .study import session as study_session
 from .study import ui as study_ui
 
 _OPERATORS = (
-    *(scenario_operator, user_meshes, table_list),
+    *(scenario_operator, preset_menu, number_rows, user_meshes, table_list),
     *(recording_operator, run, log_paths, blast_operator, contour_operator, results_operator, study_operator),
 )
 _PANELS = (blast_ui, recording_ui, contour_ui, results_ui, study_ui)
@@ -53,3 +54,5 @@ def unregister() -> None:
     session.unregister()
     for each in reversed(classes()):
         bpy.utils.unregister_class(each)
+    preset_menu.unregister()
+    shown_run.forget_shown()

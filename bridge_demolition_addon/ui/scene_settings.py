@@ -23,7 +23,8 @@ class BDA_PG_settings(ContourProperties, ChargeProperties, StudyProperties, bpy.
     built_values: StringProperty(options={"HIDDEN"}, description="What the panels showed when the scene was built")
     output_directory: path_property(
         "Results",
-        "Folder for the logs and results of the recording; it is made when the handler is registered",
+        "Folder for the logs and results of the recording. Without one, each run makes a folder beside the saved file, "
+        "or in your documents, named after the scenario and counted up",
         "DIR_PATH",
     )
     overwrite: BoolProperty(
@@ -40,7 +41,7 @@ def register() -> None:
     scenario_properties.register()
     for name, table in (("scenario", Scenario), ("study", StudySettings)):
         group = scenario_properties.registered_group(scenario_properties.group_name(table))
-        BDA_PG_settings.__annotations__[name] = PointerProperty(type=group)
+        BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=table.__doc__)
     bpy.utils.register_class(BDA_PG_settings)
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
 

@@ -58,12 +58,15 @@ BUTTONS = {
     "add_table": 2,
     "remove_table": 1,
     "move_table": 1,
+    "add_row": 2,
+    "remove_row": 2,
+    "look_at_bridge": 1,
     "go_to_body": 2,
     "draw_charts": 0.1,
     "make_report": 0.1,
     "render_contours": 0.3,
 }
-"""How often each button is pressed. One is not, that opens a window of the system: open_results."""
+"""How often each button is pressed. Two are not, that open a window of the system: open_results and open_report."""
 
 TEXTS = ("", "deck", "pier*", "[1, 2, 3]", "50% of $1 {x} \\ Ü", "not = [toml", "results", "//results", "no/x.toml")
 LARGEST = 40
@@ -177,9 +180,12 @@ class BlenderPlayer(Player):
             "removals",
             "nothing.here",
         )
+        rows = ("bridge.span_lengths_m", "zones[0].corners_m", "bridge.merge", "nothing.here")
         arguments = {
             "load_preset": lambda: {
-                "preset": random.choice(("one_span_explosives", "two_spans_wrecking_ball", "none"))
+                "preset": random.choice(
+                    ("one_span_explosives", "two_spans_wrecking_ball", "jackhammer_dismantling", "none")
+                )
             },
             "save_scenario": lambda: {"filepath": self._path(random)},
             "set_force_log": lambda: {"filepath": self._path(random)},
@@ -192,6 +198,8 @@ class BlenderPlayer(Player):
                 "path": "bda.scenario." + random.choice(lists),
                 "direction": random.choice(("UP", "DOWN")),
             },
+            "add_row": lambda: {"path": "bda.scenario." + random.choice(rows)},
+            "remove_row": lambda: {"path": "bda.scenario." + random.choice(rows), "number": random.randrange(3)},
             "go_to_body": lambda: {"body": random.choice(names), "frame": random.randrange(LONGEST_FRAMES)},
         }
         return arguments[button]() if button in arguments else {}

@@ -22,8 +22,10 @@ from person import Person, Steps, region_of
 from traces import PRESETS, charges, colours, opened, recording_runs, rows, scenario_in, scenario_shown
 
 PRESET = PRESETS / "one_span_explosives.toml"
-PRESET_NUMBER = 0
-"""Its place in the menu."""
+PRESET_KEY = "O"
+"""The letter that is underlined in its name."""
+ABOVE_PX = 30
+"""From Build Scenario to Presets."""
 
 SHARDS, DENSITY_KG_M3, BREAKING_N = 60, 2500.0, 300000.0
 VOLUME_M3 = 14.0 * 8.5 * 0.4 + 2 * 1.0 * 8.5 * 0.6 + 4 * 0.7 * 0.7 * 4.9
@@ -75,14 +77,13 @@ def empty_scene(person: Person, panels: Panels) -> Steps:
 
 def choose_preset(person: Person, panels: Panels) -> Steps:
     """Presets, and one from the menu that opens."""
-    yield from person.hover("bda.new_scenario")
+    yield from person.hover("bda.build_scenario")
     x, y = person.mouse
-    yield from person.move(x + person.sidebar.width // 3, y)
+    yield from person.move(x, y + ABOVE_PX)
     yield from person.press("LEFTMOUSE")
-    yield from person.picture("presets")
-    yield from person.move(x + person.sidebar.width // 3, y - 26 - 20 * PRESET_NUMBER)
-    yield 0.3
-    yield from person.press("LEFTMOUSE")
+    yield 1.0
+    yield from person.illustrate("presets", person.view)
+    yield from person.press(PRESET_KEY, PRESET_KEY.lower())
     yield 0.5
     loaded = scenario_in(PRESET)
     person.expect("the panels show the preset", person.scene.bda.scenario.title, loaded.title)

@@ -15,7 +15,8 @@ MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT")
 IN_A_LINKED_SCENE = {
     "draw_charts": "Nothing was recorded yet",
     "go_to_body": "is not in this scene",
-    "make_report": "Choose the folder",
+    "make_report": "Run the scene first",
+    "open_report": "Run the scene first",
     "open_results": "Nothing was recorded yet",
     "pause_study": "No study is at work",
     "resume_study": "No study is paused",

@@ -94,10 +94,13 @@ class ContourProperties:
         name="Range", description="What the lowest and highest colour stand for", items=_RANGES, update=_follow
     )
     contour_low: FloatProperty(
-        name="Lowest", description="Low end of the fixed range, kN, N/mm² or mm", default=1.0, update=_follow
+        name="Lowest", description="Low end of the fixed range, kN, N/mm² or mm, such as 1", default=1.0, update=_follow
     )
     contour_high: FloatProperty(
-        name="Highest", description="High end of the fixed range, kN, N/mm² or mm", default=1000.0, update=_follow
+        name="Highest",
+        description="High end of the fixed range, kN, N/mm² or mm, such as 1000 kN",
+        default=1000.0,
+        update=_follow,
     )
     contour_logarithmic: BoolProperty(
         name="Logarithmic",
@@ -108,7 +111,7 @@ class ContourProperties:
     )
     contour_decades: FloatProperty(
         name="Decades",
-        description="Powers of ten from the lowest to the highest value of an automatic logarithmic range",
+        description="Powers of ten from the lowest to the highest value of an automatic logarithmic range, such as 3",
         default=3.0,
         min=0.5,
         max=12.0,
@@ -136,7 +139,8 @@ class ContourProperties:
     )
     contour_magnification: FloatProperty(
         name="Magnify Shape",
-        description="How many times as far as they are displaced bodies are shown, once the recording has ended",
+        description="How many times as far as they are displaced bodies are shown, once the recording has ended: 1 "
+        "as it is, 100 for displacements of millimetres",
         default=1.0,
         min=1.0,
         max=1e6,
@@ -160,7 +164,7 @@ class ContourProperties:
     )
     vector_length_m: FloatProperty(
         name="Longest",
-        description="Length of the arrow of the largest force of the frame, over all kinds of vectors",
+        description="Length of the arrow of the largest force of the frame, over all kinds of vectors, such as 2 m",
         default=2.0,
         min=0.01,
         unit="LENGTH",
@@ -188,9 +192,11 @@ class ContourProperties:
         max=1000.0,
     )
     film_rate: IntProperty(
-        name="Pictures a Second", description="Pictures in a second of the film", default=25, min=1, max=120
+        name="Pictures a Second", description="Pictures in a second of the film, such as 25", default=25, min=1, max=120
     )
-    film_width: IntProperty(name="Width", description="Width of the film, even", default=1280, min=320, subtype="PIXEL")
+    film_width: IntProperty(
+        name="Width", description="Width of the film, even, such as 1280", default=1280, min=320, subtype="PIXEL"
+    )
     film_height: IntProperty(
-        name="Height", description="Height of the film, even", default=720, min=180, subtype="PIXEL"
+        name="Height", description="Height of the film, even, such as 720", default=720, min=180, subtype="PIXEL"
     )

@@ -37,6 +37,7 @@ from ..operators import Action, Refusing, absolute, no_world, recording_runs, re
 from ..scenario.built import scenario_to_run
 from ..scenario.values import table_of
 from . import session
+from .new_folder import new_folder
 
 _contexts: WeakKeyDictionary[Recording, RunContext] = WeakKeyDictionary()
 """What each recording is of."""
@@ -51,8 +52,6 @@ def why_not_recorded(context: bpy.types.Context) -> str | None:
         return reason
     if context.scene.rigidbody_world.point_cache.is_baked:
         return "The simulation is baked and only played back: delete the bake first"
-    if not context.scene.bda.output_directory:
-        return "Choose a folder for the results first"
     return None
 
 
@@ -110,7 +109,8 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     )
     if forces is not None and forces == debris:
         raise OutputError(f"{forces}: is the file of both logs; choose another for one of them")
-    folder = absolute(settings.output_directory)
+    title = scenario.title if scenario else scene.name
+    folder = absolute(settings.output_directory) if settings.output_directory else new_folder(title)
     if taken := {forces, debris} & {folder, *folder.parents}:
         raise OutputError(f"{taken.pop()}: expected a file for the log, found the folder of the results")
     recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
@@ -120,7 +120,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     _locks[recording] = lock
     if scenario:
         keep_scenario(folder, scenario, by_hand)
-    _contexts[recording] = RunContext.of(scene, scenario.title if scenario else scene.name, scenario, by_hand)
+    _contexts[recording] = RunContext.of(scene, title, scenario, by_hand)
     return recording
 
 

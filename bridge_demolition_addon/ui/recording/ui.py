@@ -7,7 +7,7 @@ import bpy
 from ...simulation.blender_events import running_recording
 from ...simulation.recording.recorder import Recording
 from ..scenario.built import changed_in_blender, changes
-from ..scenario.ui import draw_changes
+from ..scenario.ui import draw_changes, draw_run
 from ..sidebar import SidebarPanel, draw_sentence
 from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
 
@@ -21,7 +21,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         settings, recording = context.scene.bda, running_recording()
         column = self.layout.column()
         column.enabled = recording is None
-        column.prop(settings, "output_directory", text="", placeholder="Folder for the results")
+        column.prop(settings, "output_directory", text="", placeholder="A new folder for each run")
         column.prop(settings, "overwrite")
         if changed := [] if recording else changes(settings):
             draw_changes(self.layout, context, changed)
@@ -32,8 +32,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         column.operator("bda.register_handler")
         column.operator("bda.unregister_handler")
         column = self.layout.column(align=True)
-        run = column.operator("bda.run", text="Build Anew and Run" if changed else "Run", icon="PLAY")
-        run.build_anew = bool(changed)
+        draw_run(column, has_changed=bool(changed))
         row = column.row(align=True)
         row.operator("bda.bake")
         row.operator("bda.delete_bake")

@@ -2,6 +2,7 @@
 
 import shutil
 import sys
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -9,14 +10,15 @@ from bpy.props import IntProperty, StringProperty
 
 from ...core.blast.models import BlastModel
 from ...core.errors import OutputError, SimulationError, writing
-from ...core.results.files import FORCE_CHART
+from ...core.results.files import FORCE_CHART, REPORT_PAGE
 from ...core.results.summary import first_hit_s
-from ...simulation.kept_run import is_run_of
+from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...simulation.results_folder import keep_site
-from ..operators import Action, absolute, recording_runs
-from ..recording.session import last_recording
+from ..bridge_view import look_at_shards
+from ..operators import Action, absolute, no_world, recording_runs
 from ..scenario.built import shown_site
 from ..viewport import look_at_selected, select_only
+from .shown_run import shown_run
 
 _CHARTS = "charts"
 _OPENER = "xdg-open"
@@ -51,32 +53,48 @@ class BDA_OT_go_to_body(Action, bpy.types.Operator):
         look_at_selected(context, _SURROUNDINGS)
 
 
-class _OfLastRecording(Action):
-    """Base of the buttons that work on the last recording."""
+class BDA_OT_look_at_bridge(Action, bpy.types.Operator):
+    """Back from a body to the whole bridge: look at all shards as they stand at the start frame, and go there"""
+
+    bl_idname = "bda.look_at_bridge"
+    bl_label = "Back to the Bridge"
+    bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return no_world(context) or recording_runs(context)
+
+    def act(self, context: bpy.types.Context) -> None:
+        scene = context.scene
+        scene.frame_set(scene.rigidbody_world.point_cache.frame_start)
+        look_at_shards(context)
+
+
+class _OfShownRun(Action):
+    """Base of the buttons that work on the run whose results are shown."""
 
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
-        return None if last_recording() else "Nothing was recorded yet: register the handler and play"
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        try:
+            return None if shown_run(context.scene) else "Nothing was recorded yet: run the scene first"
+        except OutputError as error:
+            return str(error)
 
 
-class BDA_OT_open_results(_OfLastRecording, bpy.types.Operator):
+class BDA_OT_open_results(_OfShownRun, bpy.types.Operator):
     """Open the folder of the last recording in the system's file manager"""
 
     bl_idname = "bda.open_results"
     bl_label = "Open Folder"
 
-    def act(self, _context: bpy.types.Context) -> str | None:
-        folder = last_recording().folder
-        if not folder.is_dir():
-            raise OutputError(f"{folder}: is not there any more")
-        if sys.platform.startswith("linux") and not shutil.which(_OPENER):
-            raise OutputError(f"{folder}: this system has no {_OPENER}, which opens folders")
-        bpy.ops.wm.path_open(filepath=str(folder))
+    def act(self, context: bpy.types.Context) -> str | None:
+        open_path(shown_run(context.scene).folder)
 
 
-class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
+class BDA_OT_draw_charts(_OfShownRun, bpy.types.Operator):
     """Draw forces over time into the folder of the last recording, and charts to choose charges by if it had any"""
 
     bl_idname = "bda.draw_charts"
@@ -87,15 +105,13 @@ class BDA_OT_draw_charts(_OfLastRecording, bpy.types.Operator):
         from ...charts.blast_design import ChartSettings, write_charts
         from ...charts.force_chart import plot_forces
 
-        last = last_recording()
-        folder = last.folder / _CHARTS
+        run = shown_run(context.scene)
+        folder = run.folder / _CHARTS
         model = BlastModel(context.scene.bda.scenario.blast.model)
         with writing(folder):
             folder.mkdir(exist_ok=True)
-            paths = write_charts(folder, ChartSettings(model=model)) if had_charges(last.summary) else []
-            plot_forces(
-                last.recording.results(), folder / FORCE_CHART, last.summary["title"], first_hit_s(last.summary)
-            )
+            paths = write_charts(folder, ChartSettings(model=model)) if had_charges(run.summary) else []
+            plot_forces(run.results(), folder / FORCE_CHART, run.title, first_hit_s(run.summary))
         return f"{len(paths) + 1} charts are in {folder}" if paths else f"{folder / FORCE_CHART}"
 
 
@@ -108,15 +124,15 @@ class BDA_OT_make_report(Action, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
-        if not context.scene.bda.output_directory:
-            return "Choose the folder with the results first"
+        if not (context.scene.bda.output_directory or has_run(context.scene)):
+            return "Run the scene first, or choose the folder with the results"
         return recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> str | None:
         # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.
         from ...report.write import write_report
 
-        scene, folder = context.scene, absolute(context.scene.bda.output_directory)
+        scene, folder = context.scene, folder_to_report(context.scene)
         if is_run_of(scene, folder):
             keep_site(folder, shown_site(scene.bda))
         progress = _CursorProgress(context.window_manager)
@@ -125,6 +141,24 @@ class BDA_OT_make_report(Action, bpy.types.Operator):
         finally:
             progress.finish()
         return f"Report: {written[0]} and {written[1].name}"
+
+
+class BDA_OT_open_report(Action, bpy.types.Operator):
+    """Open the report that was made of the results in the folder, in the system's browser"""
+
+    bl_idname = "bda.open_report"
+    bl_label = "Open Report"
+    changes_scene = False
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return BDA_OT_make_report.why_not(context)
+
+    def act(self, context: bpy.types.Context) -> None:
+        path = folder_to_report(context.scene) / REPORT_PAGE
+        if not path.is_file():
+            raise OutputError(f"{path}: is not there; make the report first")
+        open_path(path)
 
 
 class _CursorProgress:
@@ -146,9 +180,43 @@ class _CursorProgress:
         self._manager.progress_end()
 
 
+def folder_to_report(scene: bpy.types.Scene) -> Path:
+    """Return the folder whose run a report is of: the chosen one, or else that of the scene's run.
+
+    Raises
+    ------
+    OutputError
+        The scene's run is not there any more.
+    """
+    chosen = scene.bda.output_directory
+    return absolute(chosen) if chosen else folder_of_run(scene)
+
+
+def open_path(path: Path) -> None:
+    """Open a folder or file as the system does.
+
+    Raises
+    ------
+    OutputError
+        It is not there any more, or the system has nothing that opens it.
+    """
+    if not path.exists():
+        raise OutputError(f"{path}: is not there any more")
+    if sys.platform.startswith("linux") and not shutil.which(_OPENER):
+        raise OutputError(f"{path}: this system has no {_OPENER}, which opens files and folders")
+    bpy.ops.wm.path_open(filepath=str(path))
+
+
 def had_charges(summary: dict[str, Any]) -> bool:
     """Return whether anything exploded in a run, or was meant to."""
     return bool(summary.get("charges") or summary["blast"])
 
 
-CLASSES = (BDA_OT_go_to_body, BDA_OT_open_results, BDA_OT_draw_charts, BDA_OT_make_report)
+CLASSES = (
+    BDA_OT_go_to_body,
+    BDA_OT_look_at_bridge,
+    BDA_OT_open_results,
+    BDA_OT_draw_charts,
+    BDA_OT_make_report,
+    BDA_OT_open_report,
+)

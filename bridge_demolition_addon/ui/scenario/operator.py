@@ -7,16 +7,17 @@ from ...core.display.camera_targets import points_to_see
 from ...core.scenario import Scenario
 from ...core.scenario.file import read_scenario, scenario_text
 from ...core.sequence.checked_model import checked_model
-from ...scene.bodies import Kind, bodies_of, kind_of, lacks_ground
+from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...scene.rendering.staging import stage
 from ...simulation.blender_events import contours_of
 from ...simulation.kept_run import forget_run
+from ..bridge_view import look_at_shards
 from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
-from ..viewport import look_at_selected, select_only
 from .built import forget_built, keep_built, show_built
+from .preset_menu import preset_files
 from .prop import PRESETS, default_scenario
 from .values import scenario_of, show_scenario
 
@@ -88,7 +89,8 @@ class BDA_OT_load_preset(Action, bpy.types.Operator):
     preset: StringProperty(name="Preset", description="Name of the preset")
 
     def act(self, context: bpy.types.Context) -> str | None:
-        _show(context.scene.bda, read_scenario(PRESETS / (self.preset + _SUFFIX)))
+        path = preset_files().get(self.preset, PRESETS / (self.preset + _SUFFIX))
+        _show(context.scene.bda, read_scenario(path))
 
 
 class BDA_OT_build_scenario(Action, bpy.types.Operator):
@@ -109,10 +111,7 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
         """Build it, and let the view show the bridge: its ground is too large for Blender's View All."""
         done = self.execute(context)
         if "FINISHED" in done:
-            selected = list(context.selected_objects)
-            select_only(context, [body for body in bodies_of(context.scene) if kind_of(body) == Kind.SHARD])
-            look_at_selected(context)
-            select_only(context, selected)
+            look_at_shards(context)
         return done
 
     def act(self, context: bpy.types.Context) -> str:
@@ -206,17 +205,6 @@ class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
         return f"{remove_loose_connections(context.scene)} loose connections removed"
 
 
-class BDA_MT_presets(bpy.types.Menu):
-    """Scenarios to start from."""
-
-    bl_label = "Presets"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        for path in sorted(PRESETS.glob("*" + _SUFFIX)):
-            label = path.stem.replace("_", " ").capitalize()
-            self.layout.operator("bda.load_preset", text=label).preset = path.stem
-
-
 CLASSES = (
     BDA_OT_load_scenario,
     BDA_OT_save_scenario,
@@ -227,7 +215,6 @@ CLASSES = (
     BDA_OT_show_built,
     BDA_OT_remove_demolition,
     BDA_OT_remove_loose_connections,
-    BDA_MT_presets,
 )
 
 

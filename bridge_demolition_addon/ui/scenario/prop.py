@@ -45,6 +45,8 @@ from ...core.schema import (
 from ...core.study.keys import names_to_propose
 from ...core.study.settings import StudySettings
 from ...core.toml_tables import toml_value
+from .number_rows import row_properties
+from .typical_values import typical_words
 
 PRESETS = Path(__file__).parent / "presets"
 DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"
@@ -193,10 +195,13 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
     label = label_of(table_class, item)
     rule = key_of(item)
     name = key_name(table_class, item)
-    meaning = _tooltip(f"{rule.description} In a scenario file: {name}, {expected(item)}")
+    typical = typical_words(table_class, item)
+    said = f"{rule.description} {typical}." if typical else rule.description
+    meaning = _tooltip(f"{said} In a scenario file: {name}, {expected(item)}")
     words = {"name": label, "description": meaning}
     propose = _PROPOSED.get(name)
     properties = {item.name: _proposing(rule, default, propose, words) if propose else _property(item, default, words)}
+    properties.update(row_properties(item, words))
     if is_optional(item):
         properties[USE + item.name] = BoolProperty(name=label, description=meaning, default=default is not None)
     return properties

@@ -13,7 +13,9 @@ from ...core.schema import Table, holds_many, is_optional, key_fields, key_name,
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from .breaking_note import breaking_note
-from .built import Change, Kept, built_values, change_of, changes_of_table
+from .built import Change, Kept, built_values, change_of, changes, changes_of_table
+from .next_step import next_step
+from .number_rows import draw_rows, numbers_in_row
 from .prop import INDEX, USE, label_of, shown_tables, vector_length
 from .table_list import draw_list
 
@@ -45,6 +47,9 @@ _ELSEWHERE = {"blast.explosion", "study.scenario"}
 _LETTERS_OF_VALUE = 9
 _LISTED = 4
 """Changed values that are listed above the buttons; each is marked in its own panel as well."""
+
+_PROMINENT = 1.5
+"""How many times as high as others the buttons are that most people need."""
 
 CHANGED = "ERROR"
 """Icon of values that have changed since the scene was built."""
@@ -78,17 +83,19 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
-        layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
+        draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
         column = layout.column(align=True)
-        row = column.row(align=True)
+        column.scale_y = _PROMINENT
+        column.menu("BDA_MT_presets", icon="ASSET_MANAGER")
+        column.operator("bda.build_scenario", icon="MOD_BUILD")
+        draw_run(column, has_changed=bool(changes(settings)))
+        layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
+        row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")
         row.operator("bda.save_scenario", text="Save")
-        row = column.row(align=True)
         row.operator("bda.new_scenario", text="New")
-        row.menu("BDA_MT_presets")
         draw_keys(layout, context, settings.scenario, Scenario, built_values(settings))
         column = layout.column(align=True)
-        column.operator("bda.build_scenario")
         column.operator("bda.build_anew")
         column.operator("bda.remove_demolition")
         column.operator("bda.remove_loose_connections")
@@ -148,6 +155,12 @@ class _TablePanel(SidebarPanel):
     def _changes(self, context: bpy.types.Context, owner: bpy.types.PropertyGroup) -> bool:
         kept = self._kept(context)
         return kept is not None and any(True for _ in changes_of_table(owner, self.item, kept))
+
+
+def draw_run(layout: bpy.types.UILayout, *, has_changed: bool) -> None:
+    """Draw the button Run, which builds anew first where values have changed since the scene was built."""
+    text = "Build Anew and Run" if has_changed else "Run"
+    layout.operator("bda.run", text=text, icon="PLAY").build_anew = has_changed
 
 
 def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed: Sequence[Change]) -> None:
@@ -282,7 +295,7 @@ def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.Propert
     if row.is_check_box and not row.is_optional:
         layout.prop(group, row.name, text=row.label)
         return
-    fits = row.length == 1 and len(row.label) + _LETTERS_OF_VALUE <= letters
+    fits = row.length == 1 and not numbers_in_row(row.item) and len(row.label) + _LETTERS_OF_VALUE <= letters
     if not row.is_number:  # Blender gives part of a line to the label of a text or a choice
         fits = fits and len(row.label) <= letters // (4 if row.is_optional else 2)
     if row.is_optional:
@@ -293,6 +306,8 @@ def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.Propert
     else:
         if not fits:
             layout.label(text=row.label + ":")
+        if numbers_in_row(row.item) and draw_rows(layout.column(align=True), group, row.item):
+            return
         line = layout.row(align=row.length > 1)
     line.prop(group, row.name, text=row.label if fits else "")
 

@@ -7,7 +7,6 @@ the shortest decimal that single precision takes for it, which is what the user 
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterable
 from dataclasses import Field, replace
 from typing import Any
@@ -32,6 +31,7 @@ from ...core.schema import (
 from ...core.single_precision import as_given
 from ...core.toml_tables import toml_value
 from ...scene.blast.charges import charges_of, replace_charges
+from .number_rows import list_in
 from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length
 
 _ROUNDING = 1e-14
@@ -143,13 +143,8 @@ def list_of(text: str, name: str, item: Field) -> list:
     ScenarioError
         The text is no list; the error says `name`.
     """
-    for written in (text, f"[{text}]"):
-        try:
-            document = tomllib.loads(f"list = {written}")
-        except (ValueError, RecursionError):
-            continue
-        if list(document) == ["list"] and isinstance(document["list"], list):
-            return document["list"]
+    if (found := list_in(text)) is not None:
+        return found
     raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
 
 

@@ -17,7 +17,7 @@ class StudyProperties:
     )
     study_jobs: IntProperty(
         name="Draws at a Time",
-        description="How many draws run at a time, each in a Blender of its own",
+        description="How many draws run at a time, each in a Blender of its own; such as 1 less than processors",
         default=max((os.cpu_count() or 1) - 1, 1),
         min=1,
         max=1000,

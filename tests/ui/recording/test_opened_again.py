@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 from places import SMALL
 
+from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.simulation.blender_events import contours_of
+from bridge_demolition_addon.ui.recording import session
+from bridge_demolition_addon.ui.results.shown_run import shown_run
 
 LAST = 14
 
@@ -116,6 +119,38 @@ def test_blender_plays_on_its_own_where_that_is_wanted(ran, tmp_path):
     assert shown(scene, ["Shard 000001"]) == pytest.approx(before)
     with pytest.raises(RuntimeError, match="Blender's own motion is shown"):
         ran.ops.bda.forget_results()
+
+
+def test_the_panel_of_results_says_what_it_said_after_the_run(ran, tmp_path):
+    before = shown_run(ran.context.scene)
+    session.unregister()  # as after Blender was closed
+    after = shown_run(reopen(ran, tmp_path / "scene.blend"))
+    assert (after.folder, after.title, after.lines) == (before.folder, before.title, before.lines)
+    assert (after.peak_force, after.largest_throw) == (before.peak_force, before.largest_throw)
+    assert after.largest_throw.frame == LAST
+    assert ran.ops.bda.draw_charts() == {"FINISHED"}
+    assert (tmp_path / "results" / "charts" / "force_over_time.png").is_file()
+
+
+def test_results_of_a_run_that_is_gone_are_said_to_be_gone(ran, tmp_path):
+    session.unregister()
+    shutil.rmtree(tmp_path / "results")
+    scene = reopen(ran, tmp_path / "scene.blend")
+    with pytest.raises(OutputError, match="holds the results of this scene's run no more"):
+        shown_run(scene)
+    with pytest.raises(RuntimeError, match="no more"):
+        ran.ops.bda.draw_charts()
+
+
+@pytest.mark.parametrize("key", ["mass_kg", "connections", "largest_resultant", "title"])
+def test_a_summary_that_lacks_something_is_refused(ran, tmp_path, key):
+    session.unregister()
+    path = tmp_path / "results" / "summary.json"
+    summary = json.loads(path.read_text(encoding="utf-8"))
+    del summary[key]
+    path.write_text(json.dumps(summary), encoding="utf-8")
+    with pytest.raises(OutputError, match="is not what a run writes"):
+        shown_run(reopen(ran, tmp_path / "scene.blend"))
 
 
 def test_a_file_with_bodies_that_are_not_ours_stays_at_its_frame(extension, tmp_path):

@@ -1,0 +1,151 @@
+"""The run whose results the panels show: the last recording, or the one that a file which was opened again has."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...core.errors import DemolitionError, OutputError, UnreadableError
+from ...core.reading import MEGABYTE, file_text
+from ...core.results.arrays import Results
+from ...core.results.checks import checked_summary
+from ...core.results.files import SUMMARY_FILE
+from ...core.sequence.undisturbed import told_fall
+from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
+from ..recording.session import LastRecording, last_recording
+
+_N_PER_KN = 1000.0
+_MS_PER_S = 1000.0
+_MOST_SUMMARY_BYTES = 100 * MEGABYTE
+
+_read: dict[tuple[str, str], ShownRun] = {}
+"""The run that was read last, by its file and what its results are known by: panels are drawn many times a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A largest value, with the body and the frame that it was at."""
+
+    text: str
+    body: str
+    frame: int
+
+
+@dataclass(frozen=True, slots=True)
+class ShownRun:
+    """What the panels say of a run, in words.
+
+    Attributes
+    ----------
+    folder, title, summary
+        Of the run.
+    fall
+        That the bridge fell before anything was done to it; empty where it did not.
+    lines
+        Totals, each in a few words.
+    peak_force, largest_throw
+        None where there was none.
+    explained_peak
+        What the peak force is, and why the contours show another number.
+    results
+        Gives what was recorded.
+    """
+
+    folder: Path
+    title: str
+    summary: dict[str, Any]
+    fall: str
+    lines: tuple[str, ...]
+    peak_force: Place | None
+    largest_throw: Place | None
+    explained_peak: str
+    results: Callable[[], Results]
+
+    @classmethod
+    def of(cls, folder: Path, summary: dict[str, Any], last_frame: int, results: Callable[[], Results]) -> ShownRun:
+        """Put a summary in words.
+
+        Raises
+        ------
+        OutputError
+            It is none that a run writes.
+        """
+        try:
+            force, throw = summary["largest_resultant"], summary["largest_throw"]
+            return cls(
+                folder=folder,
+                title=str(summary["title"]),
+                summary=summary,
+                fall=told_fall(summary),
+                lines=tuple(lines_of(summary)),
+                peak_force=force and Place(f"{force['force_N'] / _N_PER_KN:,.0f} kN", force["body"], force["frame"]),
+                largest_throw=throw and Place(f"{throw['throw_m']:.2f} m", throw["body"], last_frame),
+                explained_peak=explained_peak(summary),
+                results=results,
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            raise OutputError(
+                f"{folder / SUMMARY_FILE}: is not what a run writes: {error!r}; run the scene again"
+            ) from error
+
+
+def shown_run(scene: bpy.types.Scene) -> ShownRun | None:
+    """Return the run whose results are shown; None before there was one.
+
+    Raises
+    ------
+    OutputError
+        A run is kept with the scene, and cannot be found or read.
+    """
+    last = last_recording()
+    if has_run(scene) and not (last and last.summary["fingerprint"]["result"] == digest_of_run(scene)):
+        return _of_file(scene)
+    return _of_recording(last) if last else None
+
+
+def forget_shown() -> None:
+    """Forget what was read."""
+    _read.clear()
+
+
+def explained_peak(summary: dict[str, Any]) -> str:
+    """Return in a sentence what the peak force is, and why the contours show another number."""
+    return (
+        f"The resultant on a shard in its worst sub-step, of {summary['substep_s'] * _MS_PER_S:.3g} ms. Contours show "
+        "the frame mean, or with Peak So Far this peak"
+    )
+
+
+def lines_of(summary: dict[str, Any]) -> list[str]:
+    """Return the totals of a summary, each in a few words."""
+    connections = summary["connections"]
+    return [
+        f"Total mass: {summary['mass_kg']['shard']:,.0f} kg".replace(",", " "),
+        f"Broken: {connections['broken']} of {connections['count']} connections",
+        f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
+    ]
+
+
+def _of_recording(last: LastRecording) -> ShownRun:
+    return ShownRun.of(last.folder, last.summary, last.recording.last_frame, last.recording.results)
+
+
+def _of_file(scene: bpy.types.Scene) -> ShownRun:
+    folder = folder_of_run(scene)
+    name = (str(folder), digest_of_run(scene))
+    if name not in _read:
+        path = folder / SUMMARY_FILE
+        try:
+            summary = checked_summary(json.loads(file_text(path, _MOST_SUMMARY_BYTES)))
+        except (UnreadableError, DemolitionError, RecursionError, ValueError) as error:
+            raise OutputError(f"{path}: cannot be read: {error}") from error
+        results = results_of_run(scene)
+        last_frame = int(results.frames.number[-1])
+        forget_shown()
+        _read[name] = ShownRun.of(folder, summary, last_frame, lambda: results)
+    return _read[name]

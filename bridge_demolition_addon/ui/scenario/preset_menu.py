@@ -1,0 +1,72 @@
+"""Scenarios to start from: those made for the sidebar, and all examples, each with a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import bpy.utils.previews
+
+from .prop import PRESETS
+
+_PACKAGE = Path(__file__).parents[2]
+_EXAMPLES = (_PACKAGE / "examples", _PACKAGE.parent / "examples")
+"""Where the examples are: in the extension, or beside the package in a checkout."""
+
+_SUFFIX, _PICTURE_SUFFIX = ".toml", ".jpg"
+_COLUMNS = 5
+_PICTURE_SCALE = 5.0
+_COLUMN_UNITS = 9.0
+
+_pictures: list[bpy.utils.previews.ImagePreviewCollection] = []
+"""One collection, once the menu was opened."""
+
+
+class BDA_MT_presets(bpy.types.Menu):
+    """Scenarios to start from."""
+
+    bl_label = "Presets"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        pictures, files = _loaded_pictures(), list(preset_files())
+        row = self.layout.row()
+        for number in range(_COLUMNS):
+            column = row.column()
+            column.ui_units_x = _COLUMN_UNITS
+            for name in files[number::_COLUMNS]:
+                column.template_icon(pictures[name].icon_id, scale=_PICTURE_SCALE)
+                column.operator("bda.load_preset", text=label_of_preset(name)).preset = name
+
+
+CLASSES = (BDA_MT_presets,)
+
+
+def preset_files() -> dict[str, Path]:
+    """Return the file of each preset by its name: those made for the sidebar, then the examples."""
+    folders = (PRESETS, next((each for each in _EXAMPLES if each.is_dir()), None))
+    return {path.stem: path for folder in folders if folder for path in sorted(folder.glob("*" + _SUFFIX))}
+
+
+def picture_of_preset(name: str) -> Path:
+    """Return the picture of a preset."""
+    return PRESETS / (name + _PICTURE_SUFFIX)
+
+
+def label_of_preset(name: str) -> str:
+    """Return what a preset is called in the menu."""
+    words = name.replace("_", " ").replace("i235", "I-235").replace("neighbouring", "next")
+    return words[:1].upper() + words[1:]
+
+
+def unregister() -> None:
+    """Let go of the pictures."""
+    while _pictures:
+        bpy.utils.previews.remove(_pictures.pop())
+
+
+def _loaded_pictures() -> bpy.utils.previews.ImagePreviewCollection:
+    if not _pictures:
+        _pictures.append(bpy.utils.previews.new())
+        for name in preset_files():
+            _pictures[0].load(name, str(picture_of_preset(name)), "IMAGE")
+    return _pictures[0]

@@ -1,0 +1,124 @@
+"""A typical value of each number that has no default, for its tooltip: of the examples, or of common practice.
+
+Names are those of a scenario; a key that several tables share is given once, without its table.
+"""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, Field
+from typing import Any
+
+from ...core.schema import Table, key_name, key_of
+from ...core.toml_tables import toml_value
+
+TYPICAL: dict[str, Any] = {
+    "density_kg_m3": 2400.0,
+    "mass_kg": 107000.0,
+    "stretch": [3, 1, 1],
+    "place_m": [6.5, 0.0, 1.0],
+    "target_m": [6.5, 0.0],
+    "drop_height_m": 5.0,
+    "breaking_force_n": 300000.0,
+    "breaking_force_kgf": 30000.0,
+    "elastic_modulus_n_mm2": 32000.0,
+    "poisson_ratio": 0.2,
+    "stiffness_n_m": 1e8,
+    "damping_ns_m": 1e5,
+    "turning_stiffness_nm_rad": 1e8,
+    "turning_damping_nms_rad": 1e5,
+    "time_s": 0.5,
+    "lowest_corner_m": [-1.0, -5.0, 0.0],
+    "highest_corner_m": [1.0, 5.0, 5.0],
+    "time.duration_s": 5.0,
+    "bridge.span_lengths_m": [13.0, 13.0],
+    "bridge.deck.width_m": 8.5,
+    "bridge.deck.thickness_m": 0.4,
+    "bridge.girders.number": 5,
+    "bridge.girders.width_m": 0.4,
+    "bridge.girders.depth_m": 0.8,
+    "bridge.girders.spacing_m": 2.0,
+    "bridge.box_girder.width_m": 5.0,
+    "bridge.box_girder.depth_m": 1.8,
+    "bridge.box_girder.web_thickness_m": 0.3,
+    "bridge.box_girder.bottom_thickness_m": 0.2,
+    "bridge.piers.column_length_m": 0.7,
+    "bridge.piers.column_width_m": 0.7,
+    "bridge.piers.height_m": 4.9,
+    "bridge.pier_caps.length_m": 1.0,
+    "bridge.pier_caps.width_m": 8.5,
+    "bridge.pier_caps.height_m": 0.6,
+    "bridge.abutments.length_m": 1.5,
+    "bridge.abutments.width_m": 9.0,
+    "bridge.abutments.height_m": 5.0,
+    "fracture.shards": 200,
+    "fracture.members.shards": 50,
+    "fracture.members.share": 0.5,
+    "fracture.finer.radius_m": 2.0,
+    "fracture.finer.factor": 4.0,
+    "materials.compression_n_mm2": 30.0,
+    "materials.tension_n_mm2": 2.0,
+    "materials.shear_n_mm2": 3.0,
+    "materials.torsion_n_mm2": 2.0,
+    "materials.bending_n_mm2": 3.0,
+    "connections.search_radius_m": 1.0,
+    "connections.neighbours": 12,
+    "connections.damping_ratio": 0.05,
+    "connections.ductile_elongation_m": 0.05,
+    "ball.mass_kg": 10000.0,
+    "ball.diameter_m": 1.35,
+    "ball.contact_time_s": 0.005,
+    "ball.hits.lift_time_s": 2.0,
+    "ball.hits.release_time_s": 5.0,
+    "ball.cable.crane_point_m": [6.5, -4.0, 20.0],
+    "ball.cable.length_m": 12.0,
+    "ball.cable.angle_degrees": 45.0,
+    "blast.constant_decay": 1.0,
+    "blast.slow_frame_ms": 1.0,
+    "jackhammers.start_time_s": 0.5,
+    "jackhammers.end_time_s": 4.0,
+    "jackhammers.stroke_m": 0.4,
+    "jackhammers.depth_m": 0.3,
+    "jackhammers.path_m": [[2.0, 0.0], [4.0, 0.0]],
+    "saw_cuts.point_m": [6.5, 0.0, 5.0],
+    "saw_cuts.normal": [1.0, 0.0, 0.0],
+    "weakenings.factor": 0.3,
+    "zones.bottom_m": 0.0,
+    "zones.top_m": 5.0,
+    "zones.corners_m": [[-5.0, 8.0], [20.0, 8.0], [20.0, 12.0]],
+    "exclusion.buffer_m": 5.0,
+    "site.latitude_deg": 41.6,
+    "site.longitude_deg": -93.6,
+    "neighbours.place_m": [6.5, 30.0, 1.5],
+    "vary.mean": 5.0,
+    "vary.deviation": 0.5,
+    "vary.median": 300000.0,
+    "vary.variation": 0.2,
+    "vary.lowest": 4.0,
+    "vary.most_likely": 5.0,
+    "vary.highest": 6.0,
+    "criteria.share": 0.5,
+    "criteria.span": 1,
+    "criteria.limit_kpa": 2.0,
+    "criteria.limit_mm_s": 20.0,
+    "study.time_limit_s": 600.0,
+    "study.memory_limit_mb": 4000.0,
+}
+
+
+def typical_value(table_class: type[Table], item: Field) -> Any:
+    """Return a typical value of a key: its default, or one of `TYPICAL`; None for a text without a default."""
+    name = key_name(table_class, item)
+    if name in TYPICAL:
+        return TYPICAL[name]
+    if item.default not in (MISSING, None):
+        return item.default
+    return TYPICAL.get(item.name)
+
+
+def typical_words(table_class: type[Table], item: Field) -> str:
+    """Return a typical value with its unit, such as ``Typical: 0.4 m``; empty where there is none."""
+    value = typical_value(table_class, item)
+    if value is None or isinstance(value, bool | str):
+        return ""
+    unit = key_of(item).unit
+    return f"Typical: {toml_value(value)}{' ' + unit if unit else ''}"

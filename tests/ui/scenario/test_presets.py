@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The menu Presets: all examples, and the scenarios made for it, each with a picture."""
+
+import pytest
+from PIL import Image
+from places import EXAMPLES
+
+from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.ui.scenario.values import scenario_of
+
+SMALLEST_PX = (256, 192)
+
+
+@pytest.fixture
+def presets(extension):
+    from bridge_demolition_addon.ui.scenario import preset_menu
+
+    yield preset_menu
+    preset_menu.unregister()
+
+
+def test_it_holds_all_examples(presets):
+    files = presets.preset_files()
+    assert {path.stem for path in EXAMPLES.glob("*.toml")} < set(files)
+    assert len(files) == len(list(EXAMPLES.glob("*.toml"))) + 3
+
+
+def test_each_has_a_picture_that_shows_something(presets):
+    for name in presets.preset_files():
+        with Image.open(presets.picture_of_preset(name)) as picture:
+            assert picture.size == SMALLEST_PX
+            darkest, brightest = picture.convert("L").getextrema()
+        assert brightest - darkest > 60, name
+
+
+def test_blender_loads_the_pictures_and_lets_go_of_them(extension, presets):
+    pictures = presets._loaded_pictures()
+    assert set(pictures) == set(presets.preset_files())
+    assert tuple(pictures["i235_one_span"].image_size) == SMALLEST_PX
+    presets.unregister()
+    assert presets._pictures == []
+
+
+def test_an_example_is_shown_as_its_file_says(extension, settings, presets):
+    for name in ("i235_two_spans", "jackhammer_dismantling", "two_spans_20m_delays"):
+        assert extension.ops.bda.load_preset(preset=name) == {"FINISHED"}
+        assert scenario_of(settings) == read_scenario(EXAMPLES / f"{name}.toml")
+
+
+def test_labels_are_all_different(presets):
+    names = list(presets.preset_files())
+    assert len({presets.label_of_preset(name) for name in names}) == len(names)
+    assert presets.label_of_preset("i235_one_span") == "I-235 one span"

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tooltips of the sidebar say."""
+
+import re
+
+import pytest
+
+from bridge_demolition_addon.core.schema import expected, key_fields, key_name, key_of
+from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group
+from bridge_demolition_addon.ui.scenario.typical_values import TYPICAL, typical_value
+
+NUMBERS = ("FLOAT", "INT")
+
+
+def groups(extension):
+    """All property groups of the sidebar: of the settings, of scenario and study, and of their lists."""
+    found = [extension.types.Scene.bl_rna.properties["bda"].fixed_type]
+    found += [registered_group(group_name(each)).bl_rna for each in all_tables()]
+    return found
+
+
+def shown_properties(extension):
+    return [
+        (group.identifier, each)
+        for group in groups(extension)
+        for each in group.properties
+        if each.identifier not in ("rna_type", "name", "given") and not each.is_hidden
+    ]
+
+
+def test_every_field_has_a_tooltip(extension):
+    found = shown_properties(extension)
+    assert len(found) > 300
+    assert [f"{group}.{each.identifier}" for group, each in found if len(each.description) < 10] == []
+
+
+def test_every_number_says_a_value(extension):
+    """In digits; of keys, that it is a value which they take is seen below."""
+    numbers = [(group, each) for group, each in shown_properties(extension) if each.type in NUMBERS]
+    numbers = [each for each in numbers if not each[1].identifier.endswith("_index")]
+    silent = [f"{group}.{each.identifier}" for group, each in numbers if not re.search(r"\d", each.description)]
+    assert silent == []
+
+
+def keys():
+    return [
+        pytest.param(table, item, id=key_name(table, item))
+        for table in all_tables()
+        for item in key_fields(table)
+        if "number" in expected(item)
+    ]
+
+
+@pytest.mark.parametrize("table, item", keys())
+def test_the_tooltip_of_a_key_gives_a_value_that_it_takes(table, item):
+    value, rule = typical_value(table, item), key_of(item)
+    if item.name == "values":  # they are of whatever kind the key is that varies
+        return
+    assert value is not None
+
+    def flat(each):
+        return [inner for part in each for inner in flat(part)] if isinstance(each, list | tuple) else [each]
+
+    assert all(rule.holds(each) for each in flat(value))
+
+
+def test_no_typical_value_is_of_a_key_that_is_not_there():
+    names = {
+        name for table in all_tables() for item in key_fields(table) for name in (key_name(table, item), item.name)
+    }
+    assert set(TYPICAL) - names == set()
