@@ -25,7 +25,7 @@ from ..core.scenario import (
 from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
-from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m
+from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
 from ..core.structure.model import Model
 from .arguments import naming
 
@@ -89,8 +89,14 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
 
 
 def _made_elastic(scenario: Scenario) -> Scenario:
-    """Return a scenario with elastic connections: where they break by a force, as stiff as reinforced concrete."""
-    changes = {"stiffness": "elastic"}
+    """Return a scenario with elastic connections, where they break by a force as stiff as the others.
+
+    Where all do, they are as stiff as reinforced concrete.
+    """
+    between = tuple(
+        replace(each, breaking_force_n=None, breaking_force_kgf=None) for each in scenario.connections.between
+    )
+    changes = {"stiffness": "elastic", "between": between}
     if scenario.connections.material is None and scenario.connections.method == "face":
         changes |= {"breaking_force_n": None, "breaking_force_kgf": None, "material": MATERIAL_OF_LARGE_MODELS}
     return replace(scenario, connections=replace(scenario.connections, **changes))
@@ -182,6 +188,13 @@ def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
         yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
     elif broken:
         yield "", "they break before anything is done to it, and the bridge may fall by itself"
+    used = used_of_forces(model, rest, scenario.joints)
+    if by_force := np.count_nonzero(~np.isnan(used)):
+        yield (
+            "of breaking forces",
+            f"{np.nanmax(used):.1%} used at most, {np.nanmean(used):.1%} in the mean of {by_force}",
+        )
+        yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
     if loose:
         yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
         yield "", "would hold them: [[connections.between]] with type GENERIC"

@@ -11,15 +11,15 @@ from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_fac
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionSettings, Geometry
+from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionBetween, ConnectionSettings, Geometry
 from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
 
 
-def facts(scenario):
+def facts(scenario, **options):
     """What is said of a scenario, by name."""
-    lines = [line for line in scenario_facts(scenario) if line.startswith("  ")]
+    lines = [line for line in scenario_facts(scenario, **options) if line.startswith("  ")]
     return {line[2:26].strip(): " ".join(line[26:].split()) for line in lines}
 
 
@@ -141,6 +141,30 @@ def test_how_a_bridge_that_breaks_by_a_force_would_stand_is_said_too(tmp_path, c
         found, of, total = line.split()[1:4]
         # Nothing bears less than one newton, and nothing a million tonnes.
         assert of == "of" and int(found) == (int(total) if count is None else count)
+
+
+def test_how_much_of_one_breaking_force_the_weight_uses_is_said(tmp_path):
+    """A wall of 1 m × 1 m × 4 m on the ground, whose weight its foundation bears along one axis, and nothing else."""
+    (tmp_path / "wall.stl").write_bytes(exported(box((1, 1, 4), (0, 0, 2)), ".stl"))
+    wall = Geometry(name="wall", file=str(tmp_path / "wall.stl"), density_kg_m3=2400.0)
+    weight_n = 2400.0 * 4.0 * 9.80665
+    for between, told in (
+        ((), "47.1% used at most, 47.1% in the mean of 1"),
+        ((ConnectionBetween(members=("wall", "ground"), breaking_force_n=weight_n / 0.8),), "80.0% used at most"),
+        ((ConnectionBetween(members=("wall", "ground"), material="steel"),), None),
+    ):
+        connections = ConnectionSettings(type="FIXED", method="face", breaking_force_n=200e3, between=between)
+        standing = replace(
+            I235,
+            bridge=None,
+            geometry=(wall,),
+            ball=None,
+            fracture=replace(I235.fracture, shards=1),
+            connections=connections,
+        )
+        found = facts(standing, stand=True)
+        assert found["overloaded"].startswith("0 of 1 ")
+        assert found.get("of breaking forces", "").startswith(told) if told else "of breaking forces" not in found
 
 
 def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys):

@@ -32,15 +32,22 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
 
     A breaking force is compared with each direction by itself, moments included, as Bullet does.
     """
-    largest = abs(rest.loads).max(axis=0, initial=0.0)
-    found = np.zeros(len(model.connections), bool)
+    found = used_of_forces(model, rest, joints) >= 1.0
     for row, joint in enumerate(joints):
         is_one = model.joint_of_connection == row
-        if joint.breaking_force_n is not None:
-            found |= is_one & (largest >= joint.breaking_force_n)
         if joint.strength is not None:
             found[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
     return found
+
+
+def used_of_forces(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
+    """Return which part of its breaking force each connection (m,) of a model at rest bears; nan where it has none.
+
+    It is that of the direction that bears most: Bullet compares forces along three axes, and moments about them in N·m,
+    one by one with the same number.
+    """
+    forces = np.array([np.nan if each.breaking_force_n is None else each.breaking_force_n for each in joints])
+    return abs(rest.loads).max(axis=0, initial=0.0) / forces[model.joint_of_connection]
 
 
 def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
