@@ -90,12 +90,35 @@ class _Part:
         self.first, self.second = first, second
         self._system: BlockSystem | None = None
 
+    def is_of(self, bodies: np.ndarray, connections: np.ndarray) -> bool:
+        """Whether these are its bodies and connections."""
+        return np.array_equal(bodies, self.bodies) and np.array_equal(connections, self.connections)
+
     @property
     def system(self) -> BlockSystem:
         """The equations, laid out when they are first needed."""
         if self._system is None:
             self._system = BlockSystem(len(self.bodies), self.first, self.second)
         return self._system
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Seen:
+    """Where connections (r,), in order, were when bodies were there last."""
+
+    positions_m: np.ndarray
+    rotations: np.ndarray
+    rows: np.ndarray
+    places: JointPlaces
+    deformations: np.ndarray
+
+    def has(self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> bool:
+        """Whether these connections were among them, with bodies at these places."""
+        return (
+            np.array_equal(positions_m, self.positions_m)
+            and np.array_equal(rotations, self.rotations)
+            and bool(np.isin(rows, self.rows, assume_unique=True).all())
+        )
 
 
 class ElasticStructure:
@@ -145,6 +168,9 @@ class ElasticStructure:
         self._moves = masses_kg > 0.0
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
+        self._seen: _Seen | None = None
+        self._parts: list[_Part] = []
+        self._part_of_body = np.full(self._count, -1)
         self._partition()
 
     def step(self, states: BodyStates, intact: np.ndarray, substep_s: float) -> ElasticStep:
@@ -156,11 +182,10 @@ class ElasticStructure:
         awake = self._awake_parts(states)
         acting = self._acting(awake)
         frames = self._frames.only(acting)
-        places = joint_places(frames, states.positions_m, states.rotations)
+        places, deformations = self._deformed(acting, states.positions_m, states.rotations)
         cracks = self._acting_cracks(states, awake)
         self._refresh(states, awake, acting, places, cracks)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
-        deformations = places.deformations()
         first, second = (states.velocities.take(each, axis=1) for each in (frames.first, frames.second))
         rates = rows.rates(first, second)
         implicit = substep_s * (substep_s + self._damping_s)
@@ -198,8 +223,7 @@ class ElasticStructure:
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Return the energy (m,) in connections with bodies at positions (3, n) in rotations (3, 3, n)."""
         rows = np.flatnonzero(self._intact)
-        deformations = joint_places(self._frames.only(rows), positions_m, rotations).deformations()
-        deformations -= self._offsets[:, rows]
+        deformations = self._deformed(rows, positions_m, rotations)[1] - self._offsets[:, rows]
         amounts = stressed(self._stiffness[..., rows], deformations)
         stored = np.zeros(len(self._frames))
         for amount, deformation in zip(amounts, deformations, strict=True):
@@ -223,6 +247,19 @@ class ElasticStructure:
         if self._has_broken:
             self._partition()
 
+    def _deformed(
+        self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray
+    ) -> tuple[JointPlaces, np.ndarray]:
+        """Places and deformations (6, r) of connections (r,), in order; anew only where bodies have moved since."""
+        seen = self._seen
+        if seen is None or not seen.has(rows, positions_m, rotations):
+            places = joint_places(self._frames.only(rows), positions_m, rotations)
+            self._seen = seen = _Seen(positions_m, rotations, rows, places, places.deformations())
+        if np.array_equal(rows, seen.rows):
+            return seen.places, seen.deformations
+        chosen = np.searchsorted(seen.rows, rows)
+        return seen.places.only(chosen), seen.deformations[:, chosen]
+
     def _partition(self) -> None:
         """Find the parts, and leave out bodies that never move."""
         holds = self._intact.copy()
@@ -233,24 +270,23 @@ class ElasticStructure:
         label = connected_parts(self._moves, first, second)
         part_of_connection = np.where(self._moves[first], label[first], label[second])
         numbers = np.unique(part_of_connection)
+        parts, numbers_before = self._parts, self._part_of_body
         self._part_of_body = np.full(self._count, -1)
         self.part_of_connection = np.full(len(self._frames), -1)
-        self._parts: list[_Part] = []
+        self._parts = []
         within = np.full(self._count, -1)
-        for number, which in enumerate(numbers.tolist()):
-            bodies = np.flatnonzero(label == which)
-            connections = kept[part_of_connection == which]
+        of_bodies, of_connections = (_grouped(each, numbers) for each in (label, part_of_connection))
+        for number, (bodies, rows) in enumerate(zip(of_bodies, of_connections, strict=True)):
+            connections = kept[rows]
             within[bodies] = np.arange(len(bodies))
             self._part_of_body[bodies] = number
             self.part_of_connection[connections] = number
-            self._parts.append(
-                _Part(
-                    bodies,
-                    connections,
-                    within[self._frames.first[connections]],
-                    within[self._frames.second[connections]],
-                )
-            )
+            before = numbers_before[bodies[0]]
+            if before >= 0 and parts[before].is_of(bodies, connections):
+                self._parts.append(parts[before])  # with its equations laid out
+            else:
+                ends = within[self._frames.first[connections]], within[self._frames.second[connections]]
+                self._parts.append(_Part(bodies, connections, *ends))
             within[bodies] = -1
         # One more, the last, for what belongs to no part: -1.
         self._stale = np.append(np.ones(len(self._parts), bool), False)
@@ -342,6 +378,13 @@ def summed_on_bodies(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], 
     """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
     bodies = np.concatenate((frames.first, frames.second))
     return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+
+
+def _grouped(labels: np.ndarray, numbers: np.ndarray) -> list[np.ndarray]:
+    """Where labels (n,) have each of some ascending numbers."""
+    order = np.argsort(labels, kind="stable")
+    starts, ends = (np.searchsorted(labels[order], numbers, side) for side in ("left", "right"))
+    return [order[start:end] for start, end in zip(starts.tolist(), ends.tolist(), strict=True)]
 
 
 def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
