@@ -2,7 +2,6 @@
 
 import argparse
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from ..core.scenario import (
 from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
+from ..core.stages.made_elastic import made_elastic
 from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
 from ..core.structure.model import Model
 from .arguments import naming
@@ -63,7 +63,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
 
     With `stand` they say how a bridge with rigid connections would stand if these were elastic.
     """
-    as_elastic = _made_elastic(scenario) if stand else scenario  # refused before anything is said
+    as_elastic = made_elastic(scenario) if stand else scenario  # refused before anything is said
     yield scenario.title
     prepared = prepared_members(scenario)
     if scenario.bridge:
@@ -86,20 +86,6 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Sequence", _sequence_facts(scenario))
     if scenario.charges:
         yield from _section("Charges", _charge_facts(scenario))
-
-
-def _made_elastic(scenario: Scenario) -> Scenario:
-    """Return a scenario with elastic connections, where they break by a force as stiff as the others.
-
-    Where all do, they are as stiff as reinforced concrete.
-    """
-    between = tuple(
-        replace(each, breaking_force_n=None, breaking_force_kgf=None) for each in scenario.connections.between
-    )
-    changes = {"stiffness": "elastic", "between": between}
-    if scenario.connections.material is None and scenario.connections.method == "face":
-        changes |= {"breaking_force_n": None, "breaking_force_kgf": None, "material": MATERIAL_OF_LARGE_MODELS}
-    return replace(scenario, connections=replace(scenario.connections, **changes))
 
 
 def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:

@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from ..core.errors import BlastError, ClusterError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
 from ..core.signals import Interrupted, interrupt_by_system
-from . import charge, charts, check, report, run, search, study
+from . import charge, charts, check, report, run, search, stages, study
 from .console import StandardStream
 from .process_end import end_process
 
@@ -19,7 +19,7 @@ WRONG_INPUT = 2
 SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
-COMMANDS = (check, run, study, search, report, charge, charts)
+COMMANDS = (check, run, stages, study, search, report, charge, charts)
 
 
 class UsageError(DemolitionError):

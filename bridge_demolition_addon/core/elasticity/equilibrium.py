@@ -59,6 +59,7 @@ def equilibrium(
     positions_m: np.ndarray,
     rotations: np.ndarray,
     gravity_m_s2: np.ndarray,
+    loads: np.ndarray | None = None,
 ) -> Equilibrium:
     """Return where bodies rest that hang together by elastic connections, which bear no load where they are now.
 
@@ -73,6 +74,8 @@ def equilibrium(
     positions_m, rotations : (3, n) and (3, 3, n) float
         Where they are now.
     gravity_m_s2 : (3,) float
+    loads : (6, n) float, optional
+        Further forces on the bodies, N, and moments about their centres, N·m.
     """
     moves = masses_kg > 0.0
     label = connected_parts(moves, frames.first, frames.second)
@@ -85,7 +88,7 @@ def equilibrium(
     for part in supported[supported >= 0].tolist():
         bodies, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
         structure = frames.only(rows), stiffness[..., rows], masses_kg, inertias_kg_m2
-        rest = _part_at_rest(bodies, *structure, positions_m, rotations, gravity_m_s2)
+        rest = _part_at_rest(bodies, *structure, positions_m, rotations, gravity_m_s2, loads)
         if rest:
             held[bodies] = True
             places, turned, frequency = rest
@@ -104,6 +107,7 @@ def _part_at_rest(
     positions_m: np.ndarray,
     rotations: np.ndarray,
     gravity_m_s2: np.ndarray,
+    loads: np.ndarray | None,
 ) -> tuple[np.ndarray, np.ndarray, float] | None:
     """Where bodies (b,) that hang together by connections rest, and their first frequency; None for a mechanism."""
     count = len(masses_kg)
@@ -112,6 +116,8 @@ def _part_at_rest(
     system = BlockSystem(len(bodies), unknown[frames.first], unknown[frames.second])
     weights = np.zeros((6, count))
     weights[:3, bodies] = masses_kg[bodies] * gravity_m_s2[:, None]
+    if loads is not None:
+        weights[:, bodies] += loads[:, bodies]
     unloaded = joint_places(frames, positions_m, rotations).deformations()
     slack = 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
     for _ in range(_SOLUTIONS):

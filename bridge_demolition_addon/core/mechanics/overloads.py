@@ -140,18 +140,40 @@ class Overloads:
 
         Parameters are those of `among`.
         """
-        strength = strength_at(self._strength, rows)
-        used = utilisation(loads.in_sections(rows, axes), sections_at(self._sections, rows), strength) / left[rows]
-        is_over = used > 1.0
-        rows, alone, axes = rows[is_over], used[is_over], axes[is_over]
+        alone = self.alone(rows, loads, axes, left)
+        is_over = alone > 1.0
+        rows, alone, axes = rows[is_over], alone[is_over], axes[is_over]
         if not len(rows):
             return rows, alone
-        if self._member_sections is None:
-            used = self._in_cuts(rows, loads, axes, intact) / left[rows]
-        else:
-            used = self._in_members(rows, loads, axes, intact, parts) / left[rows]
-            used = np.maximum(used, alone / _MOST_REDISTRIBUTED)
+        used = self.together(rows, alone, loads, axes, intact, left, parts)
         return rows[used > 1.0], used[used > 1.0]
+
+    def alone(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """Utilisations (r,) of some connections, each by itself; parameters are those of `among`."""
+        return self.of_forces(rows, loads.in_sections(rows, axes)) / left[rows]
+
+    def of_forces(self, rows: np.ndarray, forces: SectionForces) -> np.ndarray:
+        """Utilisations (r,), of whole strengths, of some connections by forces in their axes."""
+        return utilisation(forces, sections_at(self._sections, rows), strength_at(self._strength, rows))
+
+    def together(
+        self,
+        rows: np.ndarray,
+        alone: np.ndarray,
+        loads: ConnectionLoads,
+        axes: np.ndarray,
+        intact: np.ndarray,
+        left: np.ndarray,
+        parts: np.ndarray | None,
+    ) -> np.ndarray:
+        """Utilisations (r,) of the sections of some connections, whose own (r,) are known.
+
+        Parameters are those of `among`.
+        """
+        if self._member_sections is None:
+            return self._in_cuts(rows, loads, axes, intact) / left[rows]
+        used = self._in_members(rows, loads, axes, intact, parts) / left[rows]
+        return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
     def _in_cuts(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, intact: np.ndarray) -> np.ndarray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""

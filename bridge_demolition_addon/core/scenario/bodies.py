@@ -60,3 +60,28 @@ class ShardSettings(Table):
     def _check_together(self) -> None:
         if self.start_deactivated and not self.use_deactivation:
             raise self.unexpected("start_deactivated", "false where shards.use_deactivation is false")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Equipment(Table):
+    """A machine that stands on the bridge, such as an excavator. `bda stages` counts its weight on the shards under it;
+    a run does not have it."""
+
+    table: ClassVar[str] = "equipment"
+
+    name: str = key("What it is called.")
+    mass_kg: float = key("Mass: a crawler excavator has 20 000 to 40 000 kg.", unit="kg", above=0)
+    place_m: tuple[float, float] = key("Middle of what it stands on: x, y.", unit="m")
+    footprint_m: tuple[float, float] = key(
+        "Length along the road and width across it of what it stands on: 4 m × 3 m of a crawler.", unit="m", above=0
+    )
+    from_s: float = key("Since when it stands there.", default=0.0, unit="s", at_least=0)
+    until_s: float | None = key("When it leaves; by default never.", default=None, unit="s", above=0)
+
+    def stands_at(self, time_s: float) -> bool:
+        """Whether it stands there from a time on."""
+        return self.from_s <= time_s and (self.until_s is None or time_s < self.until_s)
+
+    def _check_together(self) -> None:
+        if self.until_s is not None and not self.until_s > self.from_s:
+            raise self.unexpected("until_s", f"more than equipment.from_s, {self.from_s:g} (s)")

@@ -11,7 +11,7 @@ from ..mechanics.materials import Material, check_materials
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
 from ..timing.timeline import Timeline
 from .ball import Ball, BallHit
-from .bodies import Ground, ShardSettings, Support
+from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
 from .connections import ConnectionSettings
 from .fracture import FractureSettings
@@ -58,6 +58,7 @@ class Scenario(Table):
     exclusion: Exclusion | None = None
     site: Site | None = None
     neighbours: tuple[Neighbour, ...] = ()
+    equipment: tuple[Equipment, ...] = ()
 
     @property
     def timeline(self) -> Timeline:

@@ -127,12 +127,24 @@ def sentences(search: Search, answer: Answer, reason: str) -> list[str]:
             told.append("That is outside the range in which trials were made: it rests on the shape of the curve.")
     else:
         told.append("The trials set no limit yet: make more of them.")
+    if farther := _end_in_the_way(search, answer):
+        told.append(f"The median is at the end of the range or beyond it: move search.{farther}.")
     _, low, high = answer.without_model
     told.append(
         f"Without a model of how the probability rises, the median is {low:.4g} to {high:.4g}{unit} with "
         f"{settings.confidence:.4g} probability."
     )
     return told
+
+
+def _end_in_the_way(search: Search, answer: Answer) -> str | None:
+    """Which end of the range keeps trials away from the median; None where it is well within."""
+    low, high = search.scale.ends
+    level = search.scale.level(answer.median)
+    margin = 0.02 * (high - low)
+    if low + margin < level < high - margin:
+        return None
+    return "lowest" if (level <= low + margin) != search.scale.is_falling else "highest"
 
 
 def _advice(search: Search, reason: str) -> str:

@@ -52,18 +52,40 @@ def used_of_forces(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> 
 
 def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
     """Return which connections (r,) with a strength would break (k,) in a simulation, before what breaks there."""
-    connections, count = model.connections, len(model.connections)
-    moves = np.append(~model.fixed, False)  # the ground, at index -1
-    pairs = connections.pairs % len(moves)
-    places = np.vstack((model.centres_m, np.zeros(3)))
-    faces = connections.normals, connections.areas, model.second_moments_m4
-    kinds = kinds_of(np.append(model.member_of_shard, -1)[pairs])
-    sections = MemberSections(pairs, connections.points, *faces, places, moves, kinds, model.thicknesses_m())
-    loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, connections.points)
-    axes = section_axes(connections.normals[rows])
-    whole, together = np.ones(count), np.zeros(count, int)
-    judged = Overloads(pairs, *faces, moves, strength, sections)
+    loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
+    axes = section_axes(model.connections.normals[rows])
+    whole, together = np.ones(len(model.connections)), np.zeros(len(model.connections), int)
+    judged = overloads_of(model, strength, member_sections_of(model))
     return judged.overloaded(rows, loads, axes, whole > 0.0, whole, together)[0]
+
+
+def member_sections_of(model: Model) -> MemberSections:
+    """Return the sections across the members of a model."""
+    connections, moves = model.connections, _moves(model)
+    pairs = connections.pairs % len(moves)
+    return MemberSections(
+        pairs,
+        connections.points,
+        connections.normals,
+        connections.areas,
+        model.second_moments_m4,
+        np.vstack((model.centres_m, np.zeros(3))),
+        moves,
+        kinds_of(np.append(model.member_of_shard, -1)[pairs]),
+        model.thicknesses_m(),
+    )
+
+
+def overloads_of(model: Model, strength: Strength, sections: MemberSections) -> Overloads:
+    """Return what judges the connections of a model by a strength."""
+    connections, moves = model.connections, _moves(model)
+    faces = connections.normals, connections.areas, model.second_moments_m4
+    return Overloads(connections.pairs % len(moves), *faces, moves, strength, sections)
+
+
+def _moves(model: Model) -> np.ndarray:
+    """Whether each shard moves, and the ground, at index -1, which does not."""
+    return np.append(~model.fixed, False)
 
 
 def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
@@ -71,12 +93,21 @@ def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
 
     Springs in motions that are free do not count.
     """
-    held = np.array([[motion not in joint.free for motion in MOTIONS] for joint in joints]).T[
-        :, model.joint_of_connection
-    ]
     masses = np.where(model.fixed, 0.0, model.masses_kg)
+    held = held_motions(model, joints)
+    return at_rest(model.connections, model.stiffness, masses, inertias_of(model), model.centres_m, held)
+
+
+def held_motions(model: Model, joints: Sequence[Joint]) -> np.ndarray:
+    """Return whether the connections of a model hold shifts along and turns about the axes of the world, (6, m)."""
+    held = np.array([[motion not in joint.free for motion in MOTIONS] for joint in joints]).T
+    return held[:, model.joint_of_connection]
+
+
+def inertias_of(model: Model) -> np.ndarray:
+    """Return the moments of inertia (n, 3) of the shards of a model; 0 for those that never move."""
     inertias = np.array([box_inertia(np.ptp(shard.vertices, axis=0)) for shard in model.shards])
-    return at_rest(model.connections, model.stiffness, masses, inertias * masses[:, None], model.centres_m, held)
+    return inertias * np.where(model.fixed, 0.0, model.masses_kg)[:, None]
 
 
 def box_inertia(size_m: np.ndarray) -> np.ndarray:
@@ -93,6 +124,7 @@ def at_rest(
     centres_m: np.ndarray,
     held: np.ndarray | None = None,
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
+    loads: np.ndarray | None = None,
 ) -> Equilibrium:
     """Return where bodies rest under their own weight.
 
@@ -106,6 +138,8 @@ def at_rest(
     held : (6, m) bool, optional
         Whether connections hold shifts along and turns about the axes of the world; all by default.
     gravity_m_s2 : three float
+    loads : (6, n) float, optional
+        Further forces on the shards, N, and moments about their centres, N·m.
 
     Returns
     -------
@@ -129,4 +163,5 @@ def at_rest(
         places.T,
         np.repeat(np.eye(3)[:, :, None], len(places), axis=2),
         np.array(gravity_m_s2),
+        None if loads is None else np.column_stack((loads, np.zeros(6))),
     )

@@ -24,8 +24,8 @@ from ...scene.as_run import time_settings
 from .prop import USE, is_written_out, shown_tables, vector_length
 from .values import inner_of, list_of, scenario_of, show_inner
 
-_SITE = ("zones", "exclusion", "site", "neighbours")
-"""What only reports read of a scenario."""
+_SITE = ("zones", "exclusion", "site", "neighbours", "equipment")
+"""What only reports and stages read of a scenario."""
 
 _AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", *_SITE)
 """What a run takes of a scenario as it is shown when it begins."""
