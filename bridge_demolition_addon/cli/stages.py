@@ -49,7 +49,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Work out the stages, write their tables and print what they say."""
-    scenario = made_elastic(read_scenario(arguments.scenario))
+    scenario = read_scenario(arguments.scenario)
     output: Path = arguments.output
     paths = [output / name for name in (STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE)]
     if not arguments.overwrite and (there := [path for path in paths if path.exists()]):
@@ -57,7 +57,7 @@ def execute(arguments: argparse.Namespace) -> None:
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with naming(arguments.scenario):
-            model = checked_model(scenario)
+            model = checked_model(made_elastic(scenario))
             bridge = StandingBridge(model, scenario.joints)
             stages = stages_of(scenario, bridge, partial(progress.part, text="stages"))
             members = criticality(bridge, partial(progress.part, text="members taken away"))
@@ -91,8 +91,7 @@ def _print(
                 f"  used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
                 f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
             )
-        factor = stage.collapse_factor
-        print(f"  comes down at {f'{factor:.2f} times' if math.isfinite(factor) else 'more than 64 times'} its load")
+        print(f"  {_factor_in_words(stage.collapse_factor)}")
     print()
     falls = [each for each in members if each.falls_kg]
     for each in sorted(falls, key=lambda one: -one.falls_kg):
@@ -102,3 +101,9 @@ def _print(
     print()
     for path in paths:
         print(path)
+
+
+def _factor_in_words(factor: float) -> str:
+    if math.isnan(factor):
+        return "no connection to a support holds anything"
+    return f"comes down at {f'{factor:.2f} times' if math.isfinite(factor) else 'more than 64 times'} its load"

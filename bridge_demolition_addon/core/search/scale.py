@@ -9,6 +9,9 @@ from .settings import SearchSettings
 
 _LARGEST_EXPONENT = 700.0
 
+_DIGITS = 9
+"""Of the values that are tried: what functions of different libraries round otherwise is not among them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Scale:
@@ -57,6 +60,7 @@ class Scale:
         value = self.value(level)
         if settings.step is not None and math.isfinite(value):
             value = round(value / settings.step) * settings.step
+        value = float(f"{value:.{_DIGITS}g}")
         return min(max(value, settings.lowest), settings.highest)
 
     def rounded(self, level: float) -> float:

@@ -74,7 +74,7 @@ class StandingBridge:
     model : Model
         With elastic connections.
     joints : sequence of Joint
-        What its connections have in common.
+        What its connections have in common, and what breaks them; a force by itself where that is what does.
     """
 
     def __init__(self, model: Model, joints: Sequence[Joint]):
@@ -139,7 +139,12 @@ class StandingBridge:
         return first.held
 
     def collapse_factor(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray) -> float:
-        """Return at how many times its load it begins to come down, within 1 %; ∞ where it bears 64 times its load."""
+        """Return at how many times its load it begins to come down, within 1 %.
+
+        ∞ where it bears 64 times its load, nan where nothing is held.
+        """
+        if not self.rest(intact, left, loads).held.any():
+            return np.nan
         low, high = 0.0, 1.0
         while not self.comes_down(intact, left, loads, high).any():
             low, high = high, 2.0 * high

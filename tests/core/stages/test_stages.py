@@ -135,6 +135,12 @@ def test_what_nothing_holds_any_more_is_told(tmp_path):
     assert after.step.startswith("removal of beam")
 
 
+def test_a_bridge_whose_support_is_cut_off_has_no_factor(tmp_path):
+    cut = CUT.replace("2.5", "0.0")
+    (_, after), _ = staged(beam_file(tmp_path, 4.0, more=cut))
+    assert not after.standing.held.any() and np.isnan(after.collapse_factor)
+
+
 def test_a_member_that_holds_all_is_critical_and_one_that_hangs_on_it_is_not(tmp_path):
     scenario = read_scenario(beam_file(tmp_path, 4.0))
     found = criticality(StandingBridge(checked_model(scenario), scenario.joints), lambda done, total: None)
