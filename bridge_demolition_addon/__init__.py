@@ -19,6 +19,7 @@ def _interface() -> tuple:
     from .simulation import blender_events
     from .ui import registration, scene_settings
     from .ui.contours import decorator, view
+    from .ui.ground import decorator as ground_decorator
     from .ui.study import decorator as study_decorator
 
-    return (blender_events, scene_settings, view, registration, decorator, study_decorator)
+    return (blender_events, scene_settings, view, registration, decorator, ground_decorator, study_decorator)

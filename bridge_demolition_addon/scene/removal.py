@@ -8,6 +8,7 @@ from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import ends_of, loose_connections
+from .rendering.dust import remove_dust
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
 from .structural_changes import keep_changes
@@ -34,6 +35,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
         [field for body, field in force_objects(scene).items() if body in ours],
         bodies,
     )
+    remove_dust(scene)
     clear_surroundings(scene)
     remove_unused_materials()
     stop_animation(scene)

@@ -55,6 +55,14 @@ def time_step_at(scene: bpy.types.Scene, frame: int) -> TimeStep:
     return TimeStep(step.frames_per_second, step.frames_per_second_base, step.substeps_per_frame, scale)
 
 
+def simulated_time_s(scene: bpy.types.Scene, first_frame: int) -> float:
+    """Return the simulated time of the present frame, s; time leads to the first frame and to all after it."""
+    frames = range(first_frame, scene.frame_current + 1)
+    if not time_is_animated(scene):
+        return len(frames) * scene_time_step(scene).frame_s
+    return sum(time_step_at(scene, frame).frame_s for frame in frames)
+
+
 def _curve(scene: bpy.types.Scene) -> bpy.types.FCurve | None:
     """Return the curve of the scene's time scale, None where it is not animated."""
     animation = scene.animation_data

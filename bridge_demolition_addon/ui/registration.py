@@ -10,6 +10,8 @@ from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
 from .contours import ui as contour_ui
+from .ground import operator as ground_operator
+from .ground import ui as ground_ui
 from .recording import log_paths, run, session
 from .recording import operator as recording_operator
 from .recording import ui as recording_ui
@@ -25,9 +27,10 @@ from .study import ui as study_ui
 
 _OPERATORS = (
     *(scenario_operator, preset_menu, number_rows, user_meshes, table_list),
-    *(recording_operator, run, log_paths, blast_operator, contour_operator, results_operator, study_operator),
+    *(recording_operator, run, log_paths, blast_operator, contour_operator, ground_operator),
+    *(results_operator, study_operator),
 )
-_PANELS = (blast_ui, recording_ui, contour_ui, results_ui, study_ui)
+_PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, study_ui)
 """Below those of the scenario, in the order of the work."""
 
 
@@ -52,6 +55,7 @@ def unregister() -> None:
     """End a run, recording or study that goes on, and unregister all classes."""
     study_session.unregister()
     session.unregister()
+    ground_operator.unregister()
     for each in reversed(classes()):
         bpy.utils.unregister_class(each)
     preset_menu.unregister()

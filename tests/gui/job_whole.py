@@ -262,8 +262,7 @@ def choose_logs(person: Person, panels: Panels) -> Steps:
     yield from person.click("contours")
     yield 0.5
     person.expect("Contours is ticked", person.scene.bda.contours)
-    yield from person.click("contour_logarithmic")
-    person.expect("Logarithmic is ticked", person.scene.bda.contour_logarithmic)
+    person.expect("Logarithmic is ticked from the start", person.scene.bda.contour_logarithmic)
     yield from person.illustrate("post_processing", person.sidebar)
     person.expect_reports("nothing is reported")
 

@@ -104,6 +104,12 @@ def place(
             evaluated.matrix_world = Matrix.LocRotScale(Vector(positions_m[row]), rotation, body.scale)
 
 
+def put_back(scene: bpy.types.Scene) -> None:
+    """Have Blender evaluate bodies again that were placed: a simulation would begin where they are shown."""
+    for body in _bodies(scene):
+        body.update_tag()
+
+
 def unpaint(scene: bpy.types.Scene) -> None:
     """Show the bodies' own colours again."""
     for layer in scene.view_layers:

@@ -13,7 +13,7 @@ from ...core.errors import ContourError
 from ...core.results.arrays import Results
 from ...core.results.frames import Frame
 from ...scene.bodies import bodies_of
-from ...scene.rendering.body_colours import paint, place, show_colours, show_materials, unpaint
+from ...scene.rendering.body_colours import paint, place, put_back, show_colours, show_materials, unpaint
 from ..recording.recorder import Recording
 
 
@@ -32,6 +32,8 @@ class ContourDisplay:
         The recording of the scene that runs, or ran last; or None.
     is_live
         Whether it runs.
+    results_number
+        Which results these are: another number for all others.
     missing
         Why the results of the run of a file that was opened are not shown; empty where they are, or there was none.
     """
@@ -43,6 +45,8 @@ class ContourDisplay:
         self.recording: Recording | None = None
         self.is_live = False
         self.missing = ""
+        self.results_number = 0
+        self._results: Results | None = None
         self._loaded: ContourSeries | None = None
         self._recorded: ContourSeries | None = None
 
@@ -83,6 +87,7 @@ class ContourDisplay:
     def follow(self, recording: Recording) -> None:
         """Show a recording that begins, in place of what was recorded or loaded before."""
         self.recording, self.is_live = recording, True
+        self._let_results_go()
         self._loaded, self.missing = None, ""
 
     def use_results(self, results: Results) -> None:
@@ -101,6 +106,8 @@ class ContourDisplay:
                 f"results: none of their {len(names)} bodies is in scene {self.scene.name!r}; open the "
                 "scene that they were recorded in, or build it from the same scenario"
             )
+        self._let_results_go()
+        self._results = results
         self._loaded, self.missing = ContourSeries.of_results(results), ""
         self.refresh()
 
@@ -113,8 +120,22 @@ class ContourDisplay:
         """Let go of what was recorded or loaded."""
         if not self.is_live:
             self.recording = None
+        self._let_results_go()
         self._loaded = self._recorded = None
         self.missing = ""
+
+    @property
+    def results(self) -> Results | None:
+        """The results of what is shown, once it has ended; None where nothing was recorded."""
+        if self._results is None and self.recording and not self.is_live and self.recording.recorded_frames:
+            self._results = self.recording.results()
+        return self._results
+
+    def _let_results_go(self) -> None:
+        if self._loaded is not None:
+            put_back(self.scene)
+        self._results = None
+        self.results_number += 1
 
     @property
     def series(self) -> ContourSeries | None:

@@ -9,13 +9,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import blf
 import bpy
 import gpu
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 
+from ...core.blast.charges import Charge
 from ...core.blast.damage import THRESHOLDS, ring_radii
 from ...core.display.colour_bar import colour_bar
 from ...core.display.colour_scale import colours
@@ -24,17 +23,15 @@ from ...core.display.force_arrows import arrows, body_forces, connection_forces,
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
 from ...simulation.blender_events import contours_of
+from ..labels import FONT_PX, PANEL_COLOUR, TEXT_COLOUR, draw_rectangle, write, write_at
 from ..viewport import covered_px, draw_lines
 from . import view as contour_view
 
-_FONT, _FONT_PX = 0, 12.0
 _LINE_PX = 17.0
 _MARGIN_PX = 16.0
 _BAR_PX = (18.0, 240.0)
 _PANEL_PX = 172.0
 _BOTTOM_PX = 40.0
-_PANEL_COLOUR = (0.1, 0.1, 0.1, 0.8)
-_TEXT_COLOUR = (1.0, 1.0, 1.0, 1.0)
 _TICK_PX = 5.0
 _STEPS = 64
 _RING_POINTS = 128
@@ -194,28 +191,33 @@ def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, fram
     heading = [*filter(None, (bar.title, bar.subtitle)), bar.unit]
     layout = _BarLayout(_tools_width(context) + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
     left, foot, width, height = layout.bar
-    _draw_rectangle(*layout.panel, _PANEL_COLOUR)
+    draw_rectangle(*layout.panel, PANEL_COLOUR)
     _draw_gradient(left, foot, width, height, settings)
     tick = _TICK_PX * scale
     for share, text in zip(bar.tick_shares, bar.tick_texts, strict=True):
         y = foot + share * height
-        _draw_rectangle(left + width, y - 0.5, left + width + tick, y + 0.5, _TEXT_COLOUR)
-        _write(context, left + width + 2.0 * tick, y - 0.35 * _FONT_PX * scale, text)
+        draw_rectangle(left + width, y - 0.5, left + width + tick, y + 0.5, TEXT_COLOUR)
+        write(context, left + width + 2.0 * tick, y - 0.35 * FONT_PX * scale, text)
     for number, text in enumerate(reversed(heading)):
-        _write(context, left, layout.top + layout.margin + number * layout.line, text)
+        write(context, left, layout.top + layout.margin + number * layout.line, text)
     for number, text in enumerate((bar.time, bar.frame)):
-        _write(context, left, layout.bottom + layout.margin / 2.0 + number * layout.line, text)
+        write(context, left, layout.bottom + layout.margin / 2.0 + number * layout.line, text)
 
 
 def _draw_charges(context: bpy.types.Context) -> None:
     for charge in charges_of(context.scene):
-        _write_at(context, charge.place_m, f"{charge.name}: {charge.mass_kg:g} kg {charge.explosive}", dot=True)
+        write_at(context, charge.place_m, charge_text(charge), dot=_RING_COLOUR)
+
+
+def charge_text(charge: Charge) -> str:
+    """Return what a charge is: its name, mass and delay."""
+    return f"{charge.name}: {charge.mass_kg:g} kg {charge.explosive}, {charge.delay_ms:g} ms"
 
 
 def _draw_ring_labels(context: bpy.types.Context) -> None:
     damage = THRESHOLDS[int(context.scene.bda.ring_damage)].damage
     for lines, radius in ring_lines(context.scene):
-        _write_at(context, lines[0], f"{damage}: {radius:.1f} m")
+        write_at(context, lines[0], f"{damage}: {radius:.1f} m")
 
 
 def _draw_gradient(left: float, bottom: float, width: float, height: float, settings: ContourSettings) -> None:
@@ -228,39 +230,6 @@ def _draw_gradient(left: float, bottom: float, width: float, height: float, sett
     batch_for_shader(shader, "TRI_STRIP", content).draw(shader)
 
 
-def _draw_rectangle(left: float, bottom: float, right: float, top: float, colour: tuple) -> None:
-    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
-    corners = ((left, bottom), (right, bottom), (left, top), (right, top))
-    gpu.state.blend_set("ALPHA")
-    shader.bind()
-    shader.uniform_float("color", colour)
-    batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
-    gpu.state.blend_set("NONE")
-
-
-def _write(context: bpy.types.Context, x: float, y: float, text: str) -> None:
-    blf.size(_FONT, _FONT_PX * context.preferences.system.ui_scale)
-    blf.color(_FONT, *_TEXT_COLOUR)
-    blf.position(_FONT, round(x), round(y), 0.0)
-    blf.draw(_FONT, text)
-
-
-def _write_at(context: bpy.types.Context, place_m: tuple, text: str, dot: bool = False) -> None:
-    """Write a text beside a place in space, on a dark ground so that it is seen before any colour."""
-    where = location_3d_to_region_2d(context.region, context.region_data, place_m)
-    if where is None:
-        return
-    scale = context.preferences.system.ui_scale
-    blf.size(_FONT, _FONT_PX * scale)
-    width, height = blf.dimensions(_FONT, text)
-    edge = 4.0 * scale
-    x, y = min(where.x + 2.0 * edge, _right_end(context) - width - 2.0 * edge), where.y + 2.0 * edge
-    if dot:
-        _draw_rectangle(where.x - edge, where.y - edge, where.x + edge, where.y + edge, _RING_COLOUR)
-    _draw_rectangle(x - edge, y - edge, x + width + edge, y + height + edge, _PANEL_COLOUR)
-    _write(context, x, y, text)
-
-
 def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return starts[moves], forces[moves]
 
@@ -268,8 +237,3 @@ def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tup
 def _tools_width(context: bpy.types.Context) -> float:
     """Return how much of the view's left the toolbar covers, px."""
     return covered_px(context, "TOOLS")
-
-
-def _right_end(context: bpy.types.Context) -> float:
-    """Return where the sidebar begins to cover the view, px."""
-    return context.region.width - covered_px(context, "UI")

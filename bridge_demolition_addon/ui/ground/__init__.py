@@ -1,0 +1,1 @@
+"""What is drawn on the ground and in the air of the 3D view."""

@@ -1,0 +1,96 @@
+"""Areas on the ground: the plan of the bridge, its debris and its exclusion zone, as far as they are known by now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+import numpy as np
+from manifold3d import CrossSection
+
+from ...core.debris.exclusion import ExclusionZone, exclusion_zone
+from ...core.debris.footprint import footprint
+from ...core.display.ground_lines import planned_zone
+from ...core.geometry.plan_areas import united
+from ...core.geometry.vectors import transformed
+from ...core.results.arrays import Results
+from ...core.scenario import Exclusion
+from ...scene.bodies import Kind, bodies_of, kind_of, triangle_mesh
+from ...simulation.blender_events import contours_of
+
+_found: dict[str, tuple[tuple, Any]] = {}
+"""What was worked out last, and what for."""
+
+
+def forget() -> None:
+    """Let go of what was worked out."""
+    _found.clear()
+
+
+def results_of(scene: bpy.types.Scene) -> Results | None:
+    """Return the results of the last run of a scene, recorded or loaded; None before it ended, or where there are none.
+
+    They are those that are shown: a run that goes on has none yet.
+    """
+    contours = contours_of(scene)
+    return None if contours.is_live else contours.results
+
+
+def plan_of(scene: bpy.types.Scene) -> CrossSection | None:
+    """Return what the bridge covers in plan at first; None where there is none."""
+    results = results_of(scene)
+    if results is not None and len(results.inventory.of_kind("shard")):
+        return _kept("plan", _key(scene), lambda: footprint(results, results.inventory.of_kind("shard"), 0))
+    world = scene.rigidbody_world
+    if not world or not world.collection:
+        return None
+    shards = [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
+    key = (scene.session_uid, len(shards), scene.bda.built_scenario)
+    return _kept("plan", key, lambda: _plan_as_built(shards)) if shards else None
+
+
+def debris_of(scene: bpy.types.Scene) -> CrossSection | None:
+    """Return what shards cover in plan when the last run ends; None without one."""
+    results = results_of(scene)
+    if results is None or not len(shards := results.inventory.of_kind("shard")):
+        return None
+    return _kept("debris", _key(scene), lambda: footprint(results, shards, len(results.frames) - 1))
+
+
+def zone_of(scene: bpy.types.Scene, settings: Exclusion) -> ExclusionZone | None:
+    """Return the exclusion zone of the last run, or as it is planned where there is none; None without a bridge."""
+    results, plan = results_of(scene), plan_of(scene)
+    if plan is None:
+        return None
+    if results is None or not len(results.inventory.of_kind("shard")):
+        return planned_zone(plan, settings)
+    return _kept("zone", (*_key(scene), settings), lambda: exclusion_zone(results, settings))
+
+
+def way_of_ball(scene: bpy.types.Scene) -> list[np.ndarray]:
+    """Return the places (k, 3) float, m, that each ball of the last run came through."""
+    results = results_of(scene)
+    if results is None:
+        return []
+    return [np.asarray(results.frames.positions_m[:, ball], float) for ball in results.inventory.of_kind("ball")]
+
+
+def _key(scene: bpy.types.Scene) -> tuple[int, int]:
+    return scene.session_uid, contours_of(scene).results_number
+
+
+def _plan_as_built(shards: list[bpy.types.Object]) -> CrossSection:
+    plans = []
+    for shard in shards:
+        matrix = np.array(shard.matrix_basis, float)
+        corners = transformed(matrix[:3, :3], triangle_mesh(shard.data).vertices) + matrix[:3, 3]
+        plans.append(CrossSection.hull_points(corners[:, :2]))
+    return united(plans)
+
+
+def _kept(name: str, key: tuple, work_out: Callable[[], Any]) -> Any:
+    kept = _found.get(name)
+    if kept is None or kept[0] != key:
+        kept = _found[name] = (key, work_out())
+    return kept[1]

@@ -1,0 +1,196 @@
+"""Drawing on the ground and in the air of the 3D view: zones, distances, neighbours, flashes, the chosen shard.
+
+Nothing here changes any data, and nothing raises: the sidebar says what cannot be drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from manifold3d import CrossSection
+
+from ...core.display.ground_lines import cross_lines, distance_rings, flash_lines, flash_share, way_lines, zone_lines
+from ...core.display.study_map import outline_lines
+from ...core.geometry.plan_areas import outlines
+from ...scene.blast.charges import charges_of
+from ...scene.blast.settings import blast_of
+from ...scene.bodies import Kind, kind_of
+from ...scene.demolition import FIRST_STEP_FRAME
+from ...scene.time_scale import simulated_time_s
+from ..labels import write_at
+from ..scenario.built import shown_site
+from ..viewport import draw_lines
+from . import areas
+from .prop import DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
+
+_COLOURS = {
+    EXCLUSION: (1.0, 0.15, 0.1, 1.0),
+    DEBRIS: (1.0, 0.65, 0.2, 1.0),
+    RINGS: (0.9, 0.9, 0.9, 0.6),
+    NEIGHBOURS: (0.3, 0.7, 1.0, 1.0),
+    WAY: (1.0, 1.0, 0.3, 0.9),
+    NAMES: (1.0, 1.0, 1.0, 1.0),
+}
+_ZONE_COLOURS = {
+    "road": (0.85, 0.85, 0.9, 1.0),
+    "railway": (0.8, 0.5, 1.0, 1.0),
+    "power line": (1.0, 0.9, 0.2, 1.0),
+    "pipeline": (1.0, 0.6, 0.1, 1.0),
+    "building": (1.0, 0.45, 0.6, 1.0),
+    "water": (0.25, 0.6, 1.0, 1.0),
+    "other": (0.6, 0.9, 0.6, 1.0),
+}
+_FLASH = (1.0, 0.9, 0.5)
+_FLASH_M = 3.0
+_NEIGHBOUR_M = 1.0
+_WIDTHS_PX = {EXCLUSION: 3.0, WAY: 2.5, NAMES: 2.5, FLASHES: 3.0}
+_WIDTH_PX = 2.0
+
+_draw_handles: list[object] = []
+_trouble: dict[str, str] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """Lines (2 k, 3) float, m, with their colour and width, and a text at a place, which may be empty."""
+
+    lines: np.ndarray
+    colour: tuple[float, float, float, float]
+    width_px: float = _WIDTH_PX
+    text: str = ""
+    place_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def register() -> None:
+    """Draw from now on; what is drawn depends on the settings."""
+    space = bpy.types.SpaceView3D
+    for draw, when in ((_draw_lines, "POST_VIEW"), (_draw_texts, "POST_PIXEL")):
+        _draw_handles.append(space.draw_handler_add(_without_raising(when, draw), (), "WINDOW", when))
+
+
+def unregister() -> None:
+    """Stop drawing."""
+    while _draw_handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_draw_handles.pop(), "WINDOW")
+    _trouble.clear()
+    areas.forget()
+
+
+def trouble() -> str:
+    """Return why something could not be drawn the last time; empty where everything was."""
+    return next(iter(_trouble.values()), "")
+
+
+def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    """Give all that is drawn of a scene, as its settings ask for it."""
+    for name, parts in _PARTS.items():
+        if name in scene.bda.overlays:
+            yield from parts(scene, layer)
+
+
+def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    for zone in shown_site(scene.bda)["zones"]:
+        lines = zone_lines(zone)
+        yield Drawn(lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({zone.kind})", place_m=tuple(lines[0]))
+
+
+def _neighbours(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    for each in shown_site(scene.bda)["neighbours"]:
+        yield Drawn(cross_lines(each.place_m, _NEIGHBOUR_M), _COLOURS[NEIGHBOURS], text=each.name, place_m=each.place_m)
+
+
+def _exclusion(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    settings = shown_site(scene.bda)["exclusion"]
+    zone = areas.zone_of(scene, settings) if settings else None
+    if zone is not None:
+        known = "of the last run" if areas.results_of(scene) is not None else "as planned, without debris"
+        yield _outlined(zone.whole, EXCLUSION, f"Exclusion zone {known}")
+
+
+def _debris(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    if (area := areas.debris_of(scene)) is not None:
+        yield _outlined(area, DEBRIS, f"Debris: {area.area():.0f} m²")
+
+
+def _rings(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    plan = areas.plan_of(scene)
+    if plan is None:
+        return
+    for distance, lines in distance_rings(plan, scene.bda.distance_spacing_m, scene.bda.distance_count):
+        yield Drawn(lines, _COLOURS[RINGS], 1.0, f"{distance:g} m", tuple(lines[int(lines[:, 0].argmax())]))
+
+
+def _way(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    for places in areas.way_of_ball(scene):
+        yield Drawn(way_lines(places), _COLOURS[WAY], _WIDTHS_PX[WAY])
+
+
+def _flashes(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    settings = blast_of(scene)
+    if not settings.explosion:
+        return
+    now_s = simulated_time_s(scene, FIRST_STEP_FRAME)
+    for charge in charges_of(scene):
+        share = flash_share(now_s - settings.start_s - charge.delay_s) if charge.mass_kg > 0.0 else 0.0
+        if share > 0.0:
+            lines = flash_lines(charge.place_m, _FLASH_M * share)
+            yield Drawn(lines, (*_FLASH, share), _WIDTHS_PX[FLASHES], charge.name, charge.place_m)
+
+
+def _chosen(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    body = layer.objects.active
+    world = scene.rigidbody_world
+    if body is None or not body.select_get(view_layer=layer) or not world or not world.collection:
+        return
+    if body.rigid_body is None or body.name not in world.collection.all_objects or kind_of(body) == Kind.GROUND:
+        return
+    matrix = np.array(body.evaluated_get(layer.depsgraph).matrix_world, float)
+    edges = np.empty(2 * len(body.data.edges), np.int32)
+    body.data.edges.foreach_get("vertices", edges)
+    corners = np.empty(3 * len(body.data.vertices), np.float32)
+    body.data.vertices.foreach_get("co", corners)
+    lines = corners.reshape(-1, 3)[edges] @ matrix[:3, :3].T + matrix[:3, 3]
+    yield Drawn(lines, _COLOURS[NAMES], _WIDTHS_PX[NAMES], body.name, tuple(matrix[:3, 3]))
+
+
+def _outlined(area: CrossSection, name: str, text: str) -> Drawn:
+    corners = np.concatenate([np.zeros((0, 2)), *outlines(area)])
+    place = corners[corners[:, 0].argmax()] if len(corners) else (0.0, 0.0)
+    return Drawn(outline_lines(area), _COLOURS[name], _WIDTHS_PX.get(name, _WIDTH_PX), text, (*place, 0.0))
+
+
+_PARTS = {
+    EXCLUSION: _exclusion,
+    ZONES: _zones,
+    DEBRIS: _debris,
+    RINGS: _rings,
+    NEIGHBOURS: _neighbours,
+    WAY: _way,
+    FLASHES: _flashes,
+    NAMES: _chosen,
+}
+
+
+def _draw_lines(context: bpy.types.Context) -> None:
+    for each in drawn(context.scene, context.view_layer):
+        draw_lines(context, each.lines, each.colour, each.width_px)
+
+
+def _draw_texts(context: bpy.types.Context) -> None:
+    for each in drawn(context.scene, context.view_layer):
+        if each.text:
+            write_at(context, each.place_m, each.text)
+
+
+def _without_raising(name: str, draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
+    def guarded() -> None:
+        try:
+            draw(bpy.context)
+            _trouble.pop(name, None)
+        except Exception as error:  # the sidebar shows it; the console would get it with every redraw
+            _trouble[name] = str(error)
+
+    return guarded

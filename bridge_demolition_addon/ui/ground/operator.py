@@ -1,0 +1,215 @@
+"""Operators on the ground: zones drawn with the mouse, a site plan, dust."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
+
+from ...core.display.dust import puffs
+from ...core.errors import DemolitionError
+from ...core.scenario import Zone
+from ...core.toml_tables import toml_value
+from ...scene.rendering.dust import raise_dust, remove_dust
+from ...scene.rendering.site_plan import lay_site_plan
+from ...simulation.blender_events import contours_of
+from ..contours import view as contour_view
+from ..operators import Action, Refusing, absolute, recording_runs, refused
+from ..viewport import draw_lines
+from . import areas
+from .prop import ZONES
+
+_COLOUR = (1.0, 1.0, 0.3, 1.0)
+_WIDTH_PX = 2.5
+_LEAVE = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE"}
+"""Events with which the view is turned meanwhile."""
+
+
+class BDA_OT_draw_zone(Refusing, bpy.types.Operator):
+    """Click the corners of a zone on the ground; Enter or a right click ends it, Backspace takes a corner back"""
+
+    bl_idname = "bda.draw_zone"
+    bl_label = "Draw Zone"
+    bl_options = {"REGISTER", "UNDO"}
+
+    _corners: list[tuple[float, float]]
+    _handle = None
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if context.area is None or context.area.type != "VIEW_3D":
+            return "Zones are drawn in a 3D view"
+        return recording_runs(context)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        self._corners = []
+        draw = _guarded(lambda: self._draw(bpy.context))
+        self._handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+        _handles.append(self._handle)
+        context.workspace.status_text_set("Zone: click its corners | Enter: done | Backspace: back | Esc: cancel")
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type in _LEAVE or event.value != "PRESS":
+            return {"PASS_THROUGH"}
+        if event.type == "ESC":
+            return self._leave(context, {"CANCELLED"})
+        if event.type in {"RET", "NUMPAD_ENTER", "RIGHTMOUSE"}:
+            return self._leave(context, self._add(context))
+        if event.type == "BACK_SPACE":
+            del self._corners[-1:]
+        elif event.type == "LEFTMOUSE":
+            place = ground_under(context, event.mouse_x, event.mouse_y)
+            if place is None:
+                self.report({"WARNING"}, "There is no ground under the mouse: look down on it, click in the 3D view")
+            else:
+                self._corners.append(place)
+        contour_view.redraw()
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends this itself, as it does before another file is loaded."""
+        self._leave(context, {"CANCELLED"})
+
+    def _add(self, context: bpy.types.Context) -> set[str]:
+        try:
+            name = add_zone(context.scene, self._corners)
+        except DemolitionError as error:
+            return refused(self, error)
+        self.report({"INFO"}, f"{name}: {len(self._corners)} corners; its name and kind stand in Scenario, Zones")
+        return {"FINISHED"}
+
+    def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:
+        forget_handle(self._handle)
+        if context.workspace:
+            context.workspace.status_text_set(None)
+        contour_view.redraw()
+        return ended
+
+    def _draw(self, context: bpy.types.Context) -> None:
+        if not self._corners:
+            return
+        corners = np.column_stack((np.array(self._corners), np.full(len(self._corners), 0.03)))
+        ends = np.roll(corners, -1, axis=0)
+        draw_lines(context, np.stack((corners, ends), axis=1).reshape(-1, 3), _COLOUR, _WIDTH_PX)
+
+
+class BDA_OT_lay_site_plan(Action, bpy.types.Operator):
+    """Lay the picture under the bridge, so wide and turned as given. Material Preview and renders show it"""
+
+    bl_idname = "bda.lay_site_plan"
+    bl_label = "Lay Site Plan"
+    bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return recording_runs(context) or (None if context.scene.bda.plan_picture else "Choose a picture first")
+
+    def act(self, context: bpy.types.Context) -> str:
+        settings = context.scene.bda
+        path = absolute(settings.plan_picture)
+        width, height = lay_site_plan(
+            context.scene, path, settings.plan_width_m, settings.plan_bearing_deg, tuple(settings.plan_origin)
+        )
+        return f"{path.name}: {width:g} m × {height:g} m on the ground"
+
+
+class BDA_OT_raise_dust(Action, bpy.types.Operator):
+    """Make clouds of dust where connections broke in the last run; they render in EEVEE and Cycles, and slowly"""
+
+    bl_idname = "bda.raise_dust"
+    bl_label = "Raise Dust"
+    bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        if reason := recording_runs(context):
+            return reason
+        return None if areas.results_of(context.scene) is not None else "Run the scene first, or load its results"
+
+    def act(self, context: bpy.types.Context) -> str:
+        scene = context.scene
+        results = areas.results_of(scene)
+        clouds = puffs(results)
+        raise_dust(scene, clouds)
+        contours_of(scene).use_results(results)  # Blender forgets what it played with any new object
+        return f"{len(clouds)} clouds of dust" if clouds else "No connection broke: there is no dust"
+
+
+class BDA_OT_settle_dust(Action, bpy.types.Operator):
+    """Remove the clouds of dust"""
+
+    bl_idname = "bda.settle_dust"
+    bl_label = "Remove Dust"
+    bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
+
+    why_not = staticmethod(recording_runs)
+
+    def act(self, context: bpy.types.Context) -> str:
+        return f"{remove_dust(context.scene)} clouds of dust removed"
+
+
+CLASSES = (BDA_OT_draw_zone, BDA_OT_lay_site_plan, BDA_OT_raise_dust, BDA_OT_settle_dust)
+
+_handles: list[object] = []
+"""Those of zones that are drawn just now."""
+
+
+def forget_handle(handle: object) -> None:
+    """Stop drawing a zone that is not finished; switching the extension off does so too."""
+    if handle in _handles:
+        _handles.remove(handle)
+        bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+
+
+def unregister() -> None:
+    """Stop drawing zones that are not finished."""
+    for handle in list(_handles):
+        forget_handle(handle)
+
+
+def ground_under(context: bpy.types.Context, mouse_x: int, mouse_y: int) -> tuple[float, float] | None:
+    """Return the place at height 0 that the mouse is over, x and y in m; None where it is over none."""
+    region = next(each for each in context.area.regions if each.type == "WINDOW")
+    x, y = mouse_x - region.x, mouse_y - region.y
+    if not (0 <= x < region.width and 0 <= y < region.height):
+        return None
+    view = context.area.spaces.active.region_3d
+    eye, ray = region_2d_to_origin_3d(region, view, (x, y)), region_2d_to_vector_3d(region, view, (x, y))
+    if eye.z * ray.z >= 0.0:  # it looks away from the ground
+        return None
+    place = eye - ray * (eye.z / ray.z)
+    return round(place.x, 2), round(place.y, 2)
+
+
+def add_zone(scene: bpy.types.Scene, corners_m: list[tuple[float, float]]) -> str:
+    """Add a zone to those of the scenario, show it, and return its name.
+
+    Raises
+    ------
+    ScenarioError
+        It has too few corners, or its sides cross; nothing is added.
+    """
+    group = scene.bda.scenario
+    taken = {each.name for each in group.zones}
+    name = next(name for number in range(1, len(taken) + 2) if (name := f"Zone {number}") not in taken)
+    zone = Zone(name=name, corners_m=tuple(corners_m))
+    added = group.zones.add()
+    added.name, added.corners_m = zone.name, toml_value(zone.corners_m)
+    group.zones_index = len(group.zones) - 1
+    scene.bda.overlays |= {ZONES}
+    return name
+
+
+def _guarded(draw):
+    def guarded() -> None:
+        try:
+            draw()
+        except ReferenceError:  # the operator has ended, and Blender draws once more
+            return
+
+    return guarded

@@ -1,0 +1,76 @@
+"""Settings of what is drawn on the ground and in the air, kept in the scene as part of ``scene.bda``."""
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty
+
+from ..contours import view as contour_view
+from ..sidebar import path_property
+
+EXCLUSION, ZONES, DEBRIS, RINGS, NEIGHBOURS, WAY, FLASHES, NAMES = (
+    *("EXCLUSION", "ZONES", "DEBRIS", "RINGS", "NEIGHBOURS", "WAY", "FLASHES", "NAMES"),
+)
+_OVERLAYS = (
+    (EXCLUSION, "Exclusion Zone", "The exclusion zone: of the last run, or as it is planned before there is one"),
+    (ZONES, "Zones", "The zones of Scenario, with their names"),
+    (DEBRIS, "Debris", "What the debris of the last run covers when it ends"),
+    (RINGS, "Distances", "How far from the plan of the bridge the ground is"),
+    (NEIGHBOURS, "Neighbours", "The neighbours of Scenario, with their names"),
+    (WAY, "Way of Ball", "The way of the ball in the last run"),
+    (FLASHES, "Flashes", "A flash where a charge goes off"),
+    (NAMES, "Chosen Shard", "Outline and name of the body that is selected"),
+)
+
+
+def _redraw(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+    contour_view.redraw()
+
+
+class GroundProperties:
+    """The part of the scene's settings on what is drawn on the ground and in the air."""
+
+    overlays: EnumProperty(
+        name="Show",
+        description="What is drawn on the ground and in the air of the 3D view",
+        items=_OVERLAYS,
+        options={"ENUM_FLAG"},
+        default={ZONES, NEIGHBOURS, FLASHES, NAMES},
+        update=_redraw,
+    )
+    distance_spacing_m: FloatProperty(
+        name="Every",
+        description="Distance from ring to ring, such as 10 m",
+        default=10.0,
+        min=0.5,
+        max=1000.0,
+        unit="LENGTH",
+        update=_redraw,
+    )
+    distance_count: IntProperty(
+        name="Rings", description="How many rings of distance, such as 5", default=5, min=1, max=20, update=_redraw
+    )
+    plan_picture: path_property("Site Plan", "Picture of a site plan, or one from the air, to lie under the bridge")
+    plan_width_m: FloatProperty(
+        name="Width",
+        description="How many metres on the ground the picture is wide, such as 200 m",
+        default=200.0,
+        min=1.0,
+        max=1e5,
+        unit="LENGTH",
+    )
+    plan_bearing_deg: FloatProperty(
+        name="Bearing",
+        description="Direction of the road's x axis, clockwise from the upward direction of the picture: 90° for a "
+        "picture with north up and a road from west to east",
+        default=90.0,
+        min=-360.0,
+        max=360.0,
+    )
+    plan_origin: bpy.props.FloatVectorProperty(
+        name="Origin",
+        description="Where the origin of the scenario lies in the picture, from its left and from its foot: 0.5 and "
+        "0.5 for its middle",
+        size=2,
+        default=(0.5, 0.5),
+        min=-10.0,
+        max=10.0,
+    )
