@@ -312,6 +312,14 @@ class BulletWorld:
         self._constraint_rows = ConstraintRows(self._layout, self._bound.connections, names)
         return self._constraint_rows
 
+    def write_loads(self, *, wanted: bool) -> None:
+        """Have Bullet write the loads of connections after every sub-step, as it does from `bind` on, or leave them.
+
+        Loads that are there stay.
+        """
+        starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)
+        self._point_feedback_at(starts[self._bound.exists] if wanted else np.uint64(0))
+
     def break_connections(self, rows: np.ndarray) -> None:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
         rows = rows[self._bound.exists[rows]]
@@ -553,8 +561,7 @@ class BulletWorld:
         """Write our token and our buffers into the world that was checked."""
         self._threshold_factor, self._holds_connections = 1.0, False
         self._feedback[:] = 0.0
-        starts = self._feedback.ctypes.data + 8 * _FEEDBACK_DOUBLES * np.arange(len(self.connections), dtype=np.uint64)
-        self._point_feedback_at(starts[self._bound.exists])
+        self.write_loads(wanted=True)
         self._token = next(_tokens)
         write_pointers(self._bound.dynamics + self._layout.world.user_info, self._token)
 

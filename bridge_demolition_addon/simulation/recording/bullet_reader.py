@@ -97,6 +97,10 @@ class BulletReader:
             self._substeps.before_substep, self._substeps.after_substep if every_substep else None
         )
 
+    def before_frame(self) -> None:
+        """Prepare the coming frame."""
+        self._substeps.before_frame(self._scene.rigidbody_world.substeps_per_frame)
+
     def close(self) -> None:
         """Read nothing any more; what is still worked out is waited for."""
         self._substeps.close()

@@ -124,6 +124,8 @@ class Recording:
         """
         self._set_time()
         self._prepare_blast()
+        if self._reader:
+            self._reader.before_frame()
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Record the frame.

@@ -18,6 +18,7 @@ import numpy as np
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
+from ...core.errors import SimulationError
 from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
 from ...core.mechanics.member_sections import MemberSections
 from ...core.mechanics.overloads import ConnectionLoads, Overloads
@@ -184,17 +185,25 @@ class SubstepRecorder:
         self._background = BackgroundWork()
         self._substeps, self._substeps_before = 0, 0
         self._work_counts, self._every_substep = not self._is_warming_up, every_substep
+        self._expected_substeps, self._begun_substeps = 0, 0
+        self._loads_are_written = True
         self._breaks: list[Breaks] = []
         self._foreseen: list[Breaks] = []
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
 
+    def before_frame(self, substeps: int) -> None:
+        """Know how many sub-steps Blender takes in the coming frame."""
+        self._expected_substeps, self._begun_substeps = substeps, 0
+
     def before_substep(self, substep_s: float) -> None:
         """Prepare a sub-step of a length in s. Called by Bullet: keeps an error instead of raising it."""
         if self.error:
             return
         try:
+            if not self._every_substep:
+                self._have_last_loads_written()
             if self._is_warming_up and self._breaking.warm_up_damping:
                 # As Bullet's own damping: a share of the velocity in a second, whatever the step.
                 self._world.slow_down(self._shards, float(power(1.0 - self._breaking.warm_up_damping, substep_s)))
@@ -208,6 +217,14 @@ class SubstepRecorder:
                 self._predict(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
             self.error = error
+
+    def _have_last_loads_written(self) -> None:
+        """Have Bullet write loads in the last sub-step of a frame: they are read after that one alone."""
+        self._begun_substeps += 1
+        wanted = self._begun_substeps >= self._expected_substeps
+        if wanted != self._loads_are_written:
+            self._world.write_loads(wanted=wanted)
+            self._loads_are_written = wanted
 
     def _predict(self, substep_s: float) -> None:
         """Put elastic connections into the coming sub-step, without those that would break in it.
@@ -260,6 +277,11 @@ class SubstepRecorder:
             return
         began = time.perf_counter()
         try:
+            if not self._loads_are_written:
+                raise SimulationError(
+                    f"a frame had {self._begun_substeps} sub-steps instead of {self._expected_substeps}: "
+                    "do not animate sub-steps per frame, or record every sub-step"
+                )
             if self._unknown:
                 self._follow(substep_s)
             else:
