@@ -152,9 +152,14 @@ def retire(
         array.keep(set())
     for array in (everything, moving):
         array.keep(living if bodies_stay else set())
-    inert = _inert_body(read_pointer(min(living)) if living else 0)
+    take_bodies_from(layout, connections[alive], read_pointer(min(living)) if living else 0)
+
+
+def take_bodies_from(layout: Layout, connections: np.ndarray, body_class: int = 0) -> None:
+    """Give constraints at addresses (k,) an inert body of a class in place of their own, which may be freed."""
+    inert = _inert_body(body_class)
     for field in (layout.constraint.body_a, layout.constraint.body_b):
-        write_pointers(connections[alive] + np.uint64(field), inert)
+        write_pointers(connections + np.uint64(field), inert)
 
 
 def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, known: set[int], gone: set[int]) -> None:

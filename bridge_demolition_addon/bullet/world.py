@@ -40,7 +40,7 @@ from .memory import (
     write_vectors,
 )
 from .snapshots import SnapshotTaker
-from .teardown import ConnectionSettings, Fingerprints, retire, take_out_constraints
+from .teardown import ConnectionSettings, Fingerprints, retire, take_bodies_from, take_out_constraints
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
@@ -436,6 +436,16 @@ class BulletWorld:
         self._point_feedback_at(np.uint64(0))
         retire(self._layout, bound.dynamics, bound.bodies, connections, alive, bodies_stay=bodies_stay)
         bound.exists[:] = False
+
+    def outlive(self) -> None:
+        """Make the connections of a removed world safe: Blender has freed their bodies, and deletes them later.
+
+        To be called before Blender updates anything.
+        """
+        if self._bound is not None:
+            connections = self._bound.connections[self._bound.exists]
+            alive = self._bound.fingerprints.still_there(connections)
+            take_bodies_from(self._layout, connections[alive])
 
     def has_grown(self) -> bool:
         """Return whether Blender has added anything to the world since it was bound, as it does after an edit."""

@@ -108,6 +108,11 @@ class FallingRow:
     def open_another_file(self) -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
 
+    def use_freed_memory(self) -> None:
+        for number in range(130):
+            values = {"__annotations__": dict.fromkeys("abcde", bpy.props.FloatProperty())}
+            bpy.utils.register_class(type(f"Settings{number}", (bpy.types.PropertyGroup,), values))
+
     def add_another_block(self) -> None:
         self.blocks.block((0, 5, 3), 10.0)
 
@@ -182,6 +187,9 @@ class FallingRow:
     def remove_everything(self) -> None:
         for each in (*self.row[1:], *self.links, self.ground):
             bpy.data.objects.remove(each)
+
+    def remove_world(self) -> None:
+        bpy.ops.rigidbody.world_remove()
 
     def take_body_out_of_world(self) -> None:
         self.blocks.world.collection.objects.unlink(self.doomed)

@@ -83,6 +83,8 @@ class WorldGuard:
         if self._objects is None:
             return ""
         if not _has_world(scene):
+            if self._world and scene.rigidbody_world is None:
+                self._world.outlive()
             self.release()
             return "the rigid-body world was removed while it was recorded"
         if self._objects.are_the_same():

@@ -47,6 +47,13 @@ def test_taking_a_body_out_of_the_world(tmp_path):
     do(tmp_path, "record", "take_body_out_of_world", "update", "stand_still_until_the_start")
 
 
+@pytest.mark.parametrize("after", [(), ("update",), ("go_to_start",)])
+@pytest.mark.parametrize("deletion", ["remove_connection", "remove_everything"])
+def test_deleting_after_the_world_was_removed(tmp_path, after, deletion):
+    """Blender has freed the bodies, and asks for them when it deletes the connections that it keeps."""
+    do(tmp_path, "watch", "remove_world", *after, "use_freed_memory", deletion, "update", "open_another_file")
+
+
 @pytest.mark.parametrize("deletion", ["remove_body", "delete_body", "remove_connection"])
 def test_deleting_while_watched(tmp_path, deletion):
     do(tmp_path, "watch", deletion, "update", "stand_still_until_the_start")
