@@ -283,8 +283,12 @@ CHARTS: dict[str, Callable[[ChartSettings], Figure]] = {
 """The charts by the names of their pictures."""
 
 
-def write_charts(folder: Path, settings: ChartSettings) -> list[Path]:
+def write_charts(
+    folder: Path, settings: ChartSettings, drawn: Callable[[int, int], None] = lambda *_: None
+) -> list[Path]:
     """Draw all charts into a folder, which is made if it is new, and return their paths.
+
+    `drawn` is called with how many are drawn, and how many there are.
 
     Raises
     ------
@@ -300,6 +304,7 @@ def write_charts(folder: Path, settings: ChartSettings) -> list[Path]:
             lay_out(figure)
             with whole_file(paths[-1]) as part:
                 figure.savefig(part)
+            drawn(len(paths), len(CHARTS))
     except OSError as error:
         raise OutputError(f"{folder}: charts cannot be written: {error.strerror or error}") from error
     return paths

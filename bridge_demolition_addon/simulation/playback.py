@@ -67,11 +67,6 @@ class Playing:
         """Whether everything rests as it was waited for."""
         return self._rest is not None and self._rest.is_reached
 
-    @property
-    def remaining_s(self) -> float:
-        """Wall time that the frames still to come take, if they take as long as those so far."""
-        return self.seconds / self.done * (self.total - self.done) if self.done else 0.0
-
     def step(self) -> None:
         """Play the next frame.
 

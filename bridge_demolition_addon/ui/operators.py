@@ -7,6 +7,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import DemolitionError, OutputError, writing
 from ..simulation.blender_events import running_recording
+from . import messages
 from .sidebar import path_property
 
 
@@ -48,6 +49,7 @@ class Action(Refusing):
         """Do the work, and return a sentence on what was done, if there is any to report."""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        messages.clear(self)
         try:
             done = self.act(context)
         except (DemolitionError, OSError) as error:
@@ -98,7 +100,7 @@ def _linked(context: bpy.types.Context) -> str | None:
 
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
     """Cancel an operator with an error's message."""
-    operator.report({"ERROR"}, str(error))
+    messages.tell(operator, "ERROR", str(error))
     return {"CANCELLED"}
 
 

@@ -36,6 +36,15 @@ def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: 
         column.label(text=line, icon=below if number else icon)
 
 
+def redraw_sidebars(context: bpy.types.Context) -> None:
+    """Have the sidebars of all 3D views drawn anew."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            for region in area.regions:
+                if area.type == "VIEW_3D" and region.type == "UI":
+                    region.tag_redraw()
+
+
 def path_property(name: str, description: str, subtype: str = "FILE_PATH") -> Any:
     """Return a property for a path, which may be relative to the saved file."""
     return StringProperty(name=name, description=description, subtype=subtype, options=_RELATIVE_PATHS)

@@ -61,6 +61,7 @@ BUTTONS = {
     "add_row": 2,
     "remove_row": 2,
     "look_at_bridge": 1,
+    "dismiss_messages": 0.5,
     "go_to_body": 2,
     "draw_charts": 0.1,
     "make_report": 0.1,

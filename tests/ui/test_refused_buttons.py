@@ -13,6 +13,7 @@ EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
 MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT")
 
 IN_A_LINKED_SCENE = {
+    "dismiss_messages": "There are no messages",
     "draw_charts": "Nothing was recorded yet",
     "go_to_body": "is not in this scene",
     "make_report": "Run the scene first",

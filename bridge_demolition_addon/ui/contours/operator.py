@@ -12,6 +12,7 @@ from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...scene.world import start_over
 from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
+from .. import course, messages
 from ..operators import Action, Refusing, absolute, recording_runs, refused
 from . import view as contour_view
 
@@ -95,7 +96,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
         except (DemolitionError, OSError) as error:
             return refused(self, error)
         manager = context.window_manager
-        manager.progress_begin(0, self._rendering.picture_count)
+        self._course = course.begin(context, "Rendering", "pictures", self._rendering.picture_count)
         self._timer = manager.event_timer_add(_TICK_S, window=context.window)
         manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -103,14 +104,15 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == "ESC":
             self._end(context)
-            self.report({"WARNING"}, f"Stopped after {self._done} of {self._rendering.picture_count} pictures")
+            messages.tell(self, "WARNING", f"Stopped after {self._done} of {self._rendering.picture_count} pictures")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         try:
             if next(self._pictures, None) is not None:
                 self._done += 1
-                context.window_manager.progress_update(self._done)
+                self._course.step()
+                course.show(context)
                 return {"RUNNING_MODAL"}
             self._end(context)
             return self._finish()
@@ -123,6 +125,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
         self._end(context)
 
     def _begin(self, scene: bpy.types.Scene) -> None:
+        messages.clear(self)
         self._rendering = FilmRendering(
             scene, absolute(scene.bda.film_directory), contour_view.settings_of(scene), _film_settings(scene)
         )
@@ -131,7 +134,7 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
     def _end(self, context: bpy.types.Context) -> None:
         self._pictures.close()
         context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
+        course.end(context)
 
     def _finish(self) -> set[str]:
         paths = self._rendering.finish()

@@ -32,6 +32,7 @@ from ...simulation.results_folder import (
     withdraw_folder,
 )
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
+from .. import messages
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
 from ..scenario.built import scenario_to_run
@@ -153,26 +154,29 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
     stopped
         In a sentence, that the user has stopped it before its time; empty where that is not so.
     """
+    messages.clear(operator)
     moved = not _locks[recording].in_place
     try:
         folder = _keep_recording(recording, completed=not (recording.error or stopped))
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return refused(operator, recording.error or error)
     if recording.error:
-        operator.report({"WARNING"}, f"The recording ended early: {recording.error}")
+        messages.tell(operator, "WARNING", f"The recording ended early: {recording.error}")
     elif stopped:
-        operator.report({"WARNING"}, stopped)
+        messages.tell(operator, "WARNING", stopped)
     if fall := told_fall(session.last_recording().summary):
-        operator.report({"WARNING"}, fall)
+        messages.tell(operator, "WARNING", fall)
     if by_hand := _contexts[recording].made_by_hand:
-        operator.report({"WARNING"}, f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}")
+        messages.tell(
+            operator, "WARNING", f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}"
+        )
     if moved:
-        operator.report({"WARNING"}, f"{recording.folder} was moved or deleted, and the logs with it")
+        messages.tell(operator, "WARNING", f"{recording.folder} was moved or deleted, and the logs with it")
     if recording.distrust:
-        operator.report({"WARNING"}, f"Forces are estimated from motion: {recording.distrust}")
+        messages.tell(operator, "WARNING", f"Forces are estimated from motion: {recording.distrust}")
     elif recording.rigid_because:
-        operator.report({"WARNING"}, f"Connections were rigid, not elastic: {recording.rigid_because}")
-    operator.report({"INFO"}, f"Results are in {folder}")
+        messages.tell(operator, "WARNING", f"Connections were rigid, not elastic: {recording.rigid_because}")
+    messages.tell(operator, "INFO", f"Results are in {folder}")
     return {"FINISHED"}
 
 

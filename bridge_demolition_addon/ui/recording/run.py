@@ -7,6 +7,8 @@ from ...core.errors import DemolitionError, SimulationError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing
+from .. import course, messages
+from ..long_action import LOOKING_ROUND
 from ..operators import Action, Refusing, no_world, other_mode, recording_runs, refused
 from ..scenario.operator import BDA_OT_build_anew, build
 from . import session
@@ -14,16 +16,6 @@ from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_
 
 _TICK_S = 0.001
 """Between two frames, for Blender to draw and to read mouse and keyboard."""
-
-_LOOKING_ROUND = {
-    "MOUSEMOVE",
-    "INBETWEEN_MOUSEMOVE",
-    "MIDDLEMOUSE",
-    "WHEELUPMOUSE",
-    "WHEELDOWNMOUSE",
-    "WINDOW_DEACTIVATE",
-}
-"""Events that Blender still gets during a run; all others would change what is simulated, or undo it."""
 
 _SLOW_FRAME_S = 0.5
 
@@ -58,7 +50,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
             bpy.ops.screen.animation_cancel(restore_frame=False)
         if not self._begin(context):
             return {"CANCELLED"}
-        session.begin_run(context, _TICK_S, self._playing.total)
+        self._course = session.begin_run(context, _TICK_S, self._playing.total)
         context.window_manager.modal_handler_add(self)
         session.redraw_while_recording()
         return {"RUNNING_MODAL"}
@@ -67,7 +59,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         if event.type == "ESC":
             return self._leave(context)
         if event.type != "TIMER":
-            return {"PASS_THROUGH"} if event.type in _LOOKING_ROUND else {"RUNNING_MODAL"}
+            return {"PASS_THROUGH"} if event.type in LOOKING_ROUND else {"RUNNING_MODAL"}
         try:
             self._playing.step()
         except (DemolitionError, ReferenceError):
@@ -84,6 +76,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> bool:
         recording = None
+        messages.clear(self)
         try:
             if self.build_anew:
                 self._build(context)
@@ -103,9 +96,9 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _show(self, context: bpy.types.Context) -> None:
-        playing = self._playing
-        context.window_manager.progress_update(playing.done)
-        context.workspace.status_text_set(progress_text(playing))
+        self._course.step()
+        self._course.note = note_of(self._playing)
+        course.show(context)
 
     def _leave(self, context: bpy.types.Context) -> set[str]:
         session.end_run(context)
@@ -160,15 +153,9 @@ class BDA_OT_delete_bake(Action, bpy.types.Operator):
 CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
 
 
-def progress_text(playing: Playing) -> str:
-    """Return how far a run is, for the status bar."""
-    left = round(playing.remaining_s)
-    parts = [
-        f"Running: {playing.done} of {playing.total} frames",
-        f"{playing.recording.broken} connections broken",
-        f"{left // 60}:{left % 60:02d} min left",
-        "Esc: stop",
-    ]
-    if playing.longest_frame_s > _SLOW_FRAME_S:
-        parts.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
-    return " | ".join(parts)
+def note_of(playing: Playing) -> str:
+    """Return what there is to say of a run besides how far it is."""
+    broken = f"{playing.recording.broken} connections broken"
+    if playing.longest_frame_s <= _SLOW_FRAME_S:
+        return broken
+    return f"{broken} | one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between"

@@ -9,6 +9,8 @@ import bpy
 
 from ...simulation.blender_events import running_recording, stop_recording
 from ...simulation.recording.recorder import Recording
+from .. import course
+from ..sidebar import redraw_sidebars
 
 _REDRAWN_EVERY_S = 0.25
 
@@ -43,11 +45,10 @@ def last_recording() -> LastRecording | None:
     return _recordings[0] if _recordings else None
 
 
-def begin_run(context: bpy.types.Context, tick_s: float, frames: int) -> None:
+def begin_run(context: bpy.types.Context, tick_s: float, frames: int) -> course.Course:
     """Have Blender call the operator Run again and again, and show its progress."""
-    manager = context.window_manager
-    manager.progress_begin(0, frames)
-    _timers.append(manager.event_timer_add(tick_s, window=context.window))
+    _timers.append(context.window_manager.event_timer_add(tick_s, window=context.window))
+    return course.begin(context, "Running", "frames", frames)
 
 
 def end_run(context: bpy.types.Context) -> None:
@@ -55,9 +56,7 @@ def end_run(context: bpy.types.Context) -> None:
     if not _timers:
         return
     context.window_manager.event_timer_remove(_timers.pop())
-    context.window_manager.progress_end()
-    if context.workspace:
-        context.workspace.status_text_set(None)
+    course.end(context)
 
 
 def run_goes_on() -> bool:
@@ -81,9 +80,5 @@ def unregister() -> None:
 
 
 def _redraw() -> float | None:
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            for region in area.regions:
-                if area.type == "VIEW_3D" and region.type == "UI":
-                    region.tag_redraw()
+    redraw_sidebars(bpy.context)
     return _REDRAWN_EVERY_S if running_recording() else None

@@ -11,6 +11,8 @@ import bpy
 from ...core.scenario import Scenario
 from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
+from ..course import draw_course, going_on
+from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from .breaking_note import breaking_note
 from .built import Change, Kept, built_values, change_of, changes, changes_of_table
@@ -83,12 +85,16 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
-        draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
+        if course := going_on():
+            draw_course(layout, course)
+        else:
+            draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
         column = layout.column(align=True)
         column.scale_y = _PROMINENT
         column.menu("BDA_MT_presets", icon="ASSET_MANAGER")
         column.operator("bda.build_scenario", icon="MOD_BUILD")
         draw_run(column, has_changed=bool(changes(settings)))
+        draw_messages(layout, context)
         layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")

@@ -1,0 +1,105 @@
+"""What goes on and takes long: how far it is, the time left, and how to stop it; in the status bar and the sidebar."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+import bpy
+
+from ..core.timing.time_left import in_words, remaining_s
+from .sidebar import redraw_sidebars
+
+
+@dataclass(slots=True)
+class Course:
+    """How far some work is.
+
+    Attributes
+    ----------
+    what
+        What is done: ``Running``.
+    unit
+        What its steps are: ``frames``.
+    total
+        How many there are.
+    note
+        What else there is to say of it now.
+    left_s
+        Time left on the clock; None while nothing can be said of it.
+    share
+        Part of the work that is done.
+    """
+
+    what: str
+    unit: str
+    total: int
+    note: str = ""
+    left_s: float | None = None
+    share: float = 0.0
+    _marks_s: list[float] = field(default_factory=lambda: [time.perf_counter()])
+
+    @property
+    def lines(self) -> list[str]:
+        """What it says, each in a few words."""
+        done = f"{round(self.share * self.total)} of {self.total} {self.unit}"
+        left = [] if self.left_s is None else [in_words(self.left_s)]
+        return [f"{self.what}: {done}", *left, *filter(None, [self.note]), "Esc: stop"]
+
+    def step(self) -> None:
+        """Note that one more step is done."""
+        self._marks_s.append(time.perf_counter())
+        self.share = (len(self._marks_s) - 1) / self.total
+        self.left_s = remaining_s(self._marks_s, self.total)
+
+    def reach(self, share: float) -> None:
+        """Note how much is done of work whose steps take unequally long."""
+        self.share = share
+        if share > 0.0:
+            self.left_s = (time.perf_counter() - self._marks_s[0]) * (1.0 - share) / share
+
+
+_going_on: list[Course] = []
+"""One at most: whoever begins another has ended the one before."""
+
+
+def begin(context: bpy.types.Context, what: str, unit: str, total: int) -> Course:
+    """Show from now on how far some work is."""
+    end(context)
+    _going_on[:] = [Course(what, unit, total)]
+    context.window_manager.progress_begin(0, 1000)
+    return _going_on[0]
+
+
+def show(context: bpy.types.Context) -> None:
+    """Show how far it is now."""
+    course = going_on()
+    context.window_manager.progress_update(round(1000 * course.share))
+    if context.workspace:
+        context.workspace.status_text_set(" | ".join(course.lines))
+    redraw_sidebars(context)
+
+
+def end(context: bpy.types.Context) -> None:
+    """Show nothing of it any more."""
+    if not _going_on:
+        return
+    _going_on.clear()
+    context.window_manager.progress_end()
+    if context.workspace:
+        context.workspace.status_text_set(None)
+    redraw_sidebars(context)
+
+
+def going_on() -> Course | None:
+    """Return the work that goes on, None where none does."""
+    return _going_on[0] if _going_on else None
+
+
+def draw_course(layout: bpy.types.UILayout, course: Course) -> None:
+    """Draw how far some work is."""
+    first, *others = course.lines
+    layout.progress(factor=min(course.share, 1.0), text=first)
+    column = layout.column(align=True)
+    for line in others:
+        column.label(text=line)

@@ -1,0 +1,126 @@
+"""Buttons whose work takes some seconds: progress, time left, and Esc to stop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import bpy
+
+from ..core.errors import DemolitionError
+from . import course, messages
+from .operators import Action, refused
+from .turns import Turns
+
+_TICK_S = 0.005
+LOOKING_ROUND = {
+    "MOUSEMOVE",
+    "INBETWEEN_MOUSEMOVE",
+    "MIDDLEMOUSE",
+    "WHEELUPMOUSE",
+    "WHEELDOWNMOUSE",
+    "WINDOW_DEACTIVATE",
+}
+"""Events that Blender still gets while something goes on; all others would change what it works on."""
+
+Work = Callable[[Turns], str | None]
+"""Does the work, which needs no Blender, and returns a sentence on what was done."""
+
+
+class LongAction(Action):
+    """Base of operators that go on beside the window; from a script they work in one go.
+
+    Attributes
+    ----------
+    what, unit
+        What is done, and what its parts are, as the course says it.
+    """
+
+    what: str
+    unit: str
+    _turns: Turns
+    _timer: bpy.types.Timer | None = None
+
+    def work(self, context: bpy.types.Context) -> Work:
+        """Look up in Blender all that the work needs, and return it."""
+        raise NotImplementedError
+
+    def share_of(self, turns: Turns) -> float:
+        """Return how much of the work is done."""
+        return turns.done / turns.total if turns.total else 0.0
+
+    def act(self, context: bpy.types.Context) -> str | None:
+        turns = Turns(self.work(context))
+        while not turns.is_finished:
+            turns.step()
+        return turns.outcome()
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        messages.clear(self)
+        if _at_work:
+            return refused(self, DemolitionError(f"{_at_work[0].bl_label} goes on: wait for it, or stop it with Esc"))
+        try:
+            self._turns = Turns(self.work(context))
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
+        manager.modal_handler_add(self)
+        course.begin(context, self.what, self.unit, 1)
+        _at_work[:] = [self]
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if self not in _at_work:  # the extension was switched off
+            return {"CANCELLED"}
+        if event.type == "ESC":
+            self.stop(context)
+            messages.tell(self, "WARNING", f"{self.bl_label}: stopped; files that were written whole are new")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in LOOKING_ROUND else {"RUNNING_MODAL"}
+        self._turns.step()
+        if self._turns.is_finished:
+            return self._finish(context)
+        self._show(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends the work itself, as it does before another file is loaded."""
+        self.stop(context)
+
+    def stop(self, context: bpy.types.Context) -> None:
+        """End the work where it is."""
+        self._turns.stop()
+        self._take_back(context)
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        self._take_back(context)
+        try:
+            if done := self._turns.outcome():
+                self.report({"INFO"}, done)
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        return {"FINISHED"}
+
+    def _show(self, context: bpy.types.Context) -> None:
+        going_on, turns = course.going_on(), self._turns
+        going_on.total, going_on.note = max(turns.total, 1), turns.stage_text
+        going_on.reach(self.share_of(turns))
+        course.show(context)
+
+    def _take_back(self, context: bpy.types.Context) -> None:
+        _at_work.clear()
+        if self._timer:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        course.end(context)
+
+
+_at_work: list[LongAction] = []
+"""The one that goes on, if any does."""
+
+
+def unregister() -> None:
+    """Stop what goes on."""
+    for each in list(_at_work):
+        each.stop(bpy.context)

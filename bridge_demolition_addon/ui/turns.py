@@ -1,0 +1,90 @@
+"""Work of some seconds that does not need Blender, beside Blender's window: both take turns, and never work at once."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+
+class _StoppedError(BaseException):
+    """Ends the work from within; no `except Exception` keeps it going."""
+
+
+class Turns:
+    """Work in a thread of its own, which goes on from one of its parts to the next only when it is its turn.
+
+    Blender waits meanwhile, so it is as if it did the work itself, but gets round to mouse and keyboard in between.
+
+    Parameters
+    ----------
+    work
+        Is given what tells stages and parts, as the progress of a report, and returns what comes of it.
+
+    Attributes
+    ----------
+    stage, done, total
+        What was told last.
+    is_finished
+        Whether the work has ended, in whatever way.
+    """
+
+    def __init__(self, work: Callable[[Turns], Any]):
+        self.done, self.total, self.stage_text = 0, 0, ""
+        self.is_finished = False
+        self._work = work
+        self._outcome: Any = None
+        self._error: Exception | None = None
+        self._is_stopped = False
+        self._its_turn, self._our_turn = threading.Semaphore(0), threading.Semaphore(0)
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def step(self) -> None:
+        """Let it work until its next part is done."""
+        if self.is_finished:
+            return
+        if not self._thread.is_alive():
+            self._thread.start()
+        else:
+            self._its_turn.release()
+        self._our_turn.acquire()
+
+    def stop(self) -> None:
+        """End it where it is; what it writes whole or not at all stays so."""
+        self._is_stopped = True
+        if self._thread.is_alive():
+            self.step()
+        self.is_finished = True
+
+    def outcome(self) -> Any:
+        """Return what came of it; raise what it raised."""
+        if self._error:
+            raise self._error
+        return self._outcome
+
+    def stage(self, text: str) -> None:
+        """Called by the work: what begins now."""
+        self.stage_text, self.done, self.total = text, 0, 0
+        self._hand_over()
+
+    def part(self, done: int, total: int, _text: str = "") -> None:
+        """Called by the work: how many parts of a stage are done."""
+        self.done, self.total = done, total
+        self._hand_over()
+
+    def _hand_over(self) -> None:
+        self._our_turn.release()
+        self._its_turn.acquire()
+        if self._is_stopped:
+            raise _StoppedError
+
+    def _run(self) -> None:
+        try:
+            self._outcome = self._work(self)
+        except _StoppedError:
+            pass
+        except Exception as error:
+            self._error = error
+        finally:
+            self.is_finished = True
+            self._our_turn.release()

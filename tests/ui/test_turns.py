@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Work that takes turns with Blender's window."""
+
+import threading
+
+import pytest
+
+from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.ui.turns import Turns
+
+PARTS = 4
+
+
+def counted(turns):
+    turns.stage("counting")
+    for number in range(1, PARTS + 1):
+        turns.part(number, PARTS)
+    return "counted"
+
+
+def test_it_goes_on_from_part_to_part_and_gives_what_comes_of_it():
+    turns, seen = Turns(counted), []
+    while not turns.is_finished:
+        turns.step()
+        seen.append((turns.stage_text, turns.done))
+    assert seen == [("counting", 0), *[("counting", number) for number in range(1, PARTS + 1)], ("counting", PARTS)]
+    assert turns.outcome() == "counted"
+    turns.step()
+    assert turns.outcome() == "counted"
+
+
+def test_it_never_works_while_it_is_not_its_turn():
+    at_work = []
+
+    def work(turns):
+        for number in range(1000):
+            at_work.append(True)
+            at_work.pop()
+            turns.part(number, 1000)
+
+    turns = Turns(work)
+    for _ in range(500):
+        turns.step()
+        assert at_work == []
+    turns.stop()
+
+
+def test_stopping_ends_it_where_it_is_and_its_files_are_closed(tmp_path):
+    ended = []
+
+    def work(turns):
+        try:
+            turns.part(1, 2)
+            ended.append("not stopped")
+        except Exception:
+            ended.append("swallowed")
+        finally:
+            ended.append("cleaned up")
+
+    before = threading.active_count()
+    turns = Turns(work)
+    turns.step()
+    turns.stop()
+    turns._thread.join(10.0)
+    assert ended == ["cleaned up"] and turns.is_finished and threading.active_count() == before
+
+
+def test_stopping_before_it_began_starts_nothing():
+    turns = Turns(lambda _turns: pytest.fail("it ran"))
+    turns.stop()
+    assert turns.is_finished and turns.outcome() is None
+
+
+def test_an_error_is_raised_where_the_outcome_is_asked_for():
+    def work(turns):
+        turns.stage("writing")
+        raise OutputError("the disk is full")
+
+    turns = Turns(work)
+    while not turns.is_finished:
+        turns.step()
+    with pytest.raises(OutputError, match="the disk is full"):
+        turns.outcome()
