@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ..core.timing.time_left import in_words, remaining_s
-from .sidebar import redraw_sidebars
+from .sidebar import draw_sentence, redraw_sidebars
 
 
 @dataclass(slots=True)
@@ -96,10 +96,9 @@ def going_on() -> Course | None:
     return _going_on[0] if _going_on else None
 
 
-def draw_course(layout: bpy.types.UILayout, course: Course) -> None:
+def draw_course(layout: bpy.types.UILayout, context: bpy.types.Context, course: Course) -> None:
     """Draw how far some work is."""
     first, *others = course.lines
     layout.progress(factor=min(course.share, 1.0), text=first)
-    column = layout.column(align=True)
     for line in others:
-        column.label(text=line)
+        draw_sentence(layout, context, line, icon="NONE")

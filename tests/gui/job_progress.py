@@ -8,7 +8,8 @@ from person import Person, Steps
 from traces import CHECKOUT, module, recording_runs
 
 SCENARIO = CHECKOUT / "examples" / "two_spans_13m_explosives.toml"
-FACTOR = 1.5
+FACTOR, SHARE = 1.5, 0.8
+"""How right it is, and in how many looks: others on the machine may take or leave half of it at any time."""
 LEAST_LEFT_S = 2.0
 """Below which nobody minds."""
 FROM_SHARE, TO_SHARE = 0.2, 0.9
@@ -87,6 +88,6 @@ def follow(person: Person, what: str, pictured_at: int) -> Steps:
         person.note(f"{what} takes too short a time to judge")
         return
     share = sum(each <= FACTOR for each in factors) / len(factors)
-    trouble = "" if share >= 0.9 else f"only {share:.0%} of {len(factors)} times; at worst {max(factors):.2f}"
-    person.note(f"time left of {what} is right within a factor of {FACTOR} in 9 of 10 looks", trouble)
+    trouble = "" if share >= SHARE else f"only {share:.0%} of {len(factors)} times; at worst {max(factors):.2f}"
+    person.note(f"time left of {what} is right within a factor of {FACTOR} in {SHARE:.0%} of looks", trouble)
     person.note(f"{what}: {len(factors)} looks, {share:.0%} within {FACTOR}, at worst {max(factors):.2f}")

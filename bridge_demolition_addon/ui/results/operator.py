@@ -35,7 +35,7 @@ _SHARES = {
     REPORT_PDF: (0.45, 0.83),
 }
 """Parts of the time that a report takes at the beginning and at the end of its stages, measured with two runs of one
-and two spans. By it the time left was right within a factor of 1.5."""
+and two spans."""
 
 
 class BDA_OT_go_to_body(Action, bpy.types.Operator):
@@ -138,7 +138,7 @@ class BDA_OT_make_report(LongAction, bpy.types.Operator):
     bl_idname = "bda.make_report"
     bl_label = "Make Report"
     changes_scene = False
-    what, unit = "Making the report", "parts of this step"
+    what, unit = "Making the report", "parts"
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:

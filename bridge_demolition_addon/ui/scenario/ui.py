@@ -86,7 +86,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
         if course := going_on():
-            draw_course(layout, course)
+            draw_course(layout, context, course)
         else:
             draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
         column = layout.column(align=True)
