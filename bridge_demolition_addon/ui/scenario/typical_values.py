@@ -91,6 +91,8 @@ TYPICAL: dict[str, Any] = {
     "exclusion.buffer_m": 5.0,
     "site.latitude_deg": 41.6,
     "site.longitude_deg": -93.6,
+    "equipment.footprint_m": [4.0, 3.0],
+    "equipment.until_s": 4.0,
     "neighbours.place_m": [6.5, 30.0, 1.5],
     "vary.mean": 5.0,
     "vary.deviation": 0.5,
