@@ -9,6 +9,7 @@ from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import ends_of, loose_connections
 from .rendering.dust import remove_dust
+from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
 from .structural_changes import keep_changes
@@ -36,6 +37,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
         bodies,
     )
     remove_dust(scene)
+    clear_markers(scene)
     clear_surroundings(scene)
     remove_unused_materials()
     stop_animation(scene)

@@ -8,10 +8,15 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 
+from ..core.display.moments import moments
 from ..core.errors import OutputError
 from ..core.results.arrays import Results, load_results
 from ..core.results.files import RESULTS_FILE, SUMMARY_FILE
+from ..scene.blast.charges import charges_of
+from ..scene.blast.settings import blast_of
+from ..scene.rendering.markers import mark_moments
 
 _FOLDER, _DIGEST = "bda_run_folder", "bda_run_digest"
 
@@ -19,6 +24,15 @@ _FOLDER, _DIGEST = "bda_run_folder", "bda_run_digest"
 def keep_run(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
     """Keep with a scene where the results of its run are, and what they are known by."""
     scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), summary["fingerprint"]["result"]
+
+
+def mark_run(scene: bpy.types.Scene, results: Results, summary: dict[str, Any]) -> None:
+    """Mark on the scene's timeline what happened in its run."""
+    settings = blast_of(scene)
+    charges = charges_of(scene) if settings.explosion else ()
+    detonations_s = {each.name: settings.start_s + each.delay_s for each in charges if each.mass_kg > 0.0}
+    rest_s = summary.get("came_to_rest_s")
+    mark_moments(scene, moments(results, np.array(scene.gravity), detonations_s, rest_s))
 
 
 def forget_run(scene: bpy.types.Scene) -> None:

@@ -24,7 +24,7 @@ from ..scene.rendering.camera import prepare_pictures, render_picture
 from ..scene.rendering.staging import stage
 from ..scene.world import START_FRAME, keep_played_frames
 from .display.film import FilmRendering, FilmSettings
-from .kept_run import keep_run
+from .kept_run import keep_run, mark_run
 from .playback import Playing
 from .recording.recorder import Recording
 from .results_folder import check_folder, keep_results, keep_scenario, keep_summary, lock_in_place, prepare_folder
@@ -170,6 +170,7 @@ def _keep_all(
     keep_results(folder, recording.results(), summary)
     recording.remove_stream()
     keep_run(scene, folder, summary)
+    mark_run(scene, recording.results(), summary)
     keep_played_frames(scene)
     path = folder.resolve() / BLEND_FILE
     try:  # Blender itself writes beside it and renames

@@ -18,7 +18,7 @@ from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...scene.world import start_over
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
-from ...simulation.kept_run import keep_run
+from ...simulation.kept_run import keep_run, mark_run
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
@@ -201,6 +201,7 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
         recording.remove_stream()
     with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
         keep_run(recording.scene, lock.folder, summary)
+        mark_run(recording.scene, results, summary)
     session.keep_recording(lock.folder, recording, summary)
     return lock.folder
 

@@ -179,3 +179,20 @@ def curves_of(body):
     from bridge_demolition_addon.scene.time_scale import curves_of as found
 
     return found(body.animation_data)
+
+
+def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, extension, tmp_path):
+    from bridge_demolition_addon.core.results.arrays import load_results
+
+    ran.timeline_markers.new("mine", frame=7)
+    frames = load_results(tmp_path / "run" / "results.npz").frames
+    marked = {marker.name: marker.frame for marker in ran.timeline_markers}
+    first = int(frames.number[(~frames.intact).any(axis=1).argmax()])
+    assert marked["First break"] == first
+    assert {each.name for each in SHORT.charges} <= set(marked)
+    assert "Release" not in marked  # there is no ball
+    ran.bda.overwrite = True
+    assert extension.ops.bda.run() == {"FINISHED"}
+    assert {marker.name: marker.frame for marker in ran.timeline_markers} == marked
+    assert extension.ops.bda.remove_demolition() == {"FINISHED"}
+    assert [marker.name for marker in ran.timeline_markers] == ["mine"]

@@ -1,0 +1,31 @@
+"""Markers on the timeline for what happened in a run; the user's own are left alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+
+from ...core.scenario.kept import values_from_text, values_text
+
+_OURS = "bda_markers"
+"""Property of a scene: frames and names of the markers that were made here, as markers keep no properties."""
+
+
+def mark_moments(scene: bpy.types.Scene, moments: Iterable[tuple[int, str]]) -> None:
+    """Mark frames by name, in place of those of the run before."""
+    clear_markers(scene)
+    made = [[frame, name] for frame, name in moments]
+    for frame, name in made:
+        scene.timeline_markers.new(name, frame=frame)
+    scene[_OURS] = values_text(made)
+
+
+def clear_markers(scene: bpy.types.Scene) -> None:
+    """Remove the markers that were made here, and are still where they were put."""
+    ours = values_from_text(str(scene.get(_OURS, "")), [])
+    for marker in list(scene.timeline_markers):
+        if [marker.frame, marker.name] in ours:
+            scene.timeline_markers.remove(marker)
+    if _OURS in scene:
+        del scene[_OURS]
