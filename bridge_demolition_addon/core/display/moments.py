@@ -15,7 +15,7 @@ _NOISE_S = 1e-6
 def moments(
     results: Results, gravity_m_s2: np.ndarray, detonations_s: Mapping[str, float], came_to_rest_s: float | None
 ) -> list[tuple[int, str]]:
-    """Return the frames of what happens in a run, and what it is: release and hit of a ball, charges, first break, rest.
+    """Return frames of a run and what happens in them: release and hit of a ball, charges, first break, rest.
 
     Parameters
     ----------
