@@ -1,5 +1,7 @@
 """Slabs in irregular shards that stand on the ground and are pulled sideways, held against beam theory."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from bridge_demolition_addon.core.bridge.member import Member
 from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.shards import fracture
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.mechanics.joint import Joint
 from bridge_demolition_addon.core.structure.connections import GROUND, connect, foundations, joined, neighbours_by_face
@@ -19,12 +22,24 @@ DENSITY_KG_M3, GRAVITY_M_S2 = 2400.0, 9.80665
 DEPTH_M, WIDTH_M, HEIGHT_M = 1.0, 4.0, 20.0
 
 
-def standing_slab(shard_count, seed):
-    """Shards and connections of a slab on the ground, with their stiffness."""
+def upside_down(shards):
+    """Shards of the slab, turned so that its top is its foot."""
+    mirror = np.array((1.0, -1.0, -1.0))
+    return [TriangleMesh(each.vertices * mirror + (0.0, 0.0, HEIGHT_M), each.triangles) for each in shards]
+
+
+def held_at_the_top(shards):
+    """Foundations of its top, in the axes of the slab."""
+    found, mirror = foundations(upside_down(shards)), np.array((1.0, -1.0, -1.0))
+    return replace(found, points=found.points * mirror + (0.0, 0.0, HEIGHT_M), normals=found.normals * mirror)
+
+
+def standing_slab(shard_count, seed, *, held=False):
+    """Shards and connections of a slab on the ground, and held at its top too if wanted, with their stiffness."""
     solid = box((DEPTH_M, WIDTH_M, HEIGHT_M), (0.0, 0.0, HEIGHT_M / 2))
     cut = fracture(solid, shard_count, seed)
     between = connect(cut.centres, cut.faces, *neighbours_by_face(cut.faces), limit_per_shard=1000)
-    connections = joined([between, foundations(cut.shards)])
+    connections = joined([between, foundations(cut.shards), *([held_at_the_top(cut.shards)] if held else [])])
     moments = second_moments(
         cut.shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
@@ -95,3 +110,23 @@ def test_connections_to_the_ground_bear_the_whole_weight():
     # They push the shards up: pulled towards the ground is negative. It is at rest within 1e-4 of the weight.
     assert abs(borne[2]) == pytest.approx(weight, rel=1e-3)
     assert borne[:2] == pytest.approx([0.0, 0.0], abs=1e-3 * weight)
+
+
+# Means of seeds that test_a_slab_in_shards_is_as_stiff_as_the_slab has: what is redundant goes by the same stiffness.
+@pytest.mark.parametrize(("count", "seeds", "within"), [(40, 4, 0.05), (200, 4, 0.02), (1000, 1, 0.02)])
+def test_a_slab_held_at_both_ends_has_the_moments_of_a_fixed_beam(count, seeds, within):
+    """Pulled sideways: w L² / 12 at both ends, and half of the load."""
+    load = DENSITY_KG_M3 * GRAVITY_M_S2 * DEPTH_M * WIDTH_M
+    found = []
+    for seed in range(seeds):
+        cut, connections, stiffness = standing_slab(count, seed, held=True)
+        masses = DENSITY_KG_M3 * cut.volumes
+        inertias = masses[:, None] * [box_inertia(np.ptp(shard.vertices, axis=0)) for shard in cut.shards]
+        rest = at_rest(connections, stiffness, masses, inertias, cut.centres, gravity_m_s2=(GRAVITY_M_S2, 0.0, 0.0))
+        for height in (0.0, HEIGHT_M):
+            rows = (connections.pairs[:, 1] == GROUND) & (abs(connections.points[:, 2] - height) < 1e-6)
+            forces, moments = rest.loads[:3, rows], rest.loads[3:, rows]
+            levers = (connections.points[rows] - (0.0, 0.0, height)).T
+            turning = moments[1] + levers[2] * forces[0] - levers[0] * forces[2]
+            found.append((abs(forces[0].sum()) / (load * HEIGHT_M / 2), abs(turning.sum()) / (load * HEIGHT_M**2 / 12)))
+    assert np.mean(found, axis=0) == pytest.approx([1.0, 1.0], abs=within)
