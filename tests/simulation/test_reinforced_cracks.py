@@ -9,9 +9,11 @@ from blocks import Blocks
 from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, section_stiffness
 from bridge_demolition_addon.core.elasticity.steel_bars import Steel
 from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.core.scenario import SawCut, Weakening
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
+from bridge_demolition_addon.scene.structural_changes import keep_changes
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)
@@ -71,6 +73,34 @@ def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     assert hardened - let_go == pytest.approx(0.6 * most * at_yield_m, rel=0.02)
     forces = abs(results.frames.loads.connection_forces_n[:, 0, 2])
     np.testing.assert_allclose(forces[[228, -1]], [mass_kg * GRAVITY, 0.4 * mass_kg * GRAVITY], rtol=1e-3)
+
+
+def test_bars_that_are_weakened_stretch_further_and_those_that_are_sawn_through_let_go(blender, tmp_path):
+    """Half of the bars are half as stiff; without any a block falls freely."""
+    blocks, mass_kg, elongation_m = Blocks(), 2000.0, 0.1
+    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), mass_kg)
+    connection = blocks.connect("FIXED", (0, 0, 9.5), ceiling, block)
+    yield_n = 4.0 * mass_kg * GRAVITY
+    reinforced(blocks, connection, (0.0, 0.0, -1.0), (1.0, 1.0), yield_n, elongation_m, Steel())
+    blocks.scene.gravity[0] = 1e-3
+    weigh(blocks.scene, {1: SMALL, 3: SMALL, 24: 1.0})
+    weakened_s, cut_s = 2.0, 3.0
+    keep_changes(
+        blocks.scene,
+        [
+            Weakening(time_s=weakened_s, lowest_corner_m=(-1, -1, 8), highest_corner_m=(1, 1, 11), factor=0.5),
+            SawCut(time_s=cut_s, point_m=(0, 0, 9.5), normal=(0, 0, 1)),
+        ],
+    )
+    results = blocks.play(tmp_path, 84)
+    times, fallen = results.frames.time_s, 9.0 - results.frames.positions_m[:, 1, 2]
+    before, after = (np.flatnonzero(times < each - 1e-6)[-1] for each in (weakened_s, cut_s))
+    at_yield_m = elongation_m / 20.0
+    assert fallen[before] == pytest.approx(0.25 * at_yield_m, rel=0.02)
+    assert fallen[after] == pytest.approx(0.5 * at_yield_m, rel=0.02)
+    falling_s = times[-1] - cut_s
+    assert results.frames.velocities_m_s[-1, 1, 2] == pytest.approx(-GRAVITY * falling_s, rel=0.02)
+    assert (results.frames.loads.connection_forces_n[-1] == 0.0).all()
 
 
 LENGTH_M, DEPTH_M, WIDTH_M = 4.0, 0.5, 1.0
