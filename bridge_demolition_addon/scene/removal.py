@@ -46,7 +46,8 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     fields = force_collection(scene)
     if fields and not fields.all_objects:
         bpy.data.collections.remove(fields)
-    if not scene.rigidbody_world.collection.all_objects:
+    others = scene.rigidbody_world.collection  # none where it was one of those that are gone now
+    if others is None or not others.all_objects:
         remove_world(scene)
     return len(bodies)
 

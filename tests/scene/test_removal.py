@@ -11,6 +11,7 @@ from bridge_demolition_addon.core.scenario import FractureSettings, Support
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.scene.blast.charges import charge_objects
+from bridge_demolition_addon.scene.blast.force_fields import force_collection
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition
@@ -91,6 +92,18 @@ def test_built_anew_and_played_again(blender):
 
 def test_a_scene_without_bodies_has_nothing_to_remove(blender):
     assert remove_demolition(blender.context.scene) == remove_loose_connections(blender.context.scene) == 0
+
+
+def test_the_world_goes_with_the_collection_that_it_has_by_then(blender):
+    """Any collection can be chosen in Blender's own panel, also that of the force objects, which goes when empty."""
+    scene = blender.context.scene
+    scenario = replace(read_scenario(EXAMPLES / "single_span_explosives.toml"), fracture=SPAN.fracture)
+    scenario = replace(scenario, blast=replace(scenario.blast, apply="fields"))
+    build_demolition(scene, scenario, build_model(scenario))
+    blender.data.batch_remove(list(force_collection(scene).all_objects))
+    scene.rigidbody_world.collection = force_collection(scene)
+    assert remove_demolition(scene) == 0
+    assert force_collection(scene) is None and scene.rigidbody_world is None
 
 
 def test_what_was_not_built_here_stays(blender):
