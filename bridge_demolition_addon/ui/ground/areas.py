@@ -11,7 +11,7 @@ from manifold3d import CrossSection
 
 from ...core.debris.exclusion import ExclusionZone, exclusion_zone
 from ...core.debris.footprint import footprint
-from ...core.display.ground_lines import planned_zone
+from ...core.display.ground_lines import distance_rings, planned_zone
 from ...core.geometry.plan_areas import united
 from ...core.geometry.vectors import transformed
 from ...core.results.arrays import Results
@@ -48,6 +48,14 @@ def plan_of(scene: bpy.types.Scene) -> CrossSection | None:
     shards = [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
     key = (scene.session_uid, len(shards), scene.bda.built_scenario)
     return _kept("plan", key, lambda: _plan_as_built(shards)) if shards else None
+
+
+def rings_of(scene: bpy.types.Scene, spacing_m: float, number: int) -> list[tuple[float, np.ndarray]]:
+    """Return rings of distance around the plan, as `distance_rings` does; none without a bridge."""
+    plan = plan_of(scene)
+    if plan is None:
+        return []
+    return _kept("rings", (_found["plan"][0], spacing_m, number), lambda: distance_rings(plan, spacing_m, number))
 
 
 def debris_of(scene: bpy.types.Scene) -> CrossSection | None:

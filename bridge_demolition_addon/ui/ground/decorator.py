@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.display.ground_lines import cross_lines, distance_rings, flash_lines, flash_share, way_lines, zone_lines
+from ...core.display.ground_lines import cross_lines, flash_lines, flash_share, way_lines, zone_lines
 from ...core.display.study_map import outline_lines
 from ...core.geometry.plan_areas import outlines
 from ...scene.blast.charges import charges_of
@@ -116,10 +116,7 @@ def _debris(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Dra
 
 
 def _rings(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
-    plan = areas.plan_of(scene)
-    if plan is None:
-        return
-    for distance, lines in distance_rings(plan, scene.bda.distance_spacing_m, scene.bda.distance_count):
+    for distance, lines in areas.rings_of(scene, scene.bda.distance_spacing_m, scene.bda.distance_count):
         yield Drawn(lines, _COLOURS[RINGS], 1.0, f"{distance:g} m", tuple(lines[int(lines[:, 0].argmax())]))
 
 
