@@ -6,7 +6,7 @@ from functools import cache
 
 import bpy
 
-from . import long_action, messages
+from . import first_help, long_action, messages, workspace
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
@@ -27,7 +27,7 @@ from .study import session as study_session
 from .study import ui as study_ui
 
 _OPERATORS = (
-    *(scenario_operator, preset_menu, number_rows, messages, user_meshes, table_list),
+    *(scenario_operator, preset_menu, number_rows, messages, first_help, workspace, user_meshes, table_list),
     *(recording_operator, run, log_paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, study_operator),
 )
@@ -56,6 +56,7 @@ def unregister() -> None:
     """End a run, recording or study that goes on, and unregister all classes."""
     study_session.unregister()
     long_action.unregister()
+    workspace.unregister()
     session.unregister()
     ground_operator.unregister()
     for each in reversed(classes()):

@@ -62,12 +62,13 @@ BUTTONS = {
     "remove_row": 2,
     "look_at_bridge": 1,
     "dismiss_messages": 0.5,
+    "make_workspace": 0.3,
     "go_to_body": 2,
     "draw_charts": 0.1,
     "make_report": 0.1,
     "render_contours": 0.3,
 }
-"""How often each button is pressed. Two are not, that open a window of the system: open_results and open_report."""
+"""How often each button is pressed. Those are not that open a window of the system: `open_...`."""
 
 TEXTS = ("", "deck", "pier*", "[1, 2, 3]", "50% of $1 {x} \\ Ü", "not = [toml", "results", "//results", "no/x.toml")
 LARGEST = 40

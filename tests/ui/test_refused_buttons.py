@@ -18,6 +18,7 @@ IN_A_LINKED_SCENE = {
     "go_to_body": "is not in this scene",
     "make_report": "Run the scene first",
     "open_report": "Run the scene first",
+    "open_walkthrough": "no xdg-open",
     "open_results": "Nothing was recorded yet",
     "pause_study": "No study is at work",
     "resume_study": "No study is paused",

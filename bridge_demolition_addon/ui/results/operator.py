@@ -22,7 +22,7 @@ from ..turns import Turns
 from ..viewport import look_at_selected, select_only
 from .shown_run import shown_run
 
-_CHARTS = "charts"
+CHARTS = "charts"
 _OPENER = "xdg-open"
 """Opens folders on Linux. Blender, where it is missing, only writes to the console."""
 _SURROUNDINGS = 3.0
@@ -118,7 +118,7 @@ class BDA_OT_draw_charts(LongAction, _OfShownRun, bpy.types.Operator):
         from ...charts.force_chart import plot_forces
 
         run = shown_run(context.scene)
-        folder, results = run.folder / _CHARTS, run.results()
+        folder, results = run.folder / CHARTS, run.results()
         settings = ChartSettings(model=BlastModel(context.scene.bda.scenario.blast.model))
 
         def draw(turns: Turns) -> str:

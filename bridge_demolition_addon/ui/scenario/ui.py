@@ -12,6 +12,7 @@ from ...core.scenario import Scenario
 from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..course import draw_course, going_on
+from ..first_help import draw_first_help
 from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from .breaking_note import breaking_note
@@ -95,6 +96,8 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         column.operator("bda.build_scenario", icon="MOD_BUILD")
         draw_run(column, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
+        draw_first_help(layout, context)
+        layout.operator("bda.make_workspace", icon="WORKSPACE")
         layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")

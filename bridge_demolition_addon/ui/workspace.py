@@ -1,0 +1,122 @@
+"""The workspace BDA: the bridge with its sidebar, charts beside it and the timeline below, made by one button."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import OutputError, SimulationError
+from ..core.results.files import FORCE_CHART
+from .operators import Action
+from .results.operator import CHARTS
+from .results.shown_run import shown_run
+
+NAME = "BDA"
+_MADE = "bda_is_made"
+"""Property of the workspace that was made here: a user's own may have the same name."""
+
+_LEAST_AREAS = 3
+_LOOK_EVERY_S = 0.05
+
+_asked_for: list[str] = []
+"""Name of the workspace that is to be shown: Blender shows it only when the button has ended."""
+
+_LARGEST, _BESIDE, _BELOW = "VIEW_3D", "IMAGE_EDITOR", "TIMELINE"
+
+
+class BDA_OT_make_workspace(Action, bpy.types.Operator):
+    """Go to the workspace BDA, made if there is none: bridge, timeline, and the chart of forces once it is drawn"""
+
+    bl_idname = "bda.make_workspace"
+    bl_label = "BDA Workspace"
+    changes_scene = False
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return None if context.window else "There is no window to make a workspace in"
+
+    def act(self, context: bpy.types.Context) -> None:
+        workspace = made_workspace()
+        if workspace is None:
+            workspace = _copy_of_shown(context)
+        _asked_for[:] = [workspace.name]
+        context.window.workspace = workspace
+        if not bpy.app.timers.is_registered(_arrange_when_shown):
+            bpy.app.timers.register(_arrange_when_shown, first_interval=_LOOK_EVERY_S)
+
+
+CLASSES = (BDA_OT_make_workspace,)
+
+
+def made_workspace() -> bpy.types.WorkSpace | None:
+    """Return the workspace that was made before, None where there is none in this file."""
+    return next((each for each in bpy.data.workspaces if each.get(_MADE)), None)
+
+
+def arrange(screen: bpy.types.Screen) -> None:
+    """Make editors of a screen that is shown those for bridge, timeline and charts: Blender changes no others.
+
+    The largest is for the bridge, the widest of the others for the timeline.
+    """
+    largest, *others = sorted(screen.areas, key=lambda each: each.width * each.height, reverse=True)
+    below = max(others, key=lambda each: each.width / each.height)
+    beside = max((each for each in others if each != below), key=lambda each: each.width * each.height)
+    for area, kind in ((largest, _LARGEST), (below, _BELOW), (beside, _BESIDE)):
+        if area.ui_type != kind:
+            area.ui_type = kind
+    largest.spaces.active.show_region_ui = True
+
+
+def show_chart(screen: bpy.types.Screen, scene: bpy.types.Scene) -> None:
+    """Show the chart of forces in the editor of charts, if the shown run has one."""
+    path = chart_of(scene)
+    if path is None:
+        return
+    image = bpy.data.images.load(str(path), check_existing=True)
+    image.reload()
+    for area in screen.areas:
+        if area.type == _BESIDE:
+            area.spaces.active.image = image
+
+
+def chart_of(scene: bpy.types.Scene) -> Path | None:
+    """Return the chart of forces of the shown run; None where none was drawn."""
+    try:
+        run = shown_run(scene)
+    except OutputError:  # the panel Results says so
+        return None
+    path = run.folder / CHARTS / FORCE_CHART if run else None
+    return path if path and path.is_file() else None
+
+
+def unregister() -> None:
+    """Arrange nothing any more."""
+    _asked_for.clear()
+    if bpy.app.timers.is_registered(_arrange_when_shown):
+        bpy.app.timers.unregister(_arrange_when_shown)
+
+
+def _copy_of_shown(context: bpy.types.Context) -> bpy.types.WorkSpace:
+    if len(context.window.screen.areas) < _LEAST_AREAS:
+        raise SimulationError("this workspace has less than three editors: go to Layout first")
+    before = set(bpy.data.workspaces)
+    bpy.ops.workspace.duplicate()
+    (workspace,) = set(bpy.data.workspaces) - before
+    workspace.name, workspace[_MADE] = NAME, True
+    return workspace
+
+
+def _arrange_when_shown() -> float | None:
+    """Arrange the workspace that was asked for, once a window shows it; called by Blender's timer."""
+    workspace = made_workspace()
+    if not _asked_for or workspace is None or workspace.name != _asked_for[0]:
+        return None
+    window = next((each for each in bpy.context.window_manager.windows if each.workspace == workspace), None)
+    if window is None:
+        return _LOOK_EVERY_S
+    _asked_for.clear()
+    if len(window.screen.areas) >= _LEAST_AREAS:  # whoever joined some has made it their own
+        arrange(window.screen)
+    show_chart(window.screen, window.scene)
+    return None

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first help, the workspace BDA by one click, and a chart in it."""
+
+import bpy
+from habits import build
+from person import Person, Steps
+from traces import opened, recording_runs
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    yield from person.picture("first_help")
+    yield from person.click("bda.open_walkthrough")
+    yield 0.5
+    person.expect("the walkthrough is opened", [each.rpartition("/")[2] for each in opened()], ["walkthrough.html"])
+    yield from build(person)
+    yield from person.click("bda.run")
+    yield from person.wait_for("it runs", recording_runs, 20.0)
+    yield from person.wait_for("it is over", lambda: not recording_runs(), 120.0)
+    yield 0.5
+    with person._in_sidebar():
+        bpy.ops.bda.draw_charts()
+    yield from person.click("bda.make_workspace")
+    yield 2.0
+    person.expect("the workspace is shown", person.window.workspace.name, "BDA")
+    kinds = {area.ui_type for area in person.window.screen.areas}
+    person.expect("with bridge, charts and timeline", {"VIEW_3D", "IMAGE_EDITOR", "TIMELINE"} <= kinds)
+    yield from person.picture("workspace")
