@@ -35,7 +35,7 @@ def main(run: str) -> int:
     """Write all pictures and return the exit status."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     icon().save(PICTURES / "icon.png", optimize=True)
-    for name, moment in (("featured", "impact"), ("preview_before", "before"), ("preview_after", "after")):
+    for name, moment in (("featured", "after"), ("preview_before", "before"), ("preview_impact", "impact")):
         with Image.open(Path(run) / "frames" / f"{moment}.png") as picture:
             fitted = picture.convert("RGB").resize(PICTURE_PX, Image.Resampling.LANCZOS)
         fitted.save(PICTURES / f"{name}.jpg", quality=85, optimize=True)

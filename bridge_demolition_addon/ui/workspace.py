@@ -11,6 +11,7 @@ from ..core.results.files import FORCE_CHART
 from .operators import Action
 from .results.operator import CHARTS
 from .results.shown_run import shown_run
+from .sidebar import SidebarPanel
 
 NAME = "BDA"
 _MADE = "bda_is_made"
@@ -66,18 +67,23 @@ def arrange(screen: bpy.types.Screen) -> None:
         if area.ui_type != kind:
             area.ui_type = kind
     largest.spaces.active.show_region_ui = True
+    sidebar = _region(largest, "UI")
+    if not sidebar.bl_rna.properties["active_panel_category"].is_readonly:  # as it is before Blender 4.3
+        sidebar.active_panel_category = SidebarPanel.bl_category
 
 
-def show_chart(screen: bpy.types.Screen, scene: bpy.types.Scene) -> None:
-    """Show the chart of forces in the editor of charts, if the shown run has one."""
-    path = chart_of(scene)
+def show_chart(window: bpy.types.Window) -> None:
+    """Show the whole chart of forces in the editor of charts, if the shown run has one."""
+    path = chart_of(window.scene)
     if path is None:
         return
     image = bpy.data.images.load(str(path), check_existing=True)
     image.reload()
-    for area in screen.areas:
+    for area in window.screen.areas:
         if area.type == _BESIDE:
             area.spaces.active.image = image
+            with bpy.context.temp_override(window=window, area=area, region=_region(area, "WINDOW")):
+                bpy.ops.image.view_all(fit_view=True)
 
 
 def chart_of(scene: bpy.types.Scene) -> Path | None:
@@ -88,6 +94,10 @@ def chart_of(scene: bpy.types.Scene) -> Path | None:
         return None
     path = run.folder / CHARTS / FORCE_CHART if run else None
     return path if path and path.is_file() else None
+
+
+def _region(area: bpy.types.Area, kind: str) -> bpy.types.Region:
+    return next(each for each in area.regions if each.type == kind)
 
 
 def unregister() -> None:
@@ -118,5 +128,5 @@ def _arrange_when_shown() -> float | None:
     _asked_for.clear()
     if len(window.screen.areas) >= _LEAST_AREAS:  # whoever joined some has made it their own
         arrange(window.screen)
-    show_chart(window.screen, window.scene)
+    show_chart(window)
     return None

@@ -16,7 +16,7 @@ def test_the_icon_is_square_and_transparent_around_the_bridge():
     assert corners == [0, 0, 0, 0] and opacity.getextrema() == (0, 255)
 
 
-@pytest.mark.parametrize("name", ["featured", "preview_before", "preview_after"])
+@pytest.mark.parametrize("name", ["featured", "preview_before", "preview_impact"])
 def test_pictures_are_as_large_as_they_are_shown(name):
     with Image.open(PICTURES / f"{name}.jpg") as picture:
         assert picture.size == (1920, 1080)

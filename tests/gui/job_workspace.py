@@ -25,4 +25,7 @@ def steps(person: Person) -> Steps:
     person.expect("the workspace is shown", person.window.workspace.name, "BDA")
     kinds = {area.ui_type for area in person.window.screen.areas}
     person.expect("with bridge, charts and timeline", {"VIEW_3D", "IMAGE_EDITOR", "TIMELINE"} <= kinds)
+    tab = next(each for each in person.view.regions if each.type == "UI").active_panel_category
+    person.expect("and the tab BDA in the sidebar", tab, "BDA")
     yield from person.picture("workspace")
+    person.take_reports()
