@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -20,6 +22,9 @@ _MADE = "bda_is_made"
 _LEAST_AREAS = 3
 _LOOK_EVERY_S = 0.05
 
+_LOOKS = 40
+"""How often it is tried to open the tab: Blender before 4.3 never lets an add-on do so."""
+
 _asked_for: list[str] = []
 """Name of the workspace that is to be shown: Blender shows it only when the button has ended."""
 
@@ -31,7 +36,6 @@ class BDA_OT_make_workspace(Action, bpy.types.Operator):
 
     bl_idname = "bda.make_workspace"
     bl_label = "BDA Workspace"
-    changes_scene = False
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -67,9 +71,16 @@ def arrange(screen: bpy.types.Screen) -> None:
         if area.ui_type != kind:
             area.ui_type = kind
     largest.spaces.active.show_region_ui = True
-    sidebar = _region(largest, "UI")
-    if not sidebar.bl_rna.properties["active_panel_category"].is_readonly:  # as it is before Blender 4.3
-        sidebar.active_panel_category = SidebarPanel.bl_category
+
+
+def open_tab(screen: bpy.types.Screen) -> bool:
+    """Open the tab of the add-on in the sidebar, and return whether it could be: Blender has to have drawn it."""
+    area = max((each for each in screen.areas if each.type == _LARGEST), key=lambda each: each.width, default=None)
+    sidebar = area and _region(area, "UI")
+    if not sidebar or sidebar.is_property_readonly("active_panel_category"):
+        return False
+    sidebar.active_panel_category = SidebarPanel.bl_category
+    return True
 
 
 def show_chart(window: bpy.types.Window) -> None:
@@ -129,4 +140,11 @@ def _arrange_when_shown() -> float | None:
     if len(window.screen.areas) >= _LEAST_AREAS:  # whoever joined some has made it their own
         arrange(window.screen)
     show_chart(window)
+    bpy.app.timers.register(partial(_open_tab_when_drawn, window.screen.name, iter(range(_LOOKS))))
     return None
+
+
+def _open_tab_when_drawn(screen: str, looks: Iterator[int]) -> float | None:
+    """Open the tab as soon as that is possible, if it ever is."""
+    found = bpy.data.screens.get(screen)
+    return None if found is None or next(looks, None) is None or open_tab(found) else _LOOK_EVERY_S
