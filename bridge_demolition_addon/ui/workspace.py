@@ -28,6 +28,9 @@ _LOOKS = 40
 _asked_for: list[str] = []
 """Name of the workspace that is to be shown: Blender shows it only when the button has ended."""
 
+_openings: list[partial] = []
+"""The timer that opens the tab, if one does."""
+
 _LARGEST, _BESIDE, _BELOW = "VIEW_3D", "IMAGE_EDITOR", "TIMELINE"
 
 
@@ -114,8 +117,10 @@ def _region(area: bpy.types.Area, kind: str) -> bpy.types.Region:
 def unregister() -> None:
     """Arrange nothing any more."""
     _asked_for.clear()
-    if bpy.app.timers.is_registered(_arrange_when_shown):
-        bpy.app.timers.unregister(_arrange_when_shown)
+    for timer in (_arrange_when_shown, *_openings):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
+    _openings.clear()
 
 
 def _copy_of_shown(context: bpy.types.Context) -> bpy.types.WorkSpace:
@@ -140,7 +145,8 @@ def _arrange_when_shown() -> float | None:
     if len(window.screen.areas) >= _LEAST_AREAS:  # whoever joined some has made it their own
         arrange(window.screen)
     show_chart(window)
-    bpy.app.timers.register(partial(_open_tab_when_drawn, window.screen.name, iter(range(_LOOKS))))
+    _openings[:] = [partial(_open_tab_when_drawn, window.screen.name, iter(range(_LOOKS)))]
+    bpy.app.timers.register(_openings[0])
     return None
 
 

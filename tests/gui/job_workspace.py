@@ -4,7 +4,7 @@
 import bpy
 from habits import build
 from person import Person, Steps
-from traces import opened, recording_runs
+from traces import module, opened, recording_runs
 
 
 def steps(person: Person) -> Steps:
@@ -19,7 +19,8 @@ def steps(person: Person) -> Steps:
     yield from person.wait_for("it is over", lambda: not recording_runs(), 120.0)
     yield 0.5
     with person._in_sidebar():
-        bpy.ops.bda.draw_charts()
+        bpy.ops.bda.draw_charts("INVOKE_DEFAULT")
+    yield from person.wait_for("the chart is drawn", lambda: module("ui.course").going_on() is None, 60.0)
     yield from person.click("bda.make_workspace")
     yield 2.0
     person.expect("the workspace is shown", person.window.workspace.name, "BDA")
