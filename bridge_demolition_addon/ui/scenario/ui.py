@@ -96,8 +96,6 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         column.operator("bda.build_scenario", icon="MOD_BUILD")
         draw_run(column, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
-        draw_first_help(layout, context)
-        layout.operator("bda.make_workspace", icon="WORKSPACE")
         layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")
@@ -108,6 +106,8 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         column.operator("bda.build_anew")
         column.operator("bda.remove_demolition")
         column.operator("bda.remove_loose_connections")
+        draw_first_help(layout, context)
+        layout.operator("bda.make_workspace", icon="WORKSPACE")
 
 
 class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):
