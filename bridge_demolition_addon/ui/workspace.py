@@ -83,6 +83,7 @@ def open_tab(screen: bpy.types.Screen) -> bool:
     if not sidebar or sidebar.is_property_readonly("active_panel_category"):
         return False
     sidebar.active_panel_category = SidebarPanel.bl_category
+    area.tag_redraw()
     return True
 
 
