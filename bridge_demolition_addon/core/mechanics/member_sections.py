@@ -72,7 +72,9 @@ class MemberSections:
 
     def are_whole(self, rows: np.ndarray) -> np.ndarray:
         """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
-        areas = np.array([self._areas[faces] @ cosines for faces, _, cosines in map(self._faces, rows.tolist())])
+        areas = np.array(
+            [(self._areas[faces] * cosines).sum() for faces, _, cosines in map(self._faces, rows.tolist())]
+        )
         return areas >= WHOLE * np.square(self._thicknesses[rows])
 
     def sections(

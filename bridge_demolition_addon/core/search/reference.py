@@ -15,7 +15,7 @@ INTRODUCTION = """\
 <!-- Made by `python -m bridge_demolition_addon.core.search.reference docs/search_file.md`: change the code instead. -->
 
 A search file is a [TOML](https://toml.io) file, which `bda search FILE --output DIR` runs; see [searches](search.md).
-Start from [drop_height.toml](../examples/searches/drop_height.toml). A key that is not listed here is
+Start from [lightest_ball.toml](../examples/searches/lightest_ball.toml). A key that is not listed here is
 refused, and so is a value outside its limits.
 """
 

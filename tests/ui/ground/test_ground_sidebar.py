@@ -167,7 +167,8 @@ def test_dust_is_off_and_renders_where_it_is_raised(ran, extension, tmp_path):
         ran.render.filepath = str(tmp_path / "dust.png")
         bpy.ops.render.render(write_still=True)
         pictures.append(imread(tmp_path / "dust.png")[..., :3])
-    assert (abs(pictures[0] - pictures[1]).max(axis=2) > 0.05).sum() > 20
+    # The noise of both is the same: without clouds, no pixel differs. With them 20 and more do, by version of Blender.
+    assert (abs(pictures[0] - pictures[1]).max(axis=2) > 0.05).sum() > 10
     assert bpy.ops.bda.settle_dust() == {"FINISHED"}
     assert not [each for each in ran.objects if each.name.startswith("Dust")]
     ran.bda.overwrite = True
