@@ -114,14 +114,14 @@ def sentences(search: Search, answer: Answer, reason: str) -> list[str]:
         return [seen, _advice(search, reason)]
     told = [
         seen,
-        f"{settings.key}: half of all runs meet them at {answer.median:.4g}{unit}, and {settings.probability:.4g} of "
-        f"all at {answer.value:.4g}{unit}, most likely.",
+        f"{settings.key}: half of all runs meet them at {_shown(answer.median)}{unit}, and "
+        f"{settings.probability:.4g} of all at {_shown(answer.value)}{unit}, most likely.",
     ]
     where = "or more" if settings.success == "above" else "or less"
     if answer.is_known:
         told.append(
             f"With {settings.confidence:.4g} confidence, {settings.probability:.4g} of all runs meet them at "
-            f"{answer.limit:.4g}{unit} {where}."
+            f"{_shown(answer.limit)}{unit} {where}."
         )
         if not settings.lowest <= answer.limit <= settings.highest:
             told.append("That is outside the range in which trials were made: it rests on the shape of the curve.")
@@ -131,7 +131,7 @@ def sentences(search: Search, answer: Answer, reason: str) -> list[str]:
         told.append(f"The median is at the end of the range or beyond it: move search.{farther}.")
     _, low, high = answer.without_model
     told.append(
-        f"Without a model of how the probability rises, the median is {low:.4g} to {high:.4g}{unit} with "
+        f"Without a model of how the probability rises, the median is {_shown(low)} to {_shown(high)}{unit} with "
         f"{settings.confidence:.4g} probability."
     )
     return told
@@ -161,3 +161,8 @@ def _advice(search: Search, reason: str) -> str:
 def _in_order(values: list[float]) -> tuple[float, float, float]:
     middle, *ends = values
     return middle, min(ends), max(ends)
+
+
+def _shown(value: float) -> str:
+    """To four digits, without an exponent where it need not have one."""
+    return f"{float(f'{value:.4g}'):.10g}"
