@@ -87,7 +87,15 @@ class StandingBridge:
         sections = member_sections_of(model)
         self._judges = [each.strength and overloads_of(model, each.strength, sections) for each in joints]
 
-    def rest(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float = 1.0) -> Standing:
+    def rest(
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        factor: float = 1.0,
+        *,
+        every_section: bool = True,
+    ) -> Standing:
         """Return how it stands.
 
         Parameters
@@ -98,6 +106,9 @@ class StandingBridge:
             Forces and moments on the shards, besides their weight.
         factor : float
             How many times as heavy all is.
+        every_section : bool
+            Whether the sections of all connections are judged, or of those alone that are overloaded by themselves: no
+            other breaks.
         """
         model, rows = self.model, np.flatnonzero(intact)
         kept = model.connections.only(intact)
@@ -115,7 +126,7 @@ class StandingBridge:
         borne[:, rows] = found.loads
         of_connections = ConnectionLoads(borne[:3].T, borne[3:].T, model.connections.points)
         held = found.held[:-1]
-        alone, together = self._utilisations(of_connections, intact, left)
+        alone, together = self._utilisations(of_connections, intact, left, every_section)
         fallen = model.centres_m[held, 2] - found.positions_m[2, :-1][held]
         return Standing(held, of_connections, alone, together, float(fallen.max(initial=0.0)), found.frequency_hz)
 
@@ -124,7 +135,7 @@ class StandingBridge:
 
         Splinters that come loose do not count.
         """
-        first = standing = self.rest(intact, left, loads, factor)
+        first = standing = self.rest(intact, left, loads, factor, every_section=False)
         intact, weights = intact.copy(), self._masses
         least = _FALLEN_SHARE * weights[first.held].sum()
         for _ in range(_MOST_ROUNDS):
@@ -132,7 +143,7 @@ class StandingBridge:
             if not len(broken):
                 return np.zeros(len(weights), bool)
             intact[broken] = False
-            standing = self.rest(intact, left, loads, factor)
+            standing = self.rest(intact, left, loads, factor, every_section=False)
             loose = first.held & ~standing.held
             if weights[loose].sum() > least:
                 return self._all_that_falls(intact, left, loads, factor, first.held)
@@ -143,7 +154,7 @@ class StandingBridge:
 
         ∞ where it bears 64 times its load, nan where nothing is held.
         """
-        if not self.rest(intact, left, loads).held.any():
+        if not self.rest(intact, left, loads, every_section=False).held.any():
             return np.nan
         low, high = 0.0, 1.0
         while not self.comes_down(intact, left, loads, high).any():
@@ -181,7 +192,7 @@ class StandingBridge:
         return found
 
     def _utilisations(
-        self, loads: ConnectionLoads, intact: np.ndarray, left: np.ndarray
+        self, loads: ConnectionLoads, intact: np.ndarray, left: np.ndarray, every_section: bool
     ) -> tuple[np.ndarray, np.ndarray]:
         alone, together = np.full(len(intact), np.nan), np.full(len(intact), np.nan)
         parts = self.parts(intact)
@@ -191,9 +202,12 @@ class StandingBridge:
             if not len(rows):
                 continue
             if joint.strength is not None:
-                judge, axes = self._judges[number], self._axes[rows]
-                alone[rows] = judge.alone(rows, loads, axes, left)
-                together[rows] = judge.together(rows, alone[rows], loads, axes, intact, left, parts)
+                judge = self._judges[number]
+                alone[rows] = judge.alone(rows, loads, self._axes[rows], left)
+                judged = rows if every_section else rows[alone[rows] > 1.0]
+                if len(judged):
+                    of_faces, axes = alone[judged], self._axes[judged]
+                    together[judged] = judge.together(judged, of_faces, loads, axes, intact, left, parts)
             if joint.breaking_force_n is not None:
                 by_force = largest[rows] / (joint.breaking_force_n * left[rows])
                 alone[rows] = np.fmax(alone[rows], by_force)
@@ -211,13 +225,13 @@ class StandingBridge:
         self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float, held: np.ndarray
     ) -> np.ndarray:
         """Shards (n,) that come down once a part has begun to: what is overloaded goes on breaking."""
-        standing = self.rest(intact, left, loads, factor)
+        standing = self.rest(intact, left, loads, factor, every_section=False)
         for _ in range(_MOST_ROUNDS):
             broken = self._broken(standing, intact)
             if not len(broken):
                 break
             intact[broken] = False
-            standing = self.rest(intact, left, loads, factor)
+            standing = self.rest(intact, left, loads, factor, every_section=False)
         return held & ~standing.held
 
 
