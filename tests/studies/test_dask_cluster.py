@@ -33,7 +33,8 @@ class Cluster:
         known = folder / "scheduler.json"
         host = ("--host", "127.0.0.1", "--no-dashboard")
         self.scheduler = self._start("scheduler", *host, "--port", "0", "--scheduler-file", str(known))
-        wait_until(known.exists)
+        # The scheduler makes the file first and fills it then.
+        wait_until(lambda: known.exists() and known.read_text(encoding="utf-8").endswith("\n}"))
         self.address = json.loads(known.read_text(encoding="utf-8"))["address"]
         self.workers = [
             self._start("worker", self.address, *host, "--nthreads", "1", "--no-nanny", "--name", str(number))
