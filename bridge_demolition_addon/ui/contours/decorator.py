@@ -6,7 +6,6 @@ Nothing here changes any data, and nothing raises: the sidebar says what cannot 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import bpy
@@ -24,6 +23,7 @@ from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
 from ...simulation.blender_events import contours_of
 from ..labels import FONT_PX, PANEL_COLOUR, TEXT_COLOUR, draw_rectangle, write, write_at
+from ..view_drawing import ViewDrawing
 from ..viewport import covered_px, draw_lines
 from . import view as contour_view
 
@@ -45,29 +45,18 @@ _VECTOR_WIDTH_PX = 2.0
 _LEAST_SHARE = 0.02
 """Arrows shorter than this share of the longest are left out, as they would be dots."""
 
-_draw_handles: list[object] = []
-_trouble: dict[str, str] = {}
 _rings: dict[tuple, np.ndarray] = {}
 
 
 def register() -> None:
     """Draw from now on; what is drawn depends on the settings."""
-    space = bpy.types.SpaceView3D
-    for name, draw, when in (("view", _draw_in_space, "POST_VIEW"), ("pixels", _draw_on_screen, "POST_PIXEL")):
-        _draw_handles.append(space.draw_handler_add(_without_raising(name, draw), (), "WINDOW", when))
+    drawing.begin()
 
 
 def unregister() -> None:
     """Stop drawing."""
-    while _draw_handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_draw_handles.pop(), "WINDOW")
-    _trouble.clear()
+    drawing.end()
     _rings.clear()
-
-
-def trouble() -> str:
-    """Return why something could not be drawn the last time; empty where everything was."""
-    return next(iter(_trouble.values()), "")
 
 
 def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
@@ -111,17 +100,6 @@ def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
             points = np.array((charge.place_m[0], charge.place_m[1], 0.0)) + radius * circle
             rings.append((np.stack((points[:-1], points[1:]), axis=1).reshape(-1, 3), radius))
     return rings
-
-
-def _without_raising(name: str, draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
-    def guarded() -> None:
-        try:
-            draw(bpy.context)
-            _trouble.pop(name, None)
-        except Exception as error:  # the sidebar shows it; the console would get it with every redraw
-            _trouble[name] = str(error)
-
-    return guarded
 
 
 def _draw_in_space(context: bpy.types.Context) -> None:
@@ -237,3 +215,6 @@ def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tup
 def _tools_width(context: bpy.types.Context) -> float:
     """Return how much of the view's left the toolbar covers, px."""
     return covered_px(context, "TOOLS")
+
+
+drawing = ViewDrawing(_draw_in_space, _draw_on_screen)

@@ -19,7 +19,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
         layout.prop(settings, "contours")
-        if trouble := contour_view.trouble(context.scene) or overlay.trouble():
+        if trouble := contour_view.trouble(context.scene) or overlay.drawing.trouble:
             draw_sentence(layout, context, trouble)
         column = layout.column()
         column.enabled = settings.contours

@@ -5,7 +5,7 @@ Nothing here changes any data, and nothing raises: the sidebar says what cannot 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import bpy
@@ -22,6 +22,7 @@ from ...scene.demolition import FIRST_STEP_FRAME
 from ...scene.time_scale import simulated_time_s
 from ..labels import write_at
 from ..scenario.built import shown_site
+from ..view_drawing import ViewDrawing
 from ..viewport import draw_lines
 from . import areas
 from .prop import DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
@@ -49,8 +50,8 @@ _NEIGHBOUR_M = 1.0
 _WIDTHS_PX = {EXCLUSION: 3.0, WAY: 2.5, NAMES: 2.5, FLASHES: 3.0}
 _WIDTH_PX = 2.0
 
-_draw_handles: list[object] = []
-_trouble: dict[str, str] = {}
+_texts: list[tuple[tuple[float, float, float], str]] = []
+"""Places and texts of the view that is drawn just now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,22 +67,14 @@ class Drawn:
 
 def register() -> None:
     """Draw from now on; what is drawn depends on the settings."""
-    space = bpy.types.SpaceView3D
-    for draw, when in ((_draw_lines, "POST_VIEW"), (_draw_texts, "POST_PIXEL")):
-        _draw_handles.append(space.draw_handler_add(_without_raising(when, draw), (), "WINDOW", when))
+    drawing.begin()
 
 
 def unregister() -> None:
     """Stop drawing."""
-    while _draw_handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_draw_handles.pop(), "WINDOW")
-    _trouble.clear()
+    drawing.end()
+    _texts.clear()
     areas.forget()
-
-
-def trouble() -> str:
-    """Return why something could not be drawn the last time; empty where everything was."""
-    return next(iter(_trouble.values()), "")
 
 
 def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -172,22 +165,17 @@ _PARTS = {
 
 
 def _draw_lines(context: bpy.types.Context) -> None:
+    _texts.clear()
     for each in drawn(context.scene, context.view_layer):
         draw_lines(context, each.lines, each.colour, each.width_px)
+        if each.text:
+            _texts.append((each.place_m, each.text))
 
 
 def _draw_texts(context: bpy.types.Context) -> None:
-    for each in drawn(context.scene, context.view_layer):
-        if each.text:
-            write_at(context, each.place_m, each.text)
+    """Write what goes with the lines, which Blender has drawn in the same view just before."""
+    for place, text in _texts:
+        write_at(context, place, text)
 
 
-def _without_raising(name: str, draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
-    def guarded() -> None:
-        try:
-            draw(bpy.context)
-            _trouble.pop(name, None)
-        except Exception as error:  # the sidebar shows it; the console would get it with every redraw
-            _trouble[name] = str(error)
-
-    return guarded
+drawing = ViewDrawing(_draw_lines, _draw_texts)

@@ -16,7 +16,7 @@ class BDA_PT_ground_and_air(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
-        if trouble := decorator.trouble():
+        if trouble := decorator.drawing.trouble:
             draw_sentence(layout, context, trouble)
         layout.column(align=True).prop(settings, "overlays")
         if RINGS in settings.overlays:

@@ -85,7 +85,7 @@ class BDA_PT_study_findings(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, sentence, icon="NONE")
         layout.prop(context.scene.bda, "show_study")
         layout.operator("bda.open_worst_draw")
-        if trouble := decorator.trouble():
+        if trouble := decorator.drawing.trouble:
             draw_sentence(layout, context, trouble)
 
 
