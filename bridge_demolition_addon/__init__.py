@@ -20,6 +20,8 @@ def _interface() -> tuple:
     from .ui import registration, scene_settings
     from .ui.contours import decorator, view
     from .ui.ground import decorator as ground_decorator
+    from .ui.preview import decorator as preview_decorator
     from .ui.study import decorator as study_decorator
 
-    return (blender_events, scene_settings, view, registration, decorator, ground_decorator, study_decorator)
+    drawings = (decorator, ground_decorator, study_decorator, preview_decorator)
+    return (blender_events, scene_settings, view, registration, *drawings)

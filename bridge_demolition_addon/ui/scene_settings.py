@@ -8,12 +8,20 @@ from ..core.study.settings import StudySettings
 from .blast.prop import ChargeProperties
 from .contours.prop import ContourProperties
 from .ground.prop import GroundProperties
+from .preview.prop import PreviewProperties
 from .scenario import prop as scenario_properties
 from .sidebar import path_property
 from .study.prop import StudyProperties
 
 
-class BDA_PG_settings(ContourProperties, ChargeProperties, GroundProperties, StudyProperties, bpy.types.PropertyGroup):
+class BDA_PG_settings(
+    ContourProperties,
+    ChargeProperties,
+    GroundProperties,
+    PreviewProperties,
+    StudyProperties,
+    bpy.types.PropertyGroup,
+):
     """Settings that the panels show; the groups of scenario and study are added when they are made."""
 
     scenario_path: path_property(

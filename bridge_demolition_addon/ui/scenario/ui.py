@@ -79,7 +79,8 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
     bl_label = "Scenario"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
-        """Show an eye for connections and force objects, once there are any."""
+        """Show the preview's switch, and an eye for connections and force objects once there are any."""
+        self.layout.prop(context.scene.bda, "show_preview", text="", icon="MOD_WIREFRAME", emboss=False)
         if has_symbols(context.view_layer, context.scene):
             hidden = symbols_are_hidden(context.view_layer, context.scene)
             self.layout.operator("bda.toggle_symbols", text="", icon="HIDE_ON" if hidden else "HIDE_OFF", emboss=False)

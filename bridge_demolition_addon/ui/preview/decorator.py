@@ -1,0 +1,95 @@
+"""Drawing what the panels would build, as outlines in the 3D view: nothing of it gets into the file."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import bpy
+import numpy as np
+
+from ...core.display.bridge_preview import outline
+from ...core.scenario import Ball, Bridge, Scenario
+from ...core.scenario.file import scenario_from_text
+from ..scenario.prop import shown_tables
+from ..scenario.values import inner_of
+from ..sidebar import SidebarPanel
+from ..view_drawing import ViewDrawing
+from ..viewport import draw_lines
+
+_COLOUR = (0.45, 0.85, 1.0, 0.9)
+_WIDTH_PX = 1.5
+
+_FIELDS = {item.name: item for item in shown_tables(Scenario) if item.name in ("bridge", "ball")}
+
+
+def register() -> None:
+    """Draw from now on; what is drawn depends on the settings."""
+    drawing.begin()
+
+
+def unregister() -> None:
+    """Stop drawing."""
+    drawing.end()
+    _lines.cache_clear()
+    _sizes_of.cache_clear()
+
+
+def is_wanted(context: bpy.types.Context) -> bool:
+    """Return whether a preview and its handles are to be seen: while the tab is open, and nothing plays."""
+    return context.scene.bda.show_preview and not context.screen.is_animation_playing and _tab_is_open(context.screen)
+
+
+def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:
+    """Return what the panels would build as lines (2 k, 3) float, m; none where just that is built.
+
+    Raises
+    ------
+    ScenarioError
+        A size cannot be used; the text names the key.
+    """
+    sizes = sizes_shown(settings)
+    if settings.built_scenario and sizes == _sizes_of(settings.built_scenario):
+        return np.zeros((0, 3))
+    return _lines(*sizes)
+
+
+def sizes_shown(settings: bpy.types.PropertyGroup) -> tuple[Bridge | None, Ball | None, bool]:
+    """Return bridge and ball as the panels show them, and whether the bridge is all there is to fall on.
+
+    Raises
+    ------
+    ScenarioError
+        A size cannot be used; the text names the key.
+    """
+    group = settings.scenario
+    return inner_of(group, _FIELDS["bridge"]), inner_of(group, _FIELDS["ball"]), not len(group.geometry)
+
+
+@lru_cache(maxsize=4)
+def _sizes_of(text: str) -> tuple[Bridge | None, Ball | None, bool]:
+    built = scenario_from_text(text)
+    return built.bridge, built.ball, not built.geometry
+
+
+@lru_cache(maxsize=4)
+def _lines(bridge: Bridge | None, ball: Ball | None, is_all: bool) -> np.ndarray:
+    return outline(bridge, ball, is_all=is_all)
+
+
+def _tab_is_open(screen: bpy.types.Screen) -> bool:
+    sidebars = (
+        region
+        for area in screen.areas
+        if area.type == "VIEW_3D"
+        for region in area.regions
+        if region.type == "UI" and region.width > 1
+    )
+    return any(each.active_panel_category == SidebarPanel.bl_category for each in sidebars)
+
+
+def _draw(context: bpy.types.Context) -> None:
+    if is_wanted(context):
+        draw_lines(context, preview_lines(context.scene.bda), _COLOUR, _WIDTH_PX)
+
+
+drawing = ViewDrawing(_draw)

@@ -1,0 +1,76 @@
+"""Handles in the 3D view, to drag the ball's target and the charges with the mouse."""
+
+from __future__ import annotations
+
+import bpy
+from mathutils import Matrix
+
+from ...core.errors import ScenarioError
+from ..operators import recording_runs
+from .decorator import is_wanted
+from .handles import Handle, HandleKind, handles
+
+_COLOURS = {
+    HandleKind.TARGET: (1.0, 0.85, 0.2),
+    HandleKind.DROP: (1.0, 0.85, 0.2),
+    HandleKind.CHARGE: (1.0, 0.35, 0.1),
+}
+_CHOSEN = (1.0, 1.0, 1.0)
+_RING_SIZE, _ARROW_SIZE = 0.14, 0.6
+"""As Blender sizes all gizmos: by what the user's preferences say, however far away they are."""
+
+
+class BDA_GGT_handles(bpy.types.GizmoGroup):
+    """A ring to drag a place level, and an arrow to drag it up and down."""
+
+    bl_idname = "BDA_GGT_handles"
+    bl_label = "Targets and Charges"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "WINDOW"
+    bl_options = {"3D", "PERSISTENT"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return is_wanted(context) and context.mode == "OBJECT" and not recording_runs(context)
+
+    def setup(self, context: bpy.types.Context) -> None:
+        """Make no gizmos yet: there are as many as there are places, which change."""
+
+    def draw_prepare(self, context: bpy.types.Context) -> None:
+        """Put a gizmo at each place before all are drawn, and hide those left over."""
+        try:
+            wanted = handles(context.scene)
+        except ScenarioError:  # the panel Scenario says what is wrong
+            wanted = []
+        free = {is_upright: [each for each in self.gizmos if _is_arrow(each) == is_upright] for is_upright in (0, 1)}
+        for each in self.gizmos:
+            each.hide = True
+        for handle in wanted:
+            gizmos = free[handle.is_upright]
+            self._show(gizmos.pop(0) if gizmos else _new(self, handle.is_upright), handle)
+
+    def _show(self, gizmo: bpy.types.Gizmo, handle: Handle) -> None:
+        gizmo.hide = False
+        gizmo.matrix_basis = Matrix.Translation(handle.place_m)
+        gizmo.color, gizmo.alpha = _COLOURS[handle.kind], 0.9
+        drag = gizmo.target_set_operator("bda.drag_handle")
+        drag.kind, drag.index, drag.is_upright = handle.kind.value, handle.index, handle.is_upright
+
+
+CLASSES = (BDA_GGT_handles,)
+
+_RING, _ARROW = "GIZMO_GT_move_3d", "GIZMO_GT_arrow_3d"
+
+
+def _is_arrow(gizmo: bpy.types.Gizmo) -> bool:
+    return gizmo.bl_idname == _ARROW
+
+
+def _new(group: BDA_GGT_handles, is_upright: bool) -> bpy.types.Gizmo:
+    gizmo = group.gizmos.new(_ARROW if is_upright else _RING)
+    gizmo.color_highlight, gizmo.alpha_highlight = _CHOSEN, 1.0
+    gizmo.scale_basis = _ARROW_SIZE if is_upright else _RING_SIZE
+    gizmo.use_draw_modal = True
+    if not is_upright:
+        gizmo.draw_options = {"FILL_SELECT", "ALIGN_VIEW"}
+    return gizmo

@@ -1,0 +1,103 @@
+"""Dragging a place of the scenario in the 3D view, called by its handle."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
+from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
+
+from ...core.display.dragging import dragged_level, dragged_upright
+from ...core.errors import ScenarioError
+from ..contours import view as contour_view
+from ..operators import Action, recording_runs, refused
+from .handles import Handle, HandleKind, drag, handles
+
+_KINDS = [
+    (HandleKind.TARGET.value, "Target", "Where a drop of the ball hits the deck"),
+    (HandleKind.DROP.value, "Drop Height", "How high the ball hangs over the deck"),
+    (HandleKind.CHARGE.value, "Charge", "Where a charge is"),
+]
+
+
+class BDA_OT_drag_handle(Action, bpy.types.Operator):
+    """Drag to move it; Esc or a right click puts it back"""
+
+    bl_idname = "bda.drag_handle"
+    bl_label = "Drag"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    kind: EnumProperty(name="What", description="What is moved", items=_KINDS)
+    index: IntProperty(name="Number", description="Which of them, from 0", min=0, options={"HIDDEN"})
+    is_upright: BoolProperty(name="Upright", description="Whether it goes up and down only", options={"HIDDEN"})
+    place_m: FloatVectorProperty(name="Place", description="Where to", size=3, subtype="XYZ", unit="LENGTH")
+
+    why_not = staticmethod(recording_runs)
+
+    def act(self, context: bpy.types.Context) -> None:
+        self._handle(context)
+        drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        try:
+            handle = self._handle(context)
+        except ScenarioError as error:
+            return refused(self, error)
+        self._start, self._held = np.array(handle.place_m), None
+        self._follow(context, event)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+            self.place_m = self._start
+            drag(context.scene, HandleKind(self.kind), self.index, self._start.tolist())
+            return self._leave(context, {"CANCELLED"})
+        if event.type == "MOUSEMOVE":
+            self._follow(context, event)
+        if event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            return self._leave(context, {"FINISHED"})
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends this itself, as it does before another file is loaded."""
+        self._leave(context, {"CANCELLED"})
+
+    def _handle(self, context: bpy.types.Context) -> Handle:
+        wanted = (self.kind, self.index, self.is_upright)
+        for each in handles(context.scene):
+            if (each.kind, each.index, each.is_upright) == wanted:
+                return each
+        raise ScenarioError(f"there is no {self.kind.lower()} {self.index + 1} here to be dragged")
+
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        """Move it as far as the mouse was moved since it was pressed: nobody presses in the very middle."""
+        under = _place_under(context, event, self._start, self.is_upright)
+        if under is None:
+            return
+        self._held = under - self._start if self._held is None else self._held
+        self.place_m = under - self._held
+        drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
+        place = ", ".join(f"{each:.2f} m" for each in self.place_m)
+        if context.area:
+            context.area.header_text_set(f"{place} | Let go: done | Esc: back")
+        contour_view.redraw()
+
+    def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:
+        if context.area:
+            context.area.header_text_set(None)
+        contour_view.redraw()
+        return ended
+
+
+CLASSES = (BDA_OT_drag_handle,)
+
+
+def _place_under(
+    context: bpy.types.Context, event: bpy.types.Event, start: np.ndarray, is_upright: bool
+) -> np.ndarray | None:
+    region, view = context.region, context.region_data
+    mouse = (event.mouse_x - region.x, event.mouse_y - region.y)
+    eye = np.array(region_2d_to_origin_3d(region, view, mouse))
+    ray = np.array(region_2d_to_vector_3d(region, view, mouse))
+    return dragged_upright(eye, ray, start) if is_upright else dragged_level(eye, ray, float(start[2]))

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Type a size and see the bridge before it is built; drag the ball's target, its height and a charge; undo."""
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from habits import delete_all, load
+from panels import Panels
+from person import Person, Steps, region_of
+from traces import module
+
+FEW_PX = 6
+"""That the mouse may be off what it has dragged: places are rounded to cm, and Blender starts to drag late."""
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    panels = Panels(person)
+    yield from delete_all(person)
+    person.take_reports()
+    yield from load(person)
+    yield 0.5
+    look(person)
+    settings = person.scene.bda
+    person.expect("nothing is built", len(person.scene.objects), 0)
+    yield from person.picture("loaded")
+    with_it = screen(person)
+    settings.show_preview = False
+    yield from person.picture("without_preview")
+    without = screen(person)
+    person.expect("the preview is seen", (with_it != without).any(axis=2).mean() > 0.002)
+    settings.show_preview = True
+    yield from panels.show_only("Bridge")
+    width = settings.scenario.bridge.deck.width_m
+    lines = preview(person)
+    yield from person.picture("bridge_panel")
+    settings.scenario.bridge.deck.width_m = 2.0 * width
+    yield 0.3
+    yield from person.picture("deck_twice_as_wide")
+    person.expect("it is as wide as the deck", float(np.ptp(preview(person)[:, 1])) > float(np.ptp(lines[:, 1])))
+    settings.scenario.bridge.deck.width_m = width
+    person.take_reports()
+    yield from drag_target(person)
+    yield from drag_height(person)
+    yield from drag_charge(person)
+    yield from panels.show_only("Scenario")
+    yield from after_building(person)
+    drawing = module("ui.preview.decorator").drawing
+    person.expect("all was drawn", drawing.trouble, "")
+
+
+def drag_target(person: Person) -> Steps:
+    ball = person.scene.bda.scenario.ball
+    before, goal = tuple(ball.target_m), (ball.target_m[0] - 3.0, ball.target_m[1] - 0.8)
+    start = place_of(person, "TARGET", is_upright=False)
+    end = on_screen(person, (*goal, start[2]))
+    yield from hold(person, on_screen(person, start), end, "target_dragged")
+    yield 0.5
+    dropped = on_screen(person, place_of(person, "TARGET", is_upright=False))
+    person.expect("the target is under the mouse", np.abs(np.subtract(dropped, end)).max() <= FEW_PX)
+    person.expect("the panel shows it", np.abs(np.subtract(ball.target_m, goal)).max() < 0.3)
+    yield from undo(person)
+    ball = person.scene.bda.scenario.ball
+    person.expect("undo puts the target back", np.allclose(ball.target_m, before))
+    yield from hold(person, on_screen(person, start), end, "target_dragged_and_left", leave_with="ESC")
+    yield 0.3
+    person.expect("Esc puts the target back", np.allclose(person.scene.bda.scenario.ball.target_m, before, atol=0.01))
+
+
+def drag_height(person: Person) -> Steps:
+    before = person.scene.bda.scenario.ball.drop_height_m
+    x, y, z = place_of(person, "DROP", is_upright=True)
+    start, end = (on_screen(person, (x, y, height)) for height in (z, z + 1.0))
+    start, end = ((each[0], each[1] + 25) for each in (start, end))  # an arrow is held by its shaft or its tip
+    yield from hold(person, start, end, "height_dragged")
+    yield 0.3
+    risen = person.scene.bda.scenario.ball.drop_height_m - before
+    person.note("the ball hangs 1 m higher", "" if 0.8 < risen < 1.2 else f"it hangs {risen} m higher")
+    yield from undo(person)
+    person.expect("undo lowers it again", abs(person.scene.bda.scenario.ball.drop_height_m - before) < 1e-3)
+
+
+def drag_charge(person: Person) -> Steps:
+    person.scene.cursor.location = (1.0, -1.0, 1.0)
+    with person._in_sidebar():
+        bpy.ops.bda.add_source_point("INVOKE_DEFAULT")
+    yield 0.5
+    charge = bpy.data.objects["Charge 1"]
+    charge.select_set(False)
+    start, goal = (1.0, -1.0, 1.0), (3.0, -1.5, 1.0)
+    yield from hold(person, on_screen(person, start), on_screen(person, goal), "charge_dragged")
+    yield 0.3
+    place = tuple(bpy.data.objects["Charge 1"].location)
+    person.note("the charge is where it was dragged to", "" if np.allclose(place, goal, atol=0.3) else f"it is {place}")
+    yield from undo(person)
+    place = tuple(bpy.data.objects["Charge 1"].location)
+    person.expect("undo puts the charge back", np.allclose(place, start))
+    person.take_reports()
+
+
+def after_building(person: Person) -> Steps:
+    yield from person.click("bda.build_scenario")
+    yield 1.0
+    person.expect_reports("nothing but the building is reported", "30 shards")
+    person.expect("the preview has gone", len(preview(person)), 0)
+    look(person)
+    yield from person.picture("built")
+    x, y, z = place_of(person, "TARGET", is_upright=False)
+    yield from hold(person, on_screen(person, (x, y, z)), on_screen(person, (x - 2.0, y, z)), "dragged_when_built")
+    yield 0.5
+    changed = module("ui.scenario.built").changes(person.scene.bda)
+    person.expect("the panels say what was built", [each.key for each in changed], ["ball.target_m"])
+    person.expect("the preview shows what would be built now", len(preview(person)) > 0)
+    yield from person.picture("changed_since")
+
+
+def hold(person: Person, start: tuple, end: tuple, name: str, leave_with: str = "") -> Steps:
+    """Drag from one place on the screen to another; a picture shows it while the mouse is still down."""
+    yield from person.move(start[0] - 2, start[1])
+    yield from person.move(*start)
+    yield 0.2
+    person.hand.event_simulate(type="LEFTMOUSE", value="PRESS", x=start[0], y=start[1])
+    yield 0.1
+    for share in np.linspace(0.1, 1.0, 10):
+        yield from person.move(*(round(a + share * (b - a)) for a, b in zip(start, end, strict=True)))
+    yield from person.picture(name)
+    if leave_with:
+        yield from person.press(leave_with)
+    person.hand.event_simulate(type="LEFTMOUSE", value="RELEASE", x=end[0], y=end[1])
+    yield 0.2
+
+
+def undo(person: Person) -> Steps:
+    yield from person.move_to_view()
+    yield from person.press("Z", ctrl=True)
+    yield 0.5
+
+
+def place_of(person: Person, kind: str, is_upright: bool) -> tuple[float, float, float]:
+    found = module("ui.preview.handles").handles(person.scene)
+    return next(each.place_m for each in found if (each.kind, each.is_upright) == (kind, is_upright))
+
+
+def on_screen(person: Person, place: tuple[float, float, float]) -> tuple[int, int]:
+    region = region_of(person.view, "WINDOW")
+    where = location_3d_to_region_2d(region, person.view.spaces.active.region_3d, place)
+    return round(region.x + where.x), round(region.y + where.y)
+
+
+def preview(person: Person) -> np.ndarray:
+    return module("ui.preview.decorator").preview_lines(person.scene.bda)
+
+
+def screen(person: Person) -> np.ndarray:
+    """The last picture, as its pixels (h, w, 4)."""
+    path = sorted(person.folder.glob("*.png"))[-1]
+    image = bpy.data.images.load(str(path), check_existing=False)
+    pixels = np.array(image.pixels).reshape(image.size[1], image.size[0], 4)
+    bpy.data.images.remove(image)
+    return pixels
+
+
+def look(person: Person) -> None:
+    """Look at the bridge from beside it and above, left of the sidebar."""
+    space = person.view.spaces.active.region_3d
+    space.view_perspective = "PERSP"
+    space.view_rotation = (0.8001, 0.4619, 0.1913, 0.3314)
+    space.view_location, space.view_distance = (7.0, 0.0, 2.0), 24.0
+    space.update()
