@@ -12,6 +12,9 @@ from traces import module
 FEW_PX = 6
 """That the mouse may be off what it has dragged: places are rounded to cm, and Blender starts to drag late."""
 
+ARROW_PX = 40
+"""From a place to the middle of the arrow above it."""
+
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
@@ -71,7 +74,7 @@ def drag_height(person: Person) -> Steps:
     before = person.scene.bda.scenario.ball.drop_height_m
     x, y, z = place_of(person, "DROP", is_upright=True)
     start, end = (on_screen(person, (x, y, height)) for height in (z, z + 1.0))
-    start, end = ((each[0], each[1] + 25) for each in (start, end))  # an arrow is held by its shaft or its tip
+    start, end = ((each[0], each[1] + ARROW_PX) for each in (start, end))
     yield from hold(person, start, end, "height_dragged")
     yield 0.3
     risen = person.scene.bda.scenario.ball.drop_height_m - before
@@ -84,6 +87,7 @@ def drag_charge(person: Person) -> Steps:
     person.scene.cursor.location = (1.0, -1.0, 1.0)
     with person._in_sidebar():
         bpy.ops.bda.add_source_point("INVOKE_DEFAULT")
+        bpy.ops.ed.undo_push(message="Charge added")  # which Blender leaves out where a script does it
     yield 0.5
     charge = bpy.data.objects["Charge 1"]
     charge.select_set(False)

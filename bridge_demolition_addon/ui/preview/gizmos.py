@@ -19,6 +19,9 @@ _CHOSEN = (1.0, 1.0, 1.0)
 _RING_SIZE, _ARROW_SIZE = 0.14, 0.6
 """As Blender sizes all gizmos: by what the user's preferences say, however far away they are."""
 
+_ARROW_FOOT = Matrix.Translation((0.0, 0.0, 0.5))
+"""Above the ring in the same place: the shaft of the arrow would take the mouse."""
+
 
 class BDA_GGT_handles(bpy.types.GizmoGroup):
     """A ring to drag a place level, and an arrow to drag it up and down."""
@@ -71,6 +74,8 @@ def _new(group: BDA_GGT_handles, is_upright: bool) -> bpy.types.Gizmo:
     gizmo.color_highlight, gizmo.alpha_highlight = _CHOSEN, 1.0
     gizmo.scale_basis = _ARROW_SIZE if is_upright else _RING_SIZE
     gizmo.use_draw_modal = True
-    if not is_upright:
+    if is_upright:
+        gizmo.matrix_offset = _ARROW_FOOT
+    else:
         gizmo.draw_options = {"FILL_SELECT", "ALIGN_VIEW"}
     return gizmo
