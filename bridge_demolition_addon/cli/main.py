@@ -7,9 +7,18 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import NoReturn
 
-from ..core.errors import BlastError, ClusterError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
+from ..core.errors import (
+    BlastError,
+    ClusterError,
+    DemolitionError,
+    GeometryError,
+    MissingLibraryError,
+    OutputError,
+    ScenarioError,
+    text_of,
+)
 from ..core.signals import Interrupted, interrupt_by_system
-from . import charge, charts, check, report, run, search, stages, study
+from . import charge, charts, check, optimise, report, run, search, stages, study
 from .console import StandardStream
 from .process_end import end_process
 
@@ -19,7 +28,7 @@ WRONG_INPUT = 2
 SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
-COMMANDS = (check, run, stages, study, search, report, charge, charts)
+COMMANDS = (check, run, stages, study, search, optimise, report, charge, charts)
 
 
 class UsageError(DemolitionError):
@@ -51,7 +60,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         arguments = _parser().parse_args(argv)
         arguments.execute(arguments)
-    except (UsageError, ScenarioError, GeometryError, BlastError, ClusterError, OutputError) as error:
+    except (
+        UsageError,
+        ScenarioError,
+        GeometryError,
+        BlastError,
+        ClusterError,
+        MissingLibraryError,
+        OutputError,
+    ) as error:
         return _failed(error, WRONG_INPUT)
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return _failed(error, RUN_FAILED)

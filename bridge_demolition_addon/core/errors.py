@@ -29,6 +29,10 @@ class ClusterError(DemolitionError):
     """The cluster that a study is to run on is not there."""
 
 
+class MissingLibraryError(DemolitionError):
+    """A library that is no part of the installation is needed for this; the text says how to install it."""
+
+
 class LayoutError(DemolitionError):
     """Blender's memory does not look as expected; nothing was trusted and nothing was written."""
 

@@ -17,6 +17,7 @@ from typing import Any, Self
 from ..core.disk import write_whole_text
 from ..core.errors import OutputError, ScenarioError, UnreadableError, writing
 from ..core.folder_lock import LOCK_FILE, FolderLock, check_unlocked
+from ..core.optimise.file import Optimisation
 from ..core.reading import MEGABYTE, file_text
 from ..core.results.files import SCENARIO_FILE
 from ..core.search.file import Search
@@ -40,7 +41,7 @@ class StudyFolder:
     path
         Where it is or is to be.
     study
-        What is asked: a study or a search.
+        What is asked: a study, a search or an optimisation.
     versions
         What its draws are run with.
 
@@ -51,7 +52,7 @@ class StudyFolder:
         is at work in it. Nothing in it is changed then.
     """
 
-    def __init__(self, path: Path, study: Study | Search, versions: Mapping[str, str]):
+    def __init__(self, path: Path, study: Study | Search | Optimisation, versions: Mapping[str, str]):
         self.path = path
         check_study_folder(path, study, versions)
         with writing(path):
@@ -139,8 +140,8 @@ def end_in(draw: Path) -> End | None:
         return None
 
 
-def check_study_folder(path: Path, study: Study | Search, versions: Mapping[str, str]) -> None:
-    """See that a folder is new, or of that very study or search, without changing anything.
+def check_study_folder(path: Path, study: Study | Search | Optimisation, versions: Mapping[str, str]) -> None:
+    """See that a folder is new, or of that very study, search or optimisation, without changing anything.
 
     Raises
     ------

@@ -1,0 +1,1 @@
+"""Optimisation: which values of several quantities do best, where what comes out is a matter of chance."""

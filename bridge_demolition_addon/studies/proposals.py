@@ -1,0 +1,75 @@
+"""Candidates of an optimisation, proposed by Optuna.
+
+Its sampler is a tree-structured Parzen estimator: J. Bergstra, R. Bardenet, Y. Bengio and B. Kégl (2011), Algorithms
+for hyper-parameter optimization, NeurIPS 24. Candidates that fall short of the constraint come after all others.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.errors import MissingLibraryError
+
+
+def check_optuna() -> str:
+    """Return the version of Optuna.
+
+    Raises
+    ------
+    MissingLibraryError
+        It is not installed.
+    """
+    try:
+        import optuna
+    except ModuleNotFoundError as error:
+        raise MissingLibraryError(
+            "an optimisation needs Optuna: install it with pip install 'bridge-demolition-addon[optimise]'"
+        ) from error
+    return optuna.__version__
+
+
+class OptunaProposals:
+    """Asks Optuna, and tells it; the same numbers follow from the same answers.
+
+    Parameters
+    ----------
+    size
+        How many numbers from 0 to 1 make a candidate.
+    seed
+        Start of its random numbers.
+
+    Raises
+    ------
+    MissingLibraryError
+        Optuna is not installed.
+    """
+
+    def __init__(self, size: int, seed: int):
+        check_optuna()
+        import optuna
+
+        optuna.logging.set_verbosity(optuna.logging.WARNING)
+        sampler = optuna.samplers.TPESampler(seed=seed)
+        self._study = optuna.create_study(sampler=sampler)
+        self._ranges = {str(each): optuna.distributions.FloatDistribution(0.0, 1.0) for each in range(size)}
+        self._trials: list[optuna.Trial] = []
+
+    def propose(self) -> np.ndarray:
+        """Return the next candidate: numbers (d,) from 0 to 1."""
+        trial = self._study.ask(self._ranges)
+        self._trials.append(trial)
+        return np.array([trial.params[name] for name in self._ranges])
+
+    def told(self, number: int, value: float, shortfall: float) -> None:
+        """Take in what a candidate, by its number from 0, came to.
+
+        Parameters
+        ----------
+        number, value
+            Which, and its objective, which may be infinite.
+        shortfall
+            By how much the part of its runs that met all criteria is too small; 0 or less where it is not.
+        """
+        trial = self._trials[number]
+        trial.set_constraint("shortfall", shortfall)
+        self._study.tell(trial, value)
