@@ -119,7 +119,11 @@ def test_the_smallest_charge_is_found_and_confirmed_and_a_stopped_one_goes_on(tm
     said = capfd.readouterr().out
     found = json.loads((output / "optimise.json").read_text(encoding="utf-8"))
     trials, candidates = rows_of(output / "trials.csv"), rows_of(output / "candidates.csv")
-    assert [sum(row["in.round"] == name for row in trials) for name in ("search", "final", "confirmation")] == [20, 6, 16]
+    assert [sum(row["in.round"] == name for row in trials) for name in ("search", "final", "confirmation")] == [
+        20,
+        6,
+        16,
+    ]
     assert len(candidates) == 20
     # The one that is chosen is what the table has of it, with fewer kilograms than most that brought the block down.
     chosen = candidates[found["candidate"] - 1]
@@ -145,8 +149,14 @@ def test_the_smallest_charge_is_found_and_confirmed_and_a_stopped_one_goes_on(tm
     ("change", "said"),
     [
         (("[[criteria]]", "[[neighbours]]"), "neighbours"),
-        ((OPTIMISE[OPTIMISE.index("[[criteria]]") :], ""), "at least one table [[criteria]]: the smallest charge without"),
-        (("confirmation_runs = 16", "confirmation_runs = 15"), "optimise.confirmation_runs is 15: expected at least 16"),
+        (
+            (OPTIMISE[OPTIMISE.index("[[criteria]]") :], ""),
+            "at least one table [[criteria]]: the smallest charge without",
+        ),
+        (
+            ("confirmation_runs = 16", "confirmation_runs = 15"),
+            "optimise.confirmation_runs is 15: expected at least 16",
+        ),
         (("candidates = 20", "candidates = 9"), "optimise.candidates is 9"),
         (("candidates = 20", "candidates = 19"), "optimise.candidates is 19: expected at least 20, as 4 numbers"),
         (("finalists = 2", "finalists = 21"), "optimise.finalists is 21: expected at most optimise.candidates, 20"),

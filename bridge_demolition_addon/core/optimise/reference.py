@@ -15,7 +15,7 @@ INTRODUCTION = """\
 <!-- Made by `python -m bridge_demolition_addon.core.optimise.reference docs/optimise_file.md`: change the code. -->
 
 An optimisation file is a [TOML](https://toml.io) file, which `bda optimise FILE --output DIR` runs; see
-[optimisation](optimise.md). Start from [ball_and_drop.toml](../examples/optimisations/ball_and_drop.toml). A key that
+[optimisation](optimise.md). Start from [least_reach.toml](../examples/optimisations/least_reach.toml). A key that
 is not listed here is refused, and so is a value outside its limits.
 """
 
