@@ -13,17 +13,18 @@ import bpy
 from ..core.display.camera_targets import points_to_see
 from ..core.display.contours import ContourSettings
 from ..core.errors import DemolitionError, SimulationError, text_of
-from ..core.results.files import BLEND_FILE, FRAMES_FILE, PICTURE_FOLDER, PICTURES, SCENARIO_FILE
+from ..core.results.files import BLEND_FILE, FRAMES_FILE, SCENARIO_FILE
 from ..core.scenario import Scenario
+from ..core.scenario.recording import PictureSettings
 from ..core.sequence.checked_model import checked_model
 from ..core.signals import Interrupted, interrupted_afterwards, signals_noted
 from ..core.structure.model import Model
-from ..scene.blast.charges import charge_objects, show_until
-from ..scene.demolition import build_demolition, first_frame_after
-from ..scene.rendering.camera import prepare_pictures, render_picture
+from ..scene.demolition import build_demolition
 from ..scene.rendering.staging import stage
-from ..scene.world import START_FRAME, keep_played_frames
+from ..scene.rendering.stills import prepare_pictures
+from ..scene.world import keep_played_frames
 from .display.film import FilmRendering, FilmSettings
+from .display.pictures import check_camera, show_charges, write_pictures
 from .kept_run import keep_run, mark_run
 from .playback import Playing
 from .recording.recorder import Recording
@@ -87,13 +88,15 @@ def run_scenario(
     GeometryError, ScenarioError
         The bridge cannot be cut as asked, or something planned concerns nothing.
     OutputError
-        The folder is there already or cannot be written.
+        The folder is there already or cannot be written, or pictures are to be taken by a camera that is not there.
     SimulationError, LayoutError
         The simulation cannot be run or read.
     Interrupted
         By Ctrl-C, or by a request to end; the results so far are kept.
     """
     check_folder(output, overwrite=overwrite)
+    if pictures or film:
+        check_camera(scenario.pictures)
     lap_s = _laps()
     progress.stage("building the bridge and its shards")
     model = model or checked_model(scenario)
@@ -136,11 +139,11 @@ def run_scenario(
             raise Interrupted(signals[0])
         if pictures:
             progress.stage("rendering pictures")
-            _render(scene, lock.folder, summary["key_frame"]["frame"])
+            write_pictures(scene, lock.folder, scenario.pictures, summary["key_frame"]["frame"], scene.frame_end)
             times["pictures"] = lap_s()
         if film:
             progress.stage("rendering the film")
-            _render_film(scene, lock.folder, progress)
+            _render_film(scene, lock.folder, scenario.pictures, progress)
             times["film"] = lap_s()
         if not lock.in_place:
             raise SimulationError(f"{lock.folder}: was moved or deleted before all pictures were in it")
@@ -191,8 +194,8 @@ def _results_of_failure(error: Exception | None, folder: Path) -> Iterator[None]
         raise SimulationError(f"{error}; {left}the results could not be kept: {text_of(failure)}") from failure
 
 
-def _render_film(scene: bpy.types.Scene, folder: Path, progress: Progress) -> None:
-    film = FilmRendering(scene, folder, ContourSettings(), FilmSettings(slow_motion=SLOW_MOTION))
+def _render_film(scene: bpy.types.Scene, folder: Path, view: PictureSettings, progress: Progress) -> None:
+    film = FilmRendering(scene, folder, ContourSettings(), FilmSettings(slow_motion=SLOW_MOTION, view=view))
     for done, _ in enumerate(film.pictures(), start=1):
         progress.part(done, film.picture_count, "frames rendered")
     film.finish()
@@ -207,12 +210,9 @@ def _empty_scene(title: str) -> bpy.types.Scene:
 
 
 def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shards: Sequence[bpy.types.Object]) -> None:
-    settings = scenario.pictures
-    prepare_pictures(scene, settings.width_px, settings.height_px)
-    stage(scene, shards, model, points_to_see(scenario, model.members))
-    if scenario.blast.explosion:
-        for empty, charge in zip(charge_objects(scene), scenario.charges, strict=True):
-            show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
+    prepare_pictures(scene, scenario.pictures.width_px, scenario.pictures.height_px)
+    stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
+    show_charges(scene, scenario)
 
 
 def _simulate(
@@ -238,9 +238,3 @@ def _simulate(
     if playing.at_rest:
         scene.frame_end = scene.frame_current
     return playing
-
-
-def _render(scene: bpy.types.Scene, folder: Path, key_frame: int) -> None:
-    """Render pictures at the start, at the moment that shows most and at the end."""
-    for name, frame in zip(PICTURES, (START_FRAME, key_frame, scene.frame_end), strict=True):
-        render_picture(scene, frame, folder.resolve() / PICTURE_FOLDER / f"{name}.png")

@@ -41,6 +41,12 @@ class BDA_PG_settings(
         description="Replace the results of an earlier recording in that folder, and log files that are there",
         default=False,
     )
+    pictures_of_run: BoolProperty(
+        name="Pictures",
+        description="Render pictures when a run has ended: before it, at the moment that shows most, and at its end, "
+        "with the camera and size of Pictures in Scenario",
+        default=True,
+    )
     debris_log_path: path_property("Debris Log", "File for the debris log; none for the folder of the results")
     force_log_path: path_property("Force Log", "File for the force log; none for the folder of the results")
 

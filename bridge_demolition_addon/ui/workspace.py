@@ -22,7 +22,7 @@ _MADE = "bda_is_made"
 _LEAST_AREAS = 3
 _LOOK_EVERY_S = 0.05
 
-_LOOKS = 40
+_LOOKS = 200
 """How often it is tried to open the tab: Blender before 4.3 never lets an add-on do so."""
 
 _asked_for: list[str] = []

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Build from Blender as it starts, and look at the bridge: Solid, Material Preview, Rendered, and by F12."""
 
+from pathlib import Path
+
 import bpy
+import numpy as np
 from habits import build
 from panels import Panels
 from person import Person, Steps
@@ -29,6 +32,7 @@ def steps(person: Person) -> Steps:
     yield 0.5
     person.expect("the eye shows them", all(seen(person, each.name) for each in empties))
     yield from person.click("bda.toggle_symbols")
+    yield from by_f12(person)
     yield from remove(person)
     person.expect("the start-up objects are seen again", [seen(person, name) for name in STARTUP], [True] * 3)
     person.expect("the scene has its own camera again", person.scene.camera.name, "Camera")
@@ -43,6 +47,27 @@ def looks(person: Person) -> Steps:
         yield from person.picture(kind.lower())
     shading.type = "SOLID"
     yield 0.5
+
+
+def by_f12(person: Person) -> Steps:
+    """Press F12 with the renderer that Blender starts with, and look at what comes of it."""
+    scene, path = person.scene, person.folder / "by_f12.png"
+    bpy.context.preferences.view.render_display_type = "NONE"
+    scene.render.resolution_x, scene.render.resolution_y, scene.eevee.taa_render_samples = 320, 180, 4
+    yield from person.move_to_view()
+    yield from person.press("F12")
+    yield 1.0
+    yield from person.wait_for("the render ends", lambda: not bpy.app.is_job_running("RENDER"), 300.0)
+    bpy.data.images["Render Result"].save_render(str(path), scene=scene)
+    pixels = pixels_of(path)
+    person.note(f"{scene.render.engine} renders the built scene", "" if pixels.std() > 0.05 else "the picture is empty")
+
+
+def pixels_of(path: Path) -> np.ndarray:
+    image = bpy.data.images.load(str(path))
+    pixels = np.array(image.pixels).reshape(-1, 4)[:, :3]
+    bpy.data.images.remove(image)
+    return pixels
 
 
 def through_the_camera(person: Person) -> Steps:

@@ -22,11 +22,14 @@ def steps(person: Person) -> Steps:
         bpy.ops.bda.draw_charts("INVOKE_DEFAULT")
     yield from person.wait_for("the chart is drawn", lambda: module("ui.course").going_on() is None, 60.0)
     yield from person.click("bda.make_workspace")
-    yield 2.0
+    yield from person.wait_for("the workspace opens at the tab BDA", lambda: tab(person) == "BDA", 20.0)
     person.expect("the workspace is shown", person.window.workspace.name, "BDA")
     kinds = {area.ui_type for area in person.window.screen.areas}
     person.expect("with bridge, charts and timeline", {"VIEW_3D", "IMAGE_EDITOR", "TIMELINE"} <= kinds)
-    tab = next(each for each in person.view.regions if each.type == "UI").active_panel_category
-    person.expect("and the tab BDA in the sidebar", tab, "BDA")
     yield from person.picture("workspace")
     person.take_reports()
+
+
+def tab(person: Person) -> str:
+    """The tab of the sidebar of the workspace; none before it is shown."""
+    return person.sidebar.active_panel_category if person.window.workspace.name == "BDA" else ""

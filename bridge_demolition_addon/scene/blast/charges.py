@@ -14,10 +14,12 @@ from ...core.geometry.solids import sphere
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 from ..rendering.materials import Surface, material_of
+from ..time_scale import curves_of
 
 MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
 """Properties of an empty that stands for a charge."""
 
+_HIDDEN = "hide_render"
 _ROLE = "Charges"
 _SYMBOL_SIZE_M = 0.3
 _SYMBOL_SEGMENTS = 16
@@ -76,10 +78,22 @@ def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
 
 def show_until(charge: bpy.types.Object, frame: int) -> None:
     """Show a charge in pictures, as a red ball, of the frames before the one in which it has gone off."""
+    show_never(charge)
     charge.instance_type, charge.instance_collection = "COLLECTION", _symbol()
     for hidden, key_frame in ((True, frame), (False, 0)):
         charge.hide_render = hidden
-        charge.keyframe_insert("hide_render", frame=key_frame)
+        charge.keyframe_insert(_HIDDEN, frame=key_frame)
+
+
+def show_never(charge: bpy.types.Object) -> None:
+    """Show a charge in no picture."""
+    charge.instance_type = "NONE"
+    animation = charge.animation_data
+    curves = curves_of(animation) if animation and animation.action else []
+    for curve in [each for each in curves if each.data_path == _HIDDEN]:
+        for frame in [point.co.x for point in curve.keyframe_points]:
+            charge.keyframe_delete(_HIDDEN, frame=frame)
+    charge.hide_render = False
 
 
 def _symbol() -> bpy.types.Collection:

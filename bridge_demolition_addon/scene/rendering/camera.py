@@ -1,60 +1,49 @@
-"""Pictures of a demolition through Workbench, Blender's fast renderer, which needs no screen."""
+"""Cameras that see a bridge: from beside the road, going round it, or from a place of the user's own."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
 
 import bpy
 import numpy as np
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
-from .plain_path import rendered_to
+from ...core.scenario.recording import CameraKind, PictureSettings
+from ..tools.keyframes import key_values
 
 _LENS_MM = 40.0
 _SENSOR_MM = 36.0
 _VIEW_FROM = Vector((-0.55, -1.0, 0.28)).normalized()
 _ROOM = 1.1
-_EXPOSURE = 1.0
-_STUDIO_LIGHT = "outdoor.sl"
-"""One of Blender's own: a bright sun, and shadows that are blue from the sky."""
-
-
-def prepare_pictures(scene: bpy.types.Scene, width_px: int, height_px: int) -> None:
-    """Set up the renderer, which draws materials in their plain colours."""
-    render = scene.render
-    render.engine = "BLENDER_WORKBENCH"
-    render.resolution_x, render.resolution_y, render.resolution_percentage = width_px, height_px, 100
-    render.image_settings.file_format = "PNG"
-    shading = scene.display.shading
-    shading.light, shading.studio_light = "STUDIO", _STUDIO_LIGHT
-    shading.color_type = "MATERIAL"
-    shading.show_shadows = True
-    shading.show_cavity = True
-    shading.show_object_outline = True
-    shading.background_type = "WORLD"
-    scene.view_settings.view_transform = "Standard"
-    scene.view_settings.exposure = _EXPOSURE
-
-
-def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
-    """Render a frame that was simulated already; Blender plays it back from its cache."""
-    scene.frame_set(frame)
-    with rendered_to(path) as scene.render.filepath:
-        bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 def aim_camera(
-    scene: bpy.types.Scene, points: np.ndarray, aspect: float, collection: bpy.types.Collection | None = None
+    scene: bpy.types.Scene,
+    points: np.ndarray,
+    aspect: float,
+    collection: bpy.types.Collection | None = None,
+    view: PictureSettings | None = None,
 ) -> bpy.types.Object:
-    """Add a camera beside the road, to the scene or a collection of it, and make it the scene's.
+    """Add a camera to the scene, or to a collection of it, and make it the scene's.
 
-    It sees points (n, 3) float, m, in pictures of an aspect (width : height).
+    Parameters
+    ----------
+    points : (n, 3) float
+        What it sees from beside the road, m, unless it stands in a place of the user's own.
+    aspect : float
+        Width : height of the pictures.
+    view
+        Where it stands, and whether it goes round the bridge meanwhile; None for one beside the road.
     """
     camera = bpy.data.objects.new("Bridge camera", bpy.data.cameras.new("Bridge camera"))
     camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
     camera.data.sensor_fit = "HORIZONTAL"  # by default a picture that is higher than wide turns the sensor
-    camera.rotation_euler = _VIEW_FROM.to_track_quat("Z", "Y").to_euler()
-    camera.location = _viewpoint(points, np.array(camera.rotation_euler.to_matrix()), aspect)
+    if view and view.camera_m:
+        stand(camera, view.camera_m, Vector(view.camera_m) - Vector(view.look_at_m))
+    elif view and view.camera == CameraKind.ORBITING:
+        _orbit(scene, camera, points, aspect, view.orbit_deg)
+    else:
+        stand(camera, _viewpoint(points, _axes(_VIEW_FROM), aspect), _VIEW_FROM)
     farthest = float(np.linalg.norm(points - camera.location, axis=1).max())
     camera.data.clip_start, camera.data.clip_end = farthest / 1000.0, farthest * 10.0
     (collection or scene.collection).objects.link(camera)
@@ -62,13 +51,42 @@ def aim_camera(
     return camera
 
 
+def stand(camera: bpy.types.Object, place: Sequence[float], back: Vector) -> None:
+    """Put a camera in a place, with this direction behind it."""
+    camera.location, camera.rotation_euler = place, back.to_track_quat("Z", "Y").to_euler()
+
+
+def _orbit(
+    scene: bpy.types.Scene, camera: bpy.types.Object, points: np.ndarray, aspect: float, turn_deg: float
+) -> None:
+    """Animate a camera that goes round the middle of points, as far away as it takes to see all of them all the way."""
+    frames = np.arange(scene.frame_start, scene.frame_end + 1)
+    turns = np.radians(turn_deg) * np.linspace(0.0, 1.0, len(frames))
+    middle = _middle(points)
+    backs = [Matrix.Rotation(turn, 3, "Z") @ _VIEW_FROM for turn in turns.tolist()]
+    distance = _ROOM * max(_needed(points, middle, _axes(back), aspect) for back in backs)
+    stand(camera, middle + distance * np.array(_VIEW_FROM), _VIEW_FROM)
+    key_values(camera, "location", frames, middle + distance * np.array(backs))
+    first = np.array(camera.rotation_euler)
+    key_values(camera, "rotation_euler", frames, first + np.outer(turns, (0.0, 0.0, 1.0)))
+
+
+def _axes(back: Vector) -> np.ndarray:
+    """Return right, up and back of a camera as columns (3, 3)."""
+    return np.array(back.to_track_quat("Z", "Y").to_matrix())
+
+
 def _viewpoint(points: np.ndarray, axes: np.ndarray, aspect: float) -> np.ndarray:
     """Return where a camera sees all points (n, 3); its axes (3, 3) are right, up and back, as columns."""
     middle = axes @ _middle(points @ axes)
+    return middle + axes[:, 2] * _ROOM * _needed(points, middle, axes, aspect)
+
+
+def _needed(points: np.ndarray, middle: np.ndarray, axes: np.ndarray, aspect: float) -> float:
+    """Return how far from a middle (3,) that it looks at a camera has to stand to see all points, m."""
     seen = (points - middle) @ axes
     half_width = _SENSOR_MM / 2.0 / _LENS_MM
-    needed = np.maximum(abs(seen[:, 0]), abs(seen[:, 1]) * aspect) / half_width + seen[:, 2]
-    return middle + axes[:, 2] * _ROOM * needed.max()
+    return float((np.maximum(abs(seen[:, 0]), abs(seen[:, 1]) * aspect) / half_width + seen[:, 2]).max())
 
 
 def _middle(points: np.ndarray) -> np.ndarray:

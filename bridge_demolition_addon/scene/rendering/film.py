@@ -9,21 +9,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
-import numpy as np
 
 from ...core.errors import OutputError
-from ..bodies import bodies_of
-from .camera import aim_camera
+from ...core.scenario.recording import PictureSettings
 from .plain_path import rendered_to
+from .stills import IMAGE_SETTINGS, put_back_afterwards, seen_from
 
-_RENDER_SETTINGS = ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage", "dither_intensity")
 _RENDERER = "BLENDER_WORKBENCH"
 """By far the fastest one."""
 
 _SMOOTHING = "FXAA"
 """Of Workbench: its default takes three times as long, and flat colours do not need it."""
 
-_IMAGE_SETTINGS = ("media_type", "file_format", "color_mode", "color_depth")
+_KEPT = {
+    "render": (
+        *("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage"),
+        "dither_intensity",
+    ),
+    "render.image_settings": IMAGE_SETTINGS,
+    "display": ("render_aa",),
+}
+"""Settings that are other ones while pictures are rendered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,18 +52,16 @@ class RenderSettings:
 
 
 @contextmanager
-def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Iterator[None]:
+def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings, view: PictureSettings) -> Iterator[None]:
     """Render PNG pictures within this context; afterwards the scene is as it was, at its frame.
 
-    A scene without a camera has one beside the road meanwhile.
+    Raises
+    ------
+    OutputError
+        The camera that is asked for is not there.
     """
-    render, frame, camera = scene.render, scene.frame_current, scene.camera
-    kept = [(render, name, getattr(render, name)) for name in _RENDER_SETTINGS]
-    image = render.image_settings
-    kept += [(image, name, getattr(image, name)) for name in _IMAGE_SETTINGS if hasattr(image, name)]
-    kept.append((scene.display, "render_aa", scene.display.render_aa))
-    ours = None if camera else aim_camera(scene, _corners(scene), settings.width_px / settings.height_px)
-    try:
+    render, image = scene.render, scene.render.image_settings
+    with seen_from(scene, view, settings.width_px / settings.height_px), put_back_afterwards(scene, _KEPT):
         render.engine = _RENDERER
         render.resolution_x, render.resolution_y = settings.width_px, settings.height_px
         render.resolution_percentage = 100
@@ -67,14 +71,6 @@ def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings) -> Ite
             image.media_type = "IMAGE"
         image.file_format, image.color_mode, image.color_depth = "PNG", "RGB", "8"
         yield
-    finally:
-        for owner, name, value in kept:
-            setattr(owner, name, value)
-        if ours:
-            data = ours.data
-            bpy.data.objects.remove(ours)
-            bpy.data.cameras.remove(data)
-        scene.frame_set(frame)
 
 
 def encode_film(pictures: Sequence[Path], film: Path, pictures_per_second: float) -> None:
@@ -133,16 +129,3 @@ def _size(picture: Path) -> tuple[int, int]:
         return tuple(image.size)
     finally:
         bpy.data.images.remove(image)
-
-
-def _corners(scene: bpy.types.Scene) -> np.ndarray:
-    """Return the corners (c, 3) float of the boxes around all bodies that move, m."""
-    corners = [
-        body.matrix_world @ type(body.location)(corner)
-        for body in bodies_of(scene)
-        if body.rigid_body.type == "ACTIVE"
-        for corner in body.bound_box
-    ]
-    if not corners:
-        raise OutputError(f"scene {scene.name!r} has neither a camera nor a body that moves: add a camera")
-    return np.array(corners)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ...core.scenario.recording import PictureSettings
 from ...core.structure.model import Model
 from ..bodies import bodies_of
 from ..visibility import hide_symbols
@@ -14,7 +15,13 @@ from .finishes import finish_others, finish_shards
 from .surroundings import surround
 
 
-def stage(scene: bpy.types.Scene, shards: Sequence[bpy.types.Object], model: Model, points: np.ndarray) -> None:
+def stage(
+    scene: bpy.types.Scene,
+    shards: Sequence[bpy.types.Object],
+    model: Model,
+    points: np.ndarray,
+    view: PictureSettings | None = None,
+) -> None:
     """Make a demolition that was just built look like one; nothing of this takes part in the simulation.
 
     Parameters
@@ -27,9 +34,11 @@ def stage(scene: bpy.types.Scene, shards: Sequence[bpy.types.Object], model: Mod
         What they were made from.
     points : (k, 3) float
         What the camera is to see, m.
+    view
+        Where the camera stands; None for beside the road.
     """
     finish_shards(shards, model)
     finish_others(bodies_of(scene))
-    surround(scene, points)
+    surround(scene, points, view)
     for layer in scene.view_layers:
         hide_symbols(layer, scene, hidden=True)

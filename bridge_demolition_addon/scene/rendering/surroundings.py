@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ...core.geometry.solids import box
+from ...core.scenario.recording import PictureSettings
 from ..bodies import SOIL, mesh_of
 from ..collections import collection_for, find_collection
 from .camera import aim_camera
@@ -19,6 +20,8 @@ _MARK = "bda_role"
 _SKY = "Sky"
 _WORLD_BEFORE = "bda_world_before"
 """Property of our sky: the world that it took the place of."""
+
+_POINTS = "bda_points_in_view"
 
 _LAND_THICKNESS_M = 0.02
 _SUN_W_M2 = 4.5
@@ -38,8 +41,8 @@ _STARTUP_NODES = {"ShaderNodeOutputWorld", "ShaderNodeBackground"}
 _STARTUP_GREY = 0.0509
 
 
-def surround(scene: bpy.types.Scene, points: np.ndarray) -> None:
-    """Put a scene under sun and sky, before a camera that sees points (n, 3) float, m.
+def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings | None = None) -> None:
+    """Put a scene under sun and sky, before a camera that sees points (n, 3) float, m, or stands as is asked for.
 
     Blender's start-up objects are put away. A camera and a world of the user's own stay the scene's.
     """
@@ -48,7 +51,8 @@ def surround(scene: bpy.types.Scene, points: np.ndarray) -> None:
     if scene.world is None or _is_of_startup(scene.world):
         _put_sky_up(scene)
     collection, own = collection_for(scene, _ROLE), scene.camera
-    camera = aim_camera(scene, points, scene.render.resolution_x / scene.render.resolution_y, collection)
+    scene[_POINTS] = np.asarray(points, float).ravel().tolist()
+    camera = aim_camera(scene, points, scene.render.resolution_x / scene.render.resolution_y, collection, view)
     scene.camera = own or camera
     land = _land(camera.data.clip_end / 2.0)
     for each in (_sun(), land):
@@ -59,11 +63,17 @@ def surround(scene: bpy.types.Scene, points: np.ndarray) -> None:
         land.hide_set(True, view_layer=layer)  # for pictures alone: View All would show nothing else
 
 
+def points_in_view(scene: bpy.types.Scene) -> np.ndarray | None:
+    """Return the points (n, 3) float, m, that cameras of a scene are to see; None where it has not been built here."""
+    return np.array(scene[_POINTS]).reshape(-1, 3) if _POINTS in scene else None
+
+
 def clear_surroundings(scene: bpy.types.Scene) -> None:
     """Take away what `surround` has made, and bring back what it has put away."""
     if collection := find_collection(scene, _ROLE):
         ours = [each for each in collection.objects if each.get(_MARK) == _ROLE]
         data = {each.data for each in ours if each.data}
+        data |= {each.animation_data.action for each in ours if each.animation_data and each.animation_data.action}
         bpy.data.batch_remove(ours)
         bpy.data.batch_remove([each for each in data if not each.users])
         if not collection.objects and not collection.children:
@@ -74,6 +84,8 @@ def clear_surroundings(scene: bpy.types.Scene) -> None:
         scene.world = before if isinstance(before, bpy.types.World) else None
         if not sky.users:
             bpy.data.worlds.remove(sky)
+    if _POINTS in scene:
+        del scene[_POINTS]
     bring_startup_objects_back(scene)
 
 

@@ -15,6 +15,7 @@ from ...core.display.contours import ContourSeries, ContourSettings
 from ...core.display.film_frames import film_rows
 from ...core.errors import ContourError, OutputError, writing
 from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
+from ...core.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from ...scene.rendering.plain_path import rendered_to
 from ..blender_events import contours_of
@@ -45,6 +46,8 @@ class FilmSettings:
         Seconds of a second film, made of the same pictures, for a second of the simulation; no such film for None.
     picture
         Size of the pictures, colour bar included.
+    view
+        The camera that takes them; the size of other pictures that it has does not matter here.
     """
 
     kind: FilmKind = FilmKind.FILM
@@ -52,6 +55,7 @@ class FilmSettings:
     slowness: float = 1.0
     slow_motion: float | None = None
     picture: RenderSettings = field(default_factory=RenderSettings)
+    view: PictureSettings = field(default_factory=PictureSettings)
 
     @property
     def rendered(self) -> RenderSettings:
@@ -117,7 +121,7 @@ class FilmRendering:
         with (
             _contours_shown(scene, self._contours),
             _simulation_at_rest(scene),
-            set_up_for_pictures(scene, self._film.rendered),
+            set_up_for_pictures(scene, self._film.rendered, self._film.view),
         ):
             for frame in self._frames:
                 path = self._path(frame)

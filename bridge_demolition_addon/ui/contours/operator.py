@@ -7,6 +7,7 @@ import bpy
 from ...core.errors import DemolitionError
 from ...core.results.arrays import load_results, results_in
 from ...core.results.files import FRAMES_FILE
+from ...core.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...scene.world import start_over
@@ -14,6 +15,7 @@ from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
 from .. import course, messages
 from ..operators import Action, Refusing, absolute, recording_runs, refused
+from ..scenario.values import table_of
 from . import view as contour_view
 
 _TICK_S = 0.01
@@ -171,4 +173,5 @@ def _film_settings(scene: bpy.types.Scene) -> FilmSettings:
         pictures_per_second=settings.film_rate,
         slowness=settings.film_slowness,
         picture=RenderSettings(settings.film_width, settings.film_height),
+        view=table_of(settings.scenario.pictures, PictureSettings),
     )

@@ -86,6 +86,7 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
         settings, layout = context.scene.bda, self.layout
         layout.prop(settings, "film_directory", text="", placeholder="Folder for the film")
         layout.row().prop(settings, "film_kind", expand=True)
+        layout.prop(settings.scenario.pictures, "camera")
         column = layout.column(align=True)
         column.prop(settings, "film_width")
         column.prop(settings, "film_height")

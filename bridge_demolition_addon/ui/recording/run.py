@@ -32,6 +32,10 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
+    pictures: BoolProperty(
+        name="Pictures", description="Render the run's pictures when it has ended", options={"SKIP_SAVE"}
+    )
+
     why_not = staticmethod(why_not_recorded)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -108,7 +112,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         playing = self._playing
         playing.end()
         stopped = "" if playing.finished else f"Stopped after {playing.done} of {playing.total} frames"
-        return end_with_results(self, playing.recording, stopped=stopped)
+        return end_with_results(self, playing.recording, stopped=stopped, pictures=self.pictures)
 
 
 class BDA_OT_bake(Action, bpy.types.Operator):

@@ -23,6 +23,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         column.enabled = recording is None
         column.prop(settings, "output_directory", text="", placeholder="A new folder for each run")
         column.prop(settings, "overwrite")
+        column.prop(settings, "pictures_of_run")
         if changed := [] if recording else changes(settings):
             draw_changes(self.layout, context, changed)
         for each in changed_in_blender(context.scene):
@@ -32,7 +33,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         column.operator("bda.register_handler")
         column.operator("bda.unregister_handler")
         column = self.layout.column(align=True)
-        draw_run(column, has_changed=bool(changed))
+        draw_run(column, settings, has_changed=bool(changed))
         row = column.row(align=True)
         row.operator("bda.bake")
         row.operator("bda.delete_bake")

@@ -267,7 +267,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
         forget_run(scene)
         remove_demolition(scene)
     shards = build_demolition(scene, scenario, model)
-    stage(scene, shards, model, points_to_see(scenario, model.members))
+    stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
     if not is_shown:
         show_scenario(settings, scenario)
     settings.total_mass = ""

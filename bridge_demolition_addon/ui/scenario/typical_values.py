@@ -94,6 +94,8 @@ TYPICAL: dict[str, Any] = {
     "equipment.footprint_m": [4.0, 3.0],
     "equipment.until_s": 4.0,
     "neighbours.place_m": [6.5, 30.0, 1.5],
+    "pictures.camera_m": [6.5, -30.0, 10.0],
+    "pictures.look_at_m": [6.5, 0.0, 3.0],
     "vary.mean": 5.0,
     "vary.deviation": 0.5,
     "vary.median": 300000.0,

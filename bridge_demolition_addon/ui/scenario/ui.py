@@ -95,7 +95,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         column.scale_y = _PROMINENT
         column.menu("BDA_MT_presets", icon="ASSET_MANAGER")
         column.operator("bda.build_scenario", icon="MOD_BUILD")
-        draw_run(column, has_changed=bool(changes(settings)))
+        draw_run(column, settings, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
         layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
         row = layout.row(align=True)
@@ -167,10 +167,11 @@ class _TablePanel(SidebarPanel):
         return kept is not None and any(True for _ in changes_of_table(owner, self.item, kept))
 
 
-def draw_run(layout: bpy.types.UILayout, *, has_changed: bool) -> None:
+def draw_run(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, *, has_changed: bool) -> None:
     """Draw the button Run, which builds anew first where values have changed since the scene was built."""
     text = "Build Anew and Run" if has_changed else "Run"
-    layout.operator("bda.run", text=text, icon="PLAY").build_anew = has_changed
+    run = layout.operator("bda.run", text=text, icon="PLAY")
+    run.build_anew, run.pictures = has_changed, settings.pictures_of_run
 
 
 def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed: Sequence[Change]) -> None:

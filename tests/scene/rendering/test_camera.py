@@ -24,7 +24,8 @@ def test_camera_sees_everything_and_wastes_little(blender, points, size):
     from bpy_extras.object_utils import world_to_camera_view
     from mathutils import Vector
 
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera, prepare_pictures
+    from bridge_demolition_addon.scene.rendering.camera import aim_camera
+    from bridge_demolition_addon.scene.rendering.stills import prepare_pictures
 
     scene = blender.context.scene
     prepare_pictures(scene, *size)
@@ -51,8 +52,8 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
     from mathutils import Vector
 
     from bridge_demolition_addon.scene.demolition import build_demolition
-    from bridge_demolition_addon.scene.rendering.camera import prepare_pictures, render_picture
     from bridge_demolition_addon.scene.rendering.staging import stage
+    from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
 
     scenario = replace(I235, fracture=replace(I235.fracture, shards=20))
     scene, model = blender.context.scene, build_model(scenario)
@@ -85,7 +86,8 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
     from bridge_demolition_addon.core.blast.charges import Charge
     from bridge_demolition_addon.scene.blast.charges import create_charges, show_until
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera, prepare_pictures, render_picture
+    from bridge_demolition_addon.scene.rendering.camera import aim_camera
+    from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
 
     scene = blender.context.scene
     charges = [Charge(name=name, place_m=place, mass_kg=1.0) for name, place in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))]

@@ -1,0 +1,131 @@
+"""Pictures of a demolition through Workbench, Blender's fast renderer, which needs no screen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ...core.errors import OutputError
+from ...core.scenario.recording import CameraKind, PictureSettings
+from ..bodies import bodies_of
+from .camera import aim_camera
+from .plain_path import rendered_to
+from .surroundings import points_in_view
+
+_EXPOSURE = 1.0
+_STUDIO_LIGHT = "outdoor.sl"
+"""One of Blender's own: a bright sun, and shadows that are blue from the sky."""
+
+IMAGE_SETTINGS = ("media_type", "file_format", "color_mode", "color_depth")
+_KEPT = {
+    "render": ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage"),
+    "render.image_settings": IMAGE_SETTINGS,
+    "display.shading": (
+        *("light", "studio_light", "color_type", "show_shadows", "show_cavity", "show_object_outline"),
+        "background_type",
+    ),
+    "view_settings": ("view_transform", "exposure"),
+}
+"""Settings of a scene that `prepare_pictures` and Blender's own choices that hang on them change."""
+
+
+def prepare_pictures(scene: bpy.types.Scene, width_px: int, height_px: int) -> None:
+    """Set up the renderer, which draws materials in their plain colours."""
+    render = scene.render
+    render.engine = "BLENDER_WORKBENCH"
+    render.resolution_x, render.resolution_y, render.resolution_percentage = width_px, height_px, 100
+    render.image_settings.file_format = "PNG"
+    shading = scene.display.shading
+    shading.light, shading.studio_light = "STUDIO", _STUDIO_LIGHT
+    shading.color_type = "MATERIAL"
+    shading.show_shadows = True
+    shading.show_cavity = True
+    shading.show_object_outline = True
+    shading.background_type = "WORLD"
+    scene.view_settings.view_transform = "Standard"
+    scene.view_settings.exposure = _EXPOSURE
+
+
+def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
+    """Render a frame that was simulated already; Blender plays it back from its cache."""
+    scene.frame_set(frame)
+    with rendered_to(path) as scene.render.filepath:
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+@contextmanager
+def prepared_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> Iterator[None]:
+    """Render pictures within this context; afterwards the scene is as it was, at its frame.
+
+    Raises
+    ------
+    OutputError
+        The scene has no camera, and its own one is asked for.
+    """
+    with seen_from(scene, view, view.width_px / view.height_px), put_back_afterwards(scene, _KEPT):
+        prepare_pictures(scene, view.width_px, view.height_px)
+        yield
+
+
+@contextmanager
+def put_back_afterwards(scene: bpy.types.Scene, names: Mapping[str, Sequence[str]]) -> Iterator[None]:
+    """Give settings of a scene, by the paths of their groups, and its frame the values back that they have now."""
+    frame, groups = scene.frame_current, [(scene.path_resolve(path), of_group) for path, of_group in names.items()]
+    kept = [
+        (group, name, getattr(group, name))
+        for group, of_group in groups
+        for name in of_group
+        if hasattr(group, name)  # Blender before 5.0 has fewer
+    ]
+    try:
+        yield
+    finally:
+        for group, name, value in kept:
+            setattr(group, name, value)
+        scene.frame_set(frame)
+
+
+@contextmanager
+def seen_from(scene: bpy.types.Scene, view: PictureSettings, aspect: float) -> Iterator[None]:
+    """Let the scene be seen by the camera that is asked for within this context.
+
+    Raises
+    ------
+    OutputError
+        The scene has no camera, and its own one is asked for; or nothing that a camera could see.
+    """
+    before = scene.camera
+    if view.camera == CameraKind.OWN and not view.camera_m:
+        if before is None:
+            raise OutputError(
+                f"scene {scene.name!r} has no camera: add one, or choose another camera in Scenario, Pictures"
+            )
+        yield
+        return
+    points = points_in_view(scene)
+    camera = aim_camera(scene, _corners(scene) if points is None else points, aspect, view=view)
+    try:
+        yield
+    finally:
+        scene.camera = before
+        parts = (camera.data, camera.animation_data and camera.animation_data.action)
+        bpy.data.batch_remove([camera, *filter(None, parts)])
+
+
+def _corners(scene: bpy.types.Scene) -> np.ndarray:
+    """Return the corners (c, 3) float of the boxes around all bodies that move, m."""
+    corners = [
+        body.matrix_world @ type(body.location)(corner)
+        for body in bodies_of(scene)
+        if body.rigid_body.type == "ACTIVE"
+        for corner in body.bound_box
+    ]
+    if not corners:
+        raise OutputError(
+            f"scene {scene.name!r} has no body that moves, and nothing to see: choose a camera of its own"
+        )
+    return np.array(corners)

@@ -1,0 +1,62 @@
+"""Pictures of a run: before it, at the moment that shows most, and at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import bpy
+
+from ...core.errors import OutputError, writing
+from ...core.results.files import PICTURE_FOLDER, PICTURES
+from ...core.scenario import Scenario
+from ...core.scenario.recording import CameraKind, PictureSettings
+from ...scene.blast.charges import charge_objects, show_never, show_until
+from ...scene.demolition import first_frame_after
+from ...scene.rendering.stills import prepared_for_pictures, render_picture
+from ...scene.world import START_FRAME
+
+
+def check_camera(view: PictureSettings) -> None:
+    """See that pictures of a scene that is about to be made can be taken as is asked for.
+
+    Raises
+    ------
+    OutputError
+        They are to be taken by a camera that the scene will not have.
+    """
+    if view.camera == CameraKind.OWN and not view.camera_m:
+        raise OutputError(
+            'pictures.camera is "own": expected pictures.camera_m and pictures.look_at_m as well, as only a scene in '
+            "Blender's window has a camera of its own"
+        )
+
+
+def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
+    """Show charges in pictures until they go off, and not at all where there is no explosion."""
+    for empty, charge in zip(charge_objects(scene), scenario.charges, strict=True):
+        if scenario.blast.explosion:
+            show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
+        else:
+            show_never(empty)
+
+
+def write_pictures(
+    scene: bpy.types.Scene, folder: Path, view: PictureSettings, key_frame: int, last_frame: int
+) -> Sequence[Path]:
+    """Render the pictures of a run that was just played into its folder, and return their paths.
+
+    Raises
+    ------
+    OutputError
+        The camera is not there, or Blender wrote no picture.
+    """
+    paths = [folder.resolve() / PICTURE_FOLDER / f"{name}.png" for name in PICTURES]
+    with writing(folder):
+        (folder / PICTURE_FOLDER).mkdir(parents=True, exist_ok=True)
+    with prepared_for_pictures(scene, view):
+        for path, frame in zip(paths, (START_FRAME, key_frame, last_frame), strict=True):
+            render_picture(scene, frame, path)
+            if not path.exists():
+                raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
+    return paths
