@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -13,20 +12,10 @@ from ..core.errors import OutputError, writing
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
 from ..core.stages.made_elastic import made_elastic
+from ..core.stages.sentences import criticality_sentences, stage_sentences
 from ..core.stages.stages import Criticality, Stage, criticality, stages_of
 from ..core.stages.standing import StandingBridge
-from ..core.stages.tables import (
-    CRITICALITY_COLUMNS,
-    CRITICALITY_FILE,
-    STAGE_COLUMNS,
-    STAGES_FILE,
-    UTILISATION_COLUMNS,
-    UTILISATION_FILE,
-    criticality_row,
-    stage_row,
-    utilisation_rows,
-    write_table,
-)
+from ..core.stages.tables import FILES, write_tables
 from .arguments import naming
 from .progress import progress_on
 
@@ -51,7 +40,7 @@ def execute(arguments: argparse.Namespace) -> None:
     """Work out the stages, write their tables and print what they say."""
     scenario = read_scenario(arguments.scenario)
     output: Path = arguments.output
-    paths = [output / name for name in (STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE)]
+    paths = [output / name for name in FILES]
     if not arguments.overwrite and (there := [path for path in paths if path.exists()]):
         raise OutputError(f"{there[0]}: exists already; choose another folder, or add --overwrite")
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
@@ -64,12 +53,7 @@ def execute(arguments: argparse.Namespace) -> None:
     finally:
         progress.finish()
     with writing(output):
-        output.mkdir(parents=True, exist_ok=True)
-        rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
-        write_table(paths[0], STAGE_COLUMNS, rows)
-        used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
-        write_table(paths[1], UTILISATION_COLUMNS, used)
-        write_table(paths[2], CRITICALITY_COLUMNS, map(criticality_row, members))
+        rows = write_tables(output, stages, members, bridge)
     if not arguments.quiet:
         _print(stages, rows, members, paths)
 
@@ -79,31 +63,13 @@ def _print(
 ) -> None:
     print()
     for stage, row in zip(stages, rows, strict=True):
-        print(f"stage {row['stage']}, from {stage.time_s:g} s: {stage.step}")
-        if stage.equipment:
-            print(f"  with {row['equipment']}")
-        if row["not_held"]:
-            print(
-                f"  {row['not_held']} shards, {row['not_held_kg'] / 1000.0:.1f} t, held by no connection to a support"
-            )
-        if row["largest_utilisation"] is not None:
-            print(
-                f"  used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
-                f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
-            )
-        print(f"  {_factor_in_words(stage.collapse_factor)}")
+        first, *others = stage_sentences(stage, row)
+        print(first)
+        for line in others:
+            print(f"  {line}")
     print()
-    falls = [each for each in members if each.falls_kg]
-    for each in sorted(falls, key=lambda one: -one.falls_kg):
-        print(f"without {each.member}: {each.falls_kg / 1000.0:.1f} t come down, {each.share:.0%}")
-    if not falls:
-        print("without any one member the others stand")
+    for line in criticality_sentences(members):
+        print(line)
     print()
     for path in paths:
         print(path)
-
-
-def _factor_in_words(factor: float) -> str:
-    if math.isnan(factor):
-        return "no connection to a support holds anything"
-    return f"comes down at {f'{factor:.2f} times' if math.isfinite(factor) else 'more than 64 times'} its load"

@@ -24,6 +24,12 @@ from .results import ui as results_ui
 from .scenario import number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
 from .scenario import ui as scenario_ui
+from .search import operator as search_operator
+from .search import session as search_session
+from .search import ui as search_ui
+from .stages import checked as checked_stages
+from .stages import operator as stages_operator
+from .stages import ui as stages_ui
 from .study import operator as study_operator
 from .study import session as study_session
 from .study import ui as study_ui
@@ -31,9 +37,9 @@ from .study import ui as study_ui
 _OPERATORS = (
     *(scenario_operator, preset_menu, number_rows, messages, first_help, workspace, user_meshes, table_list),
     *(recording_operator, run, log_paths, blast_operator, contour_operator, ground_operator),
-    *(results_operator, study_operator, preview_operator, gizmos),
+    *(results_operator, study_operator, search_operator, stages_operator, preview_operator, gizmos),
 )
-_PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, study_ui)
+_PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui, study_ui, search_ui)
 """Below those of the scenario, in the order of the work."""
 
 
@@ -55,8 +61,10 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End a run, recording or study that goes on, and unregister all classes."""
+    """End a run, recording, study or search that goes on, and unregister all classes."""
     study_session.unregister()
+    search_session.unregister()
+    checked_stages.unregister()
     long_action.unregister()
     workspace.unregister()
     session.unregister()

@@ -10,7 +10,9 @@ from .contours.prop import ContourProperties
 from .ground.prop import GroundProperties
 from .preview.prop import PreviewProperties
 from .scenario import prop as scenario_properties
+from .search.prop import SearchProperties
 from .sidebar import path_property
+from .stages.prop import StageProperties
 from .study.prop import StudyProperties
 
 
@@ -20,6 +22,8 @@ class BDA_PG_settings(
     GroundProperties,
     PreviewProperties,
     StudyProperties,
+    SearchProperties,
+    StageProperties,
     bpy.types.PropertyGroup,
 ):
     """Settings that the panels show; the groups of scenario and study are added when they are made."""

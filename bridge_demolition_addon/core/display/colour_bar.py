@@ -48,14 +48,16 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
         unit=f"({unit.name})",
         tick_shares=scale.shares(ticks),
         tick_texts=tuple(tick_text(tick / unit.size) for tick in ticks),
-        frame=f"frame {frame.frame}",
+        frame=f"{'stage' if settings.quantity == Quantity.UTILISATION else 'frame'} {frame.frame}",
         time=f"{frame.time_s:.3f} s",
     )
 
 
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
     since = "of the whole run" if settings.whole_run else "so far"
-    if settings.quantity == Quantity.DISPLACEMENT:
+    if settings.quantity == Quantity.UTILISATION:
+        yield "largest of a shard's connections"
+    elif settings.quantity == Quantity.DISPLACEMENT:
         if settings.peak:
             yield f"peak {since}"
     elif settings.peak:

@@ -31,6 +31,7 @@ class Quantity(StrEnum):
     VON_MISES = "von Mises"
     PRINCIPAL = "principal"
     DISPLACEMENT = "displacement"
+    UTILISATION = "utilisation"
 
 
 TITLES = {
@@ -40,10 +41,11 @@ TITLES = {
     Quantity.VON_MISES: "Von Mises stress",
     Quantity.PRINCIPAL: "Largest principal stress",
     Quantity.DISPLACEMENT: "Displacement",
+    Quantity.UTILISATION: "Utilisation at rest",
 }
 
 STRESSES = (Quantity.VON_MISES, Quantity.PRINCIPAL)
-"""Quantities in Pa. Displacement is in m, and all others are in N."""
+"""Quantities in Pa. Displacement is in m, utilisation, of stages alone, a share, and all others are in N."""
 
 
 PEAKS_OF_SUBSTEPS = (Quantity.RESULTANT, Quantity.SUM)
@@ -164,6 +166,8 @@ def unit_of(quantity: Quantity, high: float) -> Unit:
         return Unit("N/mm²", 1e6) if high >= 1e4 else Unit("kPa", 1e3)
     if quantity == Quantity.DISPLACEMENT:
         return Unit("m", 1.0) if high >= 1.0 else Unit("mm", 1e-3)
+    if quantity == Quantity.UTILISATION:
+        return Unit("%", 0.01)
     return Unit("MN", 1e6) if high >= 1e6 else Unit("kN", 1e3) if high >= 1e3 else Unit("N", 1.0)
 
 
@@ -171,6 +175,8 @@ def unit_of_range(quantity: Quantity) -> Unit:
     """Return the unit in which a fixed range is given."""
     if quantity == Quantity.DISPLACEMENT:
         return Unit("mm", 1e-3)
+    if quantity == Quantity.UTILISATION:
+        return Unit("%", 0.01)
     return Unit("N/mm²", 1e6) if quantity in STRESSES else Unit("kN", 1e3)
 
 
@@ -312,23 +318,20 @@ class ContourSeries:
     def _percentile(self, row: int | None, quantity: Quantity, peak: bool, percentile: float) -> tuple[float, float]:
         values = self._values[quantity, peak]
         if row is not None:
-            return _percentiles(values[row][self._counts], percentile)
+            return percentiles(values[row][self._counts], percentile)
         rows, found = self._percentiles.get((quantity, peak, percentile), (0, (0.0, 0.0)))
         if rows < len(values):
-            found = _percentiles(np.concatenate([each[self._counts] for each in values]), percentile)
+            found = percentiles(np.concatenate([each[self._counts] for each in values]), percentile)
             self._percentiles[quantity, peak, percentile] = len(values), found
         return found
 
     def _scale(self, row: int, settings: ContourSettings) -> Scale:
         if settings.range_kind == RangeKind.FIXED:
-            return Scale(settings.low, settings.high, settings.logarithmic)
+            return fixed_scale(settings)
         of_frame = settings.range_kind == RangeKind.FRAME
         rows = row if of_frame else None
-        low, high = self.extent(rows, settings.quantity, peak=settings.peak, percentile=settings.percentile)
-        if not settings.logarithmic:
-            return Scale(low, high)
-        largest = max(-low, high)
-        return Scale(largest / 10.0**settings.decades, largest, True) if largest > 0.0 else Scale(0.0, 0.0)
+        ends = self.extent(rows, settings.quantity, peak=settings.peak, percentile=settings.percentile)
+        return automatic_scale(settings, *ends)
 
     def _fill(self, quantity: Quantity, peak: bool) -> None:
         """Calculate the rows that were added since."""
@@ -345,12 +348,27 @@ class ContourSeries:
     def _found(self, row: int, quantity: Quantity, peak: bool) -> np.ndarray:
         """Return the values (n,) of a row, whether bodies move or not."""
         frame = self.recorded[row]
+        if quantity == Quantity.UTILISATION:
+            return np.full(len(self.moves), np.nan)
         if quantity == Quantity.DISPLACEMENT:
             return length(frame.positions_m - self._first.positions_m)
         return _peaks(quantity, frame.loads) if peak else _means(quantity, frame.loads)
 
 
-def _percentiles(values: np.ndarray, percentile: float) -> tuple[float, float]:
+def fixed_scale(settings: ContourSettings) -> Scale:
+    """Return the range that the settings give."""
+    return Scale(settings.low, settings.high, settings.logarithmic)
+
+
+def automatic_scale(settings: ContourSettings, low: float, high: float) -> Scale:
+    """Return the range for values from low to high."""
+    if not settings.logarithmic:
+        return Scale(low, high)
+    largest = max(-low, high)
+    return Scale(largest / 10.0**settings.decades, largest, True) if largest > 0.0 else Scale(0.0, 0.0)
+
+
+def percentiles(values: np.ndarray, percentile: float) -> tuple[float, float]:
     """Return the percentile of the values (n,) below 0, downwards, and of those above it; 0 where there are none."""
     ends = []
     for side in (-1.0, 1.0):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -75,10 +75,12 @@ class StandingBridge:
         With elastic connections.
     joints : sequence of Joint
         What its connections have in common, and what breaks them; a force by itself where that is what does.
+    pause : callable, optional
+        Is called before each solution, of which there are many.
     """
 
-    def __init__(self, model: Model, joints: Sequence[Joint]):
-        self.model, self._joints = model, joints
+    def __init__(self, model: Model, joints: Sequence[Joint], pause: Callable[[], None] = lambda: None):
+        self.model, self._joints, self._pause = model, joints, pause
         self._masses = np.where(model.fixed, 0.0, model.masses_kg)
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
         self._axes = section_axes(model.connections.normals)
@@ -110,6 +112,7 @@ class StandingBridge:
             Whether the sections of all connections are judged, or of those alone that are overloaded by themselves: no
             other breaks.
         """
+        self._pause()
         model, rows = self.model, np.flatnonzero(intact)
         kept = model.connections.only(intact)
         found = at_rest(

@@ -16,7 +16,7 @@ from ..units import STANDARD_GRAVITY_M_S2
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE = "stages.csv", "utilisation.csv", "criticality.csv"
+FILES = STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE = "stages.csv", "utilisation.csv", "criticality.csv"
 
 STAGE_COLUMNS = (
     "stage",
@@ -57,6 +57,25 @@ CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
 
 _KILO = 1000.0
 _GROUND = "ground"
+
+
+def write_tables(
+    folder: Path, stages: Sequence[Stage], members: Sequence[Criticality], bridge: StandingBridge
+) -> list[dict[str, Any]]:
+    """Write all tables to a folder, made if new, and return the rows of stages.
+
+    Raises
+    ------
+    OSError
+        One cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
+    write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)
+    used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
+    write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
+    write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))
+    return rows
 
 
 def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, Any]:

@@ -8,13 +8,17 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.display.contours import ContourFrame, ContourSeries, ContourSettings
+from ...core.display.contours import ContourFrame, ContourSeries, ContourSettings, Quantity
+from ...core.display.stage_contours import StageContours
 from ...core.errors import ContourError
 from ...core.results.arrays import Results
 from ...core.results.frames import Frame
-from ...scene.bodies import bodies_of
+from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.rendering.body_colours import paint, place, put_back, show_colours, show_materials, unpaint
 from ..recording.recorder import Recording
+
+_SAME_M = 1e-3
+"""How far the shards of a scene may be from where stages have them: Blender has places in single precision."""
 
 
 class ContourDisplay:
@@ -36,6 +40,10 @@ class ContourDisplay:
         Which results these are: another number for all others.
     missing
         Why the results of the run of a file that was opened are not shown; empty where they are, or there was none.
+    stages
+        How the bridge stands between its steps, if that was worked out; shown for the quantity of that alone.
+    stage
+        Which stage is shown, from 1 on.
     """
 
     def __init__(self, scene: bpy.types.Scene):
@@ -46,6 +54,8 @@ class ContourDisplay:
         self.is_live = False
         self.missing = ""
         self.results_number = 0
+        self.stages: StageContours | None = None
+        self.stage = 1
         self._results: Results | None = None
         self._loaded: ContourSeries | None = None
         self._recorded: ContourSeries | None = None
@@ -142,8 +152,13 @@ class ContourDisplay:
         """What there is to show, up to the latest frame; None where nothing was recorded."""
         return self._followed() if self._loaded is None else self._loaded
 
-    def shown_frame(self) -> tuple[ContourFrame, int] | None:
-        """Return the current frame as it is shown, and its row in the series; None where nothing was recorded."""
+    def shown_frame(self) -> tuple[ContourFrame, int | None] | None:
+        """Return the current frame as it is shown, and its row in the series; None where nothing was recorded.
+
+        Of stages it is the stage that is shown, which has no row.
+        """
+        if self._shows_stages:
+            return (self.stages.show(self.stage, self.settings), None) if self.stages else None
         series = self.series
         row = series.row_at(self.scene.frame_current) if series else None
         if self.settings is None or row is None:
@@ -186,15 +201,31 @@ class ContourDisplay:
     def _paint(self, depsgraph: bpy.types.Depsgraph) -> None:
         series = self.series
         row = series.row_at(self.scene.frame_current) if series else None
-        if row is None:
-            return
-        if self.is_placed or self.magnification != 1.0:
+        if row is not None and (self.is_placed or self.magnification != 1.0):
             self._place(depsgraph, series, series.magnified(row, self.magnification))
-        if self.settings is None:
+        if self._shows_stages:
+            self._paint_stage(depsgraph)
+            return
+        if self.settings is None or row is None:
             return
         frame = series.show(row, self.settings)
         rows = {name: row for row, name in enumerate(series.body_names)}
         paint(self.scene, depsgraph, rows, np.where(series.moves[:, None], frame.screen_colours, np.nan))
+
+    @property
+    def _shows_stages(self) -> bool:
+        return self.settings is not None and self.settings.quantity == Quantity.UTILISATION
+
+    def _paint_stage(self, depsgraph: bpy.types.Depsgraph) -> None:
+        world = self.scene.rigidbody_world
+        if self.stages is None or not (world and world.collection):
+            return
+        shards = [body for body in bodies_of(self.scene) if kind_of(body) == Kind.SHARD]
+        places = np.array([body.location for body in shards]).reshape(-1, 3)
+        if places.shape != self.stages.centres_m.shape or not np.allclose(places, self.stages.centres_m, atol=_SAME_M):
+            raise ContourError("stages: they are of another bridge than the scene has; build it anew, or check again")
+        frame = self.stages.show(self.stage, self.settings)
+        paint(self.scene, depsgraph, {body.name: row for row, body in enumerate(shards)}, frame.screen_colours)
 
     def _place(self, depsgraph: bpy.types.Depsgraph, series: ContourSeries, shown: Frame) -> None:
         moving = {name: row for row, name in enumerate(series.body_names) if series.moves[row]}

@@ -132,8 +132,8 @@ class FilmRendering:
                     raise error
                 if not path.exists():
                     raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
-                shown = self._series.show(self._series.row_at(frame), self._contours)
-                add_legend(path, self._contours, shown)
+                if shown := contours_of(scene).shown_frame():
+                    add_legend(path, self._contours, shown[0])
                 yield path
 
     def finish(self) -> list[Path]:

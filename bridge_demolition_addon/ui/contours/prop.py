@@ -30,6 +30,12 @@ _QUANTITIES = (
         TITLES[Quantity.DISPLACEMENT],
         "How far the body is from where it stood when the recording began; elastic connections bear no load there",
     ),
+    (
+        Quantity.UTILISATION.name,
+        TITLES[Quantity.UTILISATION],
+        "Load over strength of the shard's connections at rest, in the stage that the panel Stages shows: above 100 % "
+        "one of them breaks",
+    ),
     (Quantity.SIGNED_2019.name, TITLES[Quantity.SIGNED_2019], "What the add-on of 2019 logged: for comparison only"),
 )
 _RANGES = (
@@ -94,11 +100,14 @@ class ContourProperties:
         name="Range", description="What the lowest and highest colour stand for", items=_RANGES, update=_follow
     )
     contour_low: FloatProperty(
-        name="Lowest", description="Low end of the fixed range, kN, N/mm² or mm, such as 1", default=1.0, update=_follow
+        name="Lowest",
+        description="Low end of the fixed range, kN, N/mm², mm or %, such as 1",
+        default=1.0,
+        update=_follow,
     )
     contour_high: FloatProperty(
         name="Highest",
-        description="High end of the fixed range, kN, N/mm² or mm, such as 1000 kN",
+        description="High end of the fixed range, kN, N/mm², mm or %, such as 1000 kN",
         default=1000.0,
         update=_follow,
     )

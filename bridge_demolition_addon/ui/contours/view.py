@@ -61,6 +61,9 @@ def follow(scene: bpy.types.Scene) -> None:
 def trouble(scene: bpy.types.Scene) -> str:
     """Return why contours cannot be shown as asked for; empty where they can."""
     contours = contours_of(scene)
+    shown = contours.settings
+    if shown and shown.quantity == Quantity.UTILISATION and contours.stages is None:
+        return "Utilisation at rest is that of stages: check them first, in the panel Stages"
     return _refusals.get(scene.session_uid) or (str(contours.error) if contours.error else contours.missing)
 
 

@@ -89,12 +89,12 @@ class StudyAtWork:
 
     def __init__(self, study: Study, path: Path, jobs: int):
         self.path = path
-        limits = Limits.of(study.settings)
-        versions = versions_with(".".join(map(str, bpy.app.version)))
-        self._folder = StudyFolder(path, study, versions)
-        program = bpy.app.binary_path  # empty where Blender is a module of Python
-        command = blender_command(program) if program else draw_command()
-        self._engine = LocalProcesses(jobs, limits, command, versions)
+        self._engine = engine_for(study, jobs)
+        try:
+            self._folder = StudyFolder(path, study, self._engine.versions)
+        except BaseException:
+            self._engine.close()
+            raise
         self._has_ended = False
         self.run = StudyRun(study, self._folder, self._engine)
 
@@ -113,6 +113,14 @@ class StudyAtWork:
         """Keep what follows from all draws."""
         self.run.write_conclusions()
         self.end()
+
+
+def engine_for(study: Study, jobs: int) -> LocalProcesses:
+    """Return what runs the draws of a study, each in a Blender like this one, some at a time."""
+    limits = Limits.of(study.settings)
+    program = bpy.app.binary_path  # empty where Blender is a module of Python
+    command = blender_command(program) if program else draw_command()
+    return LocalProcesses(jobs, limits, command, versions_with(".".join(map(str, bpy.app.version))))
 
 
 def blender_command(program: str) -> list[str]:

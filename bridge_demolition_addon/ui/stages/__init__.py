@@ -1,0 +1,1 @@
+"""Stages: does the bridge stand between the steps of its demolition?"""

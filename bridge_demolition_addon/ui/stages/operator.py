@@ -1,0 +1,97 @@
+"""Operators of stages: checking them, and showing how much of its strength each shard uses."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...core.display.contours import Quantity
+from ...core.display.stage_contours import StageContours
+from ...core.errors import writing
+from ...core.sequence.checked_model import checked_model
+from ...core.stages.made_elastic import made_elastic
+from ...core.stages.sentences import criticality_sentences, stage_sentences
+from ...core.stages.stages import criticality, stages_of
+from ...core.stages.standing import StandingBridge
+from ...core.stages.tables import stage_row, write_tables
+from ...simulation.blender_events import contours_of
+from ..long_action import LongAction, Work
+from ..operators import Action, absolute, no_world
+from ..scenario.values import scenario_of
+from ..turns import Turns
+from .checked import CheckedStages, checked_in, keep
+
+
+class BDA_OT_check_stages(LongAction, bpy.types.Operator):
+    """Work out how the bridge in the panels stands before each step and after the last; Esc stops"""
+
+    bl_idname = "bda.check_stages"
+    bl_label = "Check Stages"
+    bl_description = (
+        "Work out how the bridge in the panels stands before each step and after the last, and without each of its "
+        "members, by its stiffness and without a simulation; Esc stops"
+    )
+    changes_scene = False
+    what, unit = "Checking stages", "parts"
+
+    def work(self, context: bpy.types.Context) -> Work:
+        settings = context.scene.bda
+        scenario, scene = scenario_of(settings), context.scene.session_uid
+        folder = absolute(settings.stages_directory) if settings.stages_directory else None
+
+        def check(turns: Turns) -> str:
+            turns.stage("cutting the bridge")
+            model = checked_model(made_elastic(scenario))
+            bridge = StandingBridge(model, scenario.joints, lambda: turns.part(turns.done, turns.total))
+            turns.stage("stages")
+            stages = stages_of(scenario, bridge, turns.part)
+            turns.stage("without each member")
+            members = criticality(bridge, turns.part)
+            if folder is None:
+                rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
+            else:
+                with writing(folder):
+                    rows = write_tables(folder, stages, members, bridge)
+            said = tuple(tuple(stage_sentences(stage, row)) for stage, row in zip(stages, rows, strict=True))
+            contours = StageContours.of_stages(model, stages)
+            keep(CheckedStages(scene, tuple(rows), said, tuple(criticality_sentences(members)), contours))
+            return f"{len(rows)} stages" + (f", with tables in {folder}" if folder else "")
+
+        return check
+
+    def act(self, context: bpy.types.Context) -> str | None:
+        done = super().act(context)
+        show_checked(context.scene)
+        return done
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        finished = super()._finish(context)
+        show_checked(context.scene)
+        return finished
+
+
+class BDA_OT_show_utilisation(Action, bpy.types.Operator):
+    """Colour the shards by how much of their strength their connections use at rest, in the stage that is shown"""
+
+    bl_idname = "bda.show_utilisation"
+    bl_label = "Show Utilisation"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return no_world(context) or (None if checked_in(context.scene) else "Check the stages first")
+
+    def act(self, context: bpy.types.Context) -> None:
+        settings = context.scene.bda
+        settings.contour_quantity = Quantity.UTILISATION.name
+        settings.contours = True
+
+
+CLASSES = (BDA_OT_check_stages, BDA_OT_show_utilisation)
+
+
+def show_checked(scene: bpy.types.Scene) -> None:
+    """Hand what was checked for a scene to its contours."""
+    if found := checked_in(scene):
+        display = contours_of(scene)
+        display.stages = found.contours
+        scene.bda.stage_shown = min(scene.bda.stage_shown, len(found.contours))

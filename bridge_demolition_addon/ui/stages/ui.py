@@ -1,0 +1,52 @@
+"""The panel Stages: a table of stages, one of them in full, and which members hold the bridge."""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+
+from ..sidebar import SidebarPanel, draw_sentence
+from .checked import checked_in
+
+
+class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
+    """How the bridge stands between the steps of its demolition, by its stiffness and without a simulation."""
+
+    bl_label = "Stages"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, context.scene.bda
+        layout.prop(settings, "stages_directory", text="", placeholder="Folder for tables")
+        layout.operator("bda.check_stages")
+        found = checked_in(context.scene)
+        if found is None:
+            return
+        grid = layout.column(align=True)
+        for row in [{}, *found.rows]:
+            line = grid.row(align=True)
+            for text in cells_of(row):
+                line.label(text=text)
+        layout.prop(settings, "stage_shown")
+        for sentence in found.sentences[min(settings.stage_shown, len(found.rows)) - 1]:
+            draw_sentence(layout, context, sentence, icon="NONE")
+        layout.operator("bda.show_utilisation")
+        for sentence in found.members:
+            draw_sentence(layout, context, sentence, icon="NONE")
+
+
+CLASSES = (BDA_PT_stages,)
+
+
+def cells_of(row: dict) -> tuple[str, ...]:
+    """Return what the table says of a stage; its head for no row."""
+    if not row:
+        return "Stage", "From", "Used", "Falls at"
+    used, factor = row["largest_utilisation"], row["collapse_factor"]
+    return (
+        str(row["stage"]),
+        f"{row['time_s']:g} s",
+        "" if used is None else f"{used:.0%}",
+        "not held" if math.isnan(factor) else "> × 64" if math.isinf(factor) else f"× {factor:.2f}",
+    )
