@@ -20,10 +20,13 @@ IN_A_LINKED_SCENE = {
     "open_report": "Run the scene first",
     "open_walkthrough": "no xdg-open",
     "open_results": "Nothing was recorded yet",
+    "open_search_curve": "No search has ended yet",
     "pause_study": "No study is at work",
     "resume_study": "No study is paused",
     "show_study": "Choose the folder of a study first",
+    "start_search": "Choose a folder for the search first",
     "start_study": "Choose a folder for the study first",
+    "stop_search": "No search is at work",
     "stop_study": "No study is at work",
     "unregister_handler": "No handler is registered",
 }

@@ -30,7 +30,6 @@ class BDA_OT_check_stages(LongAction, bpy.types.Operator):
         "Work out how the bridge in the panels stands before each step and after the last, and without each of its "
         "members, by its stiffness and without a simulation; Esc stops"
     )
-    changes_scene = False
     what, unit = "Checking stages", "parts"
 
     def work(self, context: bpy.types.Context) -> Work:
