@@ -12,7 +12,6 @@ collision detection still knows the freed bodies.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 
 import bpy
 import numpy as np
@@ -20,7 +19,7 @@ import numpy as np
 from ..core.errors import LayoutError
 from .collision_pairs import let_collide
 from .layout import Layout
-from .memory import gather_doubles, read, read_pointer, read_value, write_integers, write_pointers
+from .memory import read, read_pointer, read_value, write_integers, write_pointers
 
 _MOST_ENTRIES = 10_000_000
 _INERT_BYTES = 4096
@@ -96,26 +95,6 @@ class Fingerprints:
     def _print(self, address: int) -> bytes | None:
         raw = read(address, self._size)
         return np.frombuffer(raw, np.uint8)[self._columns].tobytes() if raw else None
-
-
-class ConnectionSettings:
-    """The settings of connections, to see quickly which of them were edited."""
-
-    def __init__(self, layout: Layout, connections: Sequence[bpy.types.Object]):
-        addresses = [each.rigid_body_constraint.as_pointer() for each in connections]
-        self._addresses = np.array(addresses, np.uint64)
-        self._columns = np.arange(layout.blender.connection_physics // 8)
-        self._first = self._read()
-
-    def changed_rows(self) -> np.ndarray:
-        """Return the rows (k,) of the connections that were edited since the last call; all of them must be there."""
-        now = self._read()
-        changed = (now != self._first).any(axis=1)
-        self._first = now
-        return np.flatnonzero(changed)
-
-    def _read(self) -> np.ndarray:
-        return gather_doubles(self._addresses, columns=self._columns).view(np.uint64)
 
 
 def retire(

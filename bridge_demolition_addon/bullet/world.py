@@ -9,7 +9,6 @@ from __future__ import annotations
 import ctypes
 import itertools
 from collections.abc import Callable, Sequence
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from enum import Enum
 
@@ -40,7 +39,7 @@ from .memory import (
     write_vectors,
 )
 from .snapshots import SnapshotTaker
-from .teardown import ConnectionSettings, Fingerprints, retire, take_bodies_from, take_out_constraints
+from .teardown import Fingerprints, retire, take_bodies_from, take_out_constraints
 
 _FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
@@ -98,8 +97,9 @@ class _BoundWorld:
         Reads the contacts.
     depsgraph : int
         Address of the dependency graph whose copies of the connections have the constraints.
-    settings : ConnectionSettings or None
-        Tells connections that were edited; None where the constraints are on the connections themselves, and stay.
+    copies : dict or None
+        The rows of these copies by their addresses; None where the constraints are on the connections themselves, and
+        stay.
     """
 
     dynamics: int
@@ -115,7 +115,7 @@ class _BoundWorld:
     fingerprints: Fingerprints
     contacts: ContactReader
     depsgraph: int
-    settings: ConnectionSettings | None
+    copies: dict[int, int] | None
 
 
 class BulletWorld:
@@ -147,7 +147,6 @@ class BulletWorld:
         self._bound: _BoundWorld | None = None
         self._enabled: tuple[np.ndarray, Places] | None = None  # of the connections that exist
         self._constraint_rows: ConstraintRows | None = None
-        self._rows = {connection.session_uid: row for row, connection in enumerate(self.connections)}
         self._threshold_factor, self._holds_connections = 1.0, False
         self._feedback = _aligned_doubles(len(self.connections))
 
@@ -162,7 +161,7 @@ class BulletWorld:
             Evaluated for the present frame.
         to_read
             Whether loads and motion are to be read. Otherwise the world may have been recorded or edited before, and
-            only `retire`, `take_out_edited` and `take_out_freed` can be used.
+            only `retire` and `take_out_edited` can be used.
 
         Raises
         ------
@@ -456,47 +455,47 @@ class BulletWorld:
     def take_out_edited(self) -> list[bpy.types.Object]:
         """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
 
-        Blender frees the constraint of an edited connection, makes another, and forgets to take the first one out.
+        Blender copies an edited object anew. It frees the constraint of the former copy, makes another, and forgets to
+        take the first one out. To be called before Blender updates anything.
 
         Raises
         ------
         LayoutError
             Memory is not as expected; nothing has been written.
         """
-        if not self._has_copies():
-            return []
-        return self._take_out(self._bound.settings.changed_rows())
-
-    def take_out_freed(self, depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
-        """Take out of the world what Blender freed in an update; return the connections concerned.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected; nothing has been written.
-        """
-        if not self._has_copies() or depsgraph.as_pointer() != self._bound.depsgraph:  # others' copies have none
-            return []
-        bound = self._bound
-        found = ((self._rows.get(update.id.original.session_uid), update.id) for update in depsgraph.updates)
-        now = {row: self._address(copy) for row, copy in found if row is not None and bound.exists[row]}
-        rows = [row for row, address in now.items() if address != bound.connections[row]]
-        return self._take_out(np.array(rows, int), {now[row] for row in rows})
-
-    def _has_copies(self) -> bool:
-        """Whether the world is still the one that was prepared, with constraints that Blender frees after an edit."""
-        return self._is_bound_to(self._find_dynamics_world()) and self._bound.settings is not None
-
-    def _take_out(self, rows: np.ndarray, made: AbstractSet[int] = frozenset()) -> list[bpy.types.Object]:
-        """Take connections (k,) out of the world, where others may have been made in their place at some addresses."""
-        bound = self._bound
-        rows = rows[bound.exists[rows]]
+        depsgraph = self._depsgraph_with_copies()
+        rows = self._edited_rows(depsgraph) if depsgraph else np.empty(0, int)
+        rows = rows[self._bound.exists[rows]] if len(rows) else rows
         if len(rows):
-            known = made | set(bound.connections[bound.exists].tolist())
-            gone = set(bound.connections[rows].tolist()) - made
-            take_out_constraints(self._layout, bound.dynamics, bound.bodies, known, gone)
-            bound.exists[rows] = False
+            self._take_out(rows)
         return [self.connections[row] for row in rows]
+
+    def _depsgraph_with_copies(self) -> bpy.types.Depsgraph | None:
+        """What copies the connections of the world that was prepared, where their constraints are on copies."""
+        if not self._is_bound_to(self._find_dynamics_world()) or self._bound.copies is None:
+            return None
+        depsgraphs = (layer.depsgraph for layer in self.scene.view_layers)
+        return next((each for each in depsgraphs if each and each.as_pointer() == self._bound.depsgraph), None)
+
+    def _edited_rows(self, depsgraph: bpy.types.Depsgraph) -> np.ndarray:
+        """Rows (k,) of the connections whose copies the coming update replaces, or frees as their collection is hidden.
+
+        What waits for an update is known by its copy: the original may be deleted by now.
+        """
+        constraints = self.scene.rigidbody_world.constraints
+        if depsgraph.id_type_updated("SCENE") and not _is_shown(constraints, depsgraph.view_layer.layer_collection):
+            return np.arange(len(self.connections))
+        if not depsgraph.id_type_updated("OBJECT"):
+            return np.empty(0, int)
+        rows = (self._bound.copies.get(update.id.as_pointer()) for update in depsgraph.updates)
+        return np.array([row for row in rows if row is not None], int)
+
+    def _take_out(self, rows: np.ndarray) -> None:
+        """Take connections (k,) that exist out of the world."""
+        bound = self._bound
+        known, gone = (set(each.tolist()) for each in (bound.connections[bound.exists], bound.connections[rows]))
+        take_out_constraints(self._layout, bound.dynamics, bound.bodies, known, gone)
+        bound.exists[rows] = False
 
     def _named(self, bodies: np.ndarray) -> np.ndarray:
         """Those of bodies (k,), each once and in order."""
@@ -542,7 +541,9 @@ class BulletWorld:
         if to_read:
             checks.check_solver(layout, dynamics, self.scene.rigidbody_world, scene_time_step(self.scene).substep_s)
         bodies = self._find_bodies(depsgraph, to_read)
-        connections = self._find_connections(depsgraph, bodies, to_read)
+        are_copied = self._are_copied(depsgraph)
+        holders = [each.evaluated_get(depsgraph) for each in self.connections] if are_copied else self.connections
+        connections = self._find_connections(holders, bodies, to_read)
         bodies = bodies[bodies != 0]
         for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
@@ -564,7 +565,7 @@ class BulletWorld:
             fingerprints=Fingerprints(layout, connections[exists]),
             contacts=ContactReader(layout, read_pointer(dynamics + world.dispatcher), bodies),
             depsgraph=depsgraph.as_pointer(),
-            settings=ConnectionSettings(layout, self.connections) if self._are_copied(depsgraph) else None,
+            copies={each.as_pointer(): row for row, each in enumerate(holders)} if are_copied else None,
         )
 
     def _prepare(self) -> None:
@@ -606,12 +607,9 @@ class BulletWorld:
         return read_pointer(holder.rigid_body_constraint.as_pointer() + self._layout.blender.connection_physics)
 
     def _find_connections(
-        self, depsgraph: bpy.types.Depsgraph, body_addresses: np.ndarray, to_read: bool
+        self, holders: Sequence[bpy.types.Object], body_addresses: np.ndarray, to_read: bool
     ) -> np.ndarray:
-        """Bullet's constraints (m,), 0 for one that is switched off."""
-        holders = self.connections
-        if self._are_copied(depsgraph):
-            holders = [connection.evaluated_get(depsgraph) for connection in self.connections]
+        """Bullet's constraints (m,) that connections or their copies hold, 0 for one that is switched off."""
         addresses = [self._address(each) for each in holders]
         existing = [pair for pair in zip(self.connections, addresses, strict=True) if pair[1]]
         for connection, address in zip(self.connections, addresses, strict=True):
@@ -637,6 +635,15 @@ class BulletWorld:
 
     def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
         write_pointers(self._connection_fields(self._layout.constraint.joint_feedback), targets)
+
+
+def _is_shown(collection: bpy.types.Collection, layer_collection: bpy.types.LayerCollection) -> bool:
+    """Return whether a collection is in a part of a view layer, so that Blender evaluates what is in it."""
+    if layer_collection.collection.hide_viewport:
+        return False
+    if layer_collection.collection == collection and not layer_collection.exclude:
+        return True
+    return any(_is_shown(collection, each) for each in layer_collection.children)
 
 
 def _callback(action: Callable[[float], None]) -> object:

@@ -11,6 +11,7 @@ from pathlib import Path
 import bpy
 from blocks import Blocks
 
+from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
 from bridge_demolition_addon.scene.world import start_over
 from bridge_demolition_addon.simulation import blender_events
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
@@ -136,6 +137,19 @@ class FallingRow:
     def rename_connection(self) -> None:
         self.links[3].name = "Renamed"
 
+    def turn_connection(self) -> None:
+        self.links[3].rotation_euler.x = 1.0
+
+    def hide_connections(self) -> None:
+        self.blocks.world.constraints.hide_viewport = True
+
+    def exclude_connections(self) -> None:
+        layer = bpy.context.view_layer.layer_collection
+        layer.children[self.blocks.world.constraints.name].exclude = True
+
+    def take_connections_out_of_the_scene(self) -> None:
+        self.scene.collection.children.unlink(self.blocks.world.constraints)
+
     def edit_others_after_going_back(self) -> None:
         """In place of the first, Blender makes another constraint once it goes beyond the frames that it has played."""
         self.scene.frame_set(6)
@@ -146,6 +160,15 @@ class FallingRow:
         for link in self.links[:3] + self.links[4:]:
             link.rigid_body_constraint.type = "POINT"
             self.update()
+
+    def play_on_with_nothing_left_behind(self) -> None:
+        self.play(12, 12)
+        blender_events.unregister()
+        world = BulletWorld(self.scene, [*self.row, self.ground], self.links)
+        assert world.bind(self.scene.view_layers[0].depsgraph, to_read=False) is WorldState.NEW
+        assert not world.has_grown(), "Bullet has more connections than Blender"
+        world.release()
+        self.play(13, 20)
 
     def go_on_falling(self) -> None:
         before = self.height()

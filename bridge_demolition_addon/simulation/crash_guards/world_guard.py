@@ -8,7 +8,7 @@ can be played and edited meanwhile.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 import bpy
 
@@ -88,19 +88,16 @@ class WorldGuard:
             self.release()
             return "the rigid-body world was removed while it was recorded"
         if self._objects.are_the_same():
-            return self._taken_out(BulletWorld.take_out_edited)
+            return self._take_out_edited()
         changes = self._objects.changes()
         if self._objects.any_is_gone():
             if self._world:
                 self._stand_still(scene)
             self.release()
         else:  # Blender takes what was added into the world with the next frame: until then the world is as before
+            self._take_out_edited()
             self._objects, self._was_edited = WorldObjects(scene), True
         return f"rigid-body world changed, {changes}: go to the start frame and record again"
-
-    def check_update(self, depsgraph: bpy.types.Depsgraph) -> str:
-        """Return that a connection was edited, in a sentence; empty where none was. To be called after an update."""
-        return self._taken_out(lambda world: world.take_out_freed(depsgraph))
 
     def keep_standing_still(self, scene: bpy.types.Scene) -> None:
         """Stop time before a frame again: Blender takes frames out of its cache, and counts on from there."""
@@ -120,7 +117,6 @@ class WorldGuard:
         if not _has_world(scene):
             self.release()
             return
-        self.check_update(depsgraph)
         if self.stands_still or bpy.app.is_job_running("RENDER"):
             return
         at_start = scene.frame_current <= scene.rigidbody_world.point_cache.frame_start
@@ -143,10 +139,10 @@ class WorldGuard:
             self._world.release()
             self._world = None
 
-    def _taken_out(self, take_out: Callable[[BulletWorld], list[bpy.types.Object]]) -> str:
-        """Have edited connections taken out of the world: Blender makes others with the next frame."""
+    def _take_out_edited(self) -> str:
+        """Have edited connections taken out of the world, and say so: Blender makes others with the next frame."""
         try:
-            edited = take_out(self._world) if self._world else []
+            edited = self._world.take_out_edited() if self._world else []
         except LayoutError:
             return ""
         if not edited:

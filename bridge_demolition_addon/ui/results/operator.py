@@ -14,7 +14,7 @@ from ...core.results.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
 from ...core.results.summary import first_hit_s
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...simulation.results_folder import keep_site
-from ..bridge_view import look_at_shards
+from ..bridge_view import look_at_shards, shards_in_view
 from ..long_action import LongAction, Work
 from ..operators import Action, absolute, no_world, recording_runs
 from ..scenario.built import shown_site
@@ -77,6 +77,8 @@ class BDA_OT_look_at_bridge(Action, bpy.types.Operator):
         return no_world(context) or recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> None:
+        if not shards_in_view(context):
+            raise SimulationError("no shard is in this view layer: show the collection of its bodies")
         scene = context.scene
         scene.frame_set(scene.rigidbody_world.point_cache.frame_start)
         look_at_shards(context)
