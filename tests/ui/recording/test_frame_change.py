@@ -178,6 +178,19 @@ def test_results_lead_to_body_and_frame(built, tmp_path):
         built.ops.bda.go_to_body(body="Shard 99999", frame=1)
 
 
+def test_the_way_back_to_the_bridge_says_where_no_shard_is_shown(built):
+    scene = built.context.scene
+    scene.frame_set(3)
+    collection = scene.rigidbody_world.collection
+    scene.collection.children.unlink(collection)
+    with pytest.raises(RuntimeError, match="no shard is in this view layer"):
+        built.ops.bda.look_at_bridge()
+    assert scene.frame_current == 3
+    scene.collection.children.link(collection)
+    built.ops.bda.look_at_bridge()
+    assert scene.frame_current == 1
+
+
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems open folders by themselves")
 def test_a_system_that_opens_no_folders_is_told_of(built, monkeypatch):
     record(built)
