@@ -17,6 +17,7 @@ import bpy
 from places import SMALL, TESTS
 
 import bridge_demolition_addon
+from bridge_demolition_addon.core.errors import DemolitionError
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.core.sequence.checked_model import checked_model
 from bridge_demolition_addon.scene.blast.charges import create_charges
@@ -25,15 +26,26 @@ from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
 from bridge_demolition_addon.scene.world import keep_played_frames, start_over
+from bridge_demolition_addon.ui.contours import decorator as contours
+from bridge_demolition_addon.ui.ground import decorator as ground
+from bridge_demolition_addon.ui.preview import decorator as preview
+from bridge_demolition_addon.ui.preview import handles
+from bridge_demolition_addon.ui.scenario.prop import PRESETS
 
 from .sequences import Player, WrongError
 
 SCENARIOS = (SMALL, TESTS / "simulation" / "everything.toml")
+SITE_PLAN = PRESETS / "one_span_explosives.jpg"
+"""Any picture."""
+
 SHARDS, DURATION_S = 9, 0.6
 LONGEST_FRAMES = 20
 
 BUTTONS = {
     "build_scenario": 12,
+    "build_anew": 3,
+    "show_built": 2,
+    "drag_handle": 3,
     "run": 6,
     "register_handler": 6,
     "unregister_handler": 5,
@@ -45,11 +57,16 @@ BUTTONS = {
     "load_scenario": 2,
     "new_scenario": 1,
     "show_total_mass": 1,
-    "toggle_symbols": 2,
+    "toggle_symbols": 3,
+    "draw_zone": 0.5,
+    "lay_site_plan": 1,
+    "raise_dust": 1,
+    "settle_dust": 1,
     "bake": 2,
     "delete_bake": 2,
     "load_results": 3,
-    "load_preset": 1,
+    "forget_results": 1,
+    "load_preset": 2,
     "save_scenario": 1,
     "set_force_log": 1,
     "set_debris_log": 1,
@@ -62,7 +79,7 @@ BUTTONS = {
     "remove_row": 2,
     "look_at_bridge": 1,
     "dismiss_messages": 0.5,
-    "make_workspace": 0.3,
+    "make_workspace": 0.5,
     "go_to_body": 2,
     "draw_charts": 0.1,
     "make_report": 0.1,
@@ -122,6 +139,7 @@ class BlenderPlayer(Player):
         "change_layers": 2,
         "purge": 1,
         "update": 5,
+        "look_at_drawings": 8,
         "render": 1,
     }
     first = ("use_standard_settings", "press_build")
@@ -202,6 +220,13 @@ class BlenderPlayer(Player):
             },
             "add_row": lambda: {"path": "bda.scenario." + random.choice(rows)},
             "remove_row": lambda: {"path": "bda.scenario." + random.choice(rows), "number": random.randrange(3)},
+            "run": lambda: {"pictures": random.random() < 0.2, "build_anew": random.random() < 0.3},
+            "drag_handle": lambda: {
+                "kind": random.choice(("TARGET", "DROP", "CHARGE")),
+                "index": random.randrange(3),
+                "is_upright": random.random() < 0.5,
+                "place_m": [random.choice((-5.0, 0.0, 3.7, 1e6)) for _ in range(3)],
+            },
             "go_to_body": lambda: {"body": random.choice(names), "frame": random.randrange(LONGEST_FRAMES)},
         }
         return arguments[button]() if button in arguments else {}
@@ -245,9 +270,24 @@ class BlenderPlayer(Player):
         settings.film_directory = str(self.folder / "film")
         settings.results_path = str(self.folder / "results" / "results.npz")
         settings.film_width, settings.film_height = 320, 180
+        settings.scenario.pictures.width_px, settings.scenario.pictures.height_px = 64, 36
+        settings.plan_picture = str(SITE_PLAN)
         settings.overwrite = True
         settings.contours = random.random() < 0.5
         return path
+
+    def look_at_drawings(self, _random: Random) -> str:
+        """Work out all that a 3D view would draw, as it does with every redraw."""
+        if self.bare or not self.is_on:
+            return "off"
+        scene = bpy.context.scene
+        drawn = [
+            lambda: len(list(ground.drawn(scene, bpy.context.view_layer))),
+            lambda: len(preview.preview_lines(scene.bda)),
+            lambda: len(handles.handles(scene)),
+            lambda: len(contours.vector_lines(scene)),
+        ]
+        return ", ".join(_drawn(each) for each in drawn)
 
     def change_a_setting(self, random: Random) -> str:
         if self.bare or not self.is_on:
@@ -553,6 +593,14 @@ def _short(path: Path, folder: Path) -> Path:
     short = folder / path.name
     short.write_text(scenario_text(scenario), encoding="utf-8")
     return short
+
+
+def _drawn(draw: Callable[[], int]) -> str:
+    """What was drawn, or why it was not, as the sidebar says it."""
+    try:
+        return str(draw())
+    except DemolitionError as error:
+        return str(error)
 
 
 def _switch_settings(*, on: bool) -> None:
