@@ -3,6 +3,7 @@
 
 from pathlib import Path
 
+import bpy
 from person import Person, Steps
 from traces import SCENARIO, recording_runs
 
@@ -51,3 +52,15 @@ def play_until(person: Person, frame: int) -> Steps:
     """Play until a frame is reached, and leave it playing."""
     yield from play_or_pause(person)
     yield from person.wait_for(f"the timeline plays up to frame {frame}", lambda: person.scene.frame_current >= frame)
+
+
+def render_still(person: Person, path: Path) -> Steps:
+    """Press F12 with the renderer that is chosen, and keep a small picture of what comes of it."""
+    scene = person.scene
+    bpy.context.preferences.view.render_display_type = "NONE"
+    scene.render.resolution_x, scene.render.resolution_y, scene.eevee.taa_render_samples = 320, 180, 4
+    yield from person.move_to_view()
+    yield from person.press("F12")
+    yield 1.0
+    yield from person.wait_for("the render ends", lambda: not bpy.app.is_job_running("RENDER"), 600.0)
+    bpy.data.images["Render Result"].save_render(str(path), scene=scene)

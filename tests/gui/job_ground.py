@@ -2,10 +2,10 @@
 """Draw a zone with the mouse; look at zones, distances, debris, exclusion zone, the ball's way and a chosen shard."""
 
 import bpy
-from habits import build
+from habits import build, render_still
 from panels import Panels
 from person import Person, Steps
-from traces import module
+from traces import module, pixels_of
 
 ALL = {"EXCLUSION", "ZONES", "DEBRIS", "RINGS", "NEIGHBOURS", "WAY", "FLASHES", "NAMES"}
 
@@ -37,10 +37,26 @@ def steps(person: Person) -> Steps:
     person.expect("the exclusion zone is that of the run", "Exclusion zone of the last run" in texts)
     person.expect("all was drawn", module("ui.ground.decorator").drawing.trouble, "")
     yield from person.picture("after_the_run")
+    yield from dust(person)
     yield from panels.show_only("Post Processing")
     yield from panels.toggle_inner(3, "bda.load_results")
     yield from person.scroll(30)
     yield from person.picture("panel")
+
+
+def dust(person: Person) -> Steps:
+    """Render the end of the run by F12 without dust and with it."""
+    clear, dusty = person.folder / "clear.png", person.folder / "dusty.png"
+    yield from render_still(person, clear)
+    bpy.ops.bda.raise_dust()
+    person.scene.frame_set(person.scene.frame_end)
+    yield 0.5
+    yield from render_still(person, dusty)
+    changed = abs(pixels_of(dusty) - pixels_of(clear)).max(axis=1) > 0.02
+    trouble = "" if changed.mean() > 0.005 else f"it changes {changed.mean():.2%} of the picture"
+    person.note(f"{person.scene.render.engine} renders dust: {changed.mean():.1%} of the picture is other", trouble)
+    bpy.ops.bda.settle_dust()
+    person.take_reports()
 
 
 def draw_zone(person: Person) -> Steps:

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Build from Blender as it starts, and look at the bridge: Solid, Material Preview, Rendered, and by F12."""
 
-from pathlib import Path
-
 import bpy
-import numpy as np
-from habits import build
+from habits import build, render_still
 from panels import Panels
 from person import Person, Steps
+from traces import pixels_of
 
 STARTUP = ("Cube", "Light", "Camera")
 SECONDS_OF_SHADERS = 15.0
@@ -51,23 +49,10 @@ def looks(person: Person) -> Steps:
 
 def by_f12(person: Person) -> Steps:
     """Press F12 with the renderer that Blender starts with, and look at what comes of it."""
-    scene, path = person.scene, person.folder / "by_f12.png"
-    bpy.context.preferences.view.render_display_type = "NONE"
-    scene.render.resolution_x, scene.render.resolution_y, scene.eevee.taa_render_samples = 320, 180, 4
-    yield from person.move_to_view()
-    yield from person.press("F12")
-    yield 1.0
-    yield from person.wait_for("the render ends", lambda: not bpy.app.is_job_running("RENDER"), 300.0)
-    bpy.data.images["Render Result"].save_render(str(path), scene=scene)
-    pixels = pixels_of(path)
-    person.note(f"{scene.render.engine} renders the built scene", "" if pixels.std() > 0.05 else "the picture is empty")
-
-
-def pixels_of(path: Path) -> np.ndarray:
-    image = bpy.data.images.load(str(path))
-    pixels = np.array(image.pixels).reshape(-1, 4)[:, :3]
-    bpy.data.images.remove(image)
-    return pixels
+    path = person.folder / "by_f12.png"
+    yield from render_still(person, path)
+    empty = "" if pixels_of(path).std() > 0.05 else "the picture is empty"
+    person.note(f"{person.scene.render.engine} renders the built scene", empty)
 
 
 def through_the_camera(person: Person) -> Steps:

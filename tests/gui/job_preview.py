@@ -7,7 +7,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from habits import delete_all, load
 from panels import Panels
 from person import Person, Steps, region_of
-from traces import module
+from traces import module, pixels_of
 
 FEW_PX = 6
 """That the mouse may be off what it has dragged: places are rounded to cm, and Blender starts to drag late."""
@@ -26,12 +26,12 @@ def steps(person: Person) -> Steps:
     look(person)
     settings = person.scene.bda
     person.expect("nothing is built", len(person.scene.objects), 0)
-    yield from person.picture("loaded")
+    yield from person.illustrate("preview", person.view)
     with_it = screen(person)
     settings.show_preview = False
     yield from person.picture("without_preview")
     without = screen(person)
-    person.expect("the preview is seen", (with_it != without).any(axis=2).mean() > 0.002)
+    person.expect("the preview is seen", (with_it != without).any(axis=1).mean() > 0.002)
     settings.show_preview = True
     yield from panels.show_only("Bridge")
     width = settings.scenario.bridge.deck.width_m
@@ -156,12 +156,8 @@ def preview(person: Person) -> np.ndarray:
 
 
 def screen(person: Person) -> np.ndarray:
-    """The last picture, as its pixels (h, w, 4)."""
-    path = sorted(person.folder.glob("*.png"))[-1]
-    image = bpy.data.images.load(str(path), check_existing=False)
-    pixels = np.array(image.pixels).reshape(image.size[1], image.size[0], 4)
-    bpy.data.images.remove(image)
-    return pixels
+    """The pixels (n, 3) of the last screenshot."""
+    return pixels_of(sorted(person.folder.glob("*.png"))[-1])
 
 
 def look(person: Person) -> None:

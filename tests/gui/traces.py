@@ -87,3 +87,11 @@ def rows(log: Path) -> list[dict[str, str]]:
     if not text.endswith("\n") or any(len(line) != len(lines[0]) for line in lines):
         raise ValueError(f"{log.name} has a line that is not whole")
     return [dict(zip(lines[0], line, strict=True)) for line in lines[1:]]
+
+
+def pixels_of(picture: Path) -> np.ndarray:
+    """Red, green and blue of a picture, (n, 3) float."""
+    image = bpy.data.images.load(str(picture))
+    pixels = np.array(image.pixels).reshape(-1, image.channels)[:, :3]
+    bpy.data.images.remove(image)
+    return pixels
