@@ -120,7 +120,7 @@ def _way(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]
 
 def _flashes(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     settings = blast_of(scene)
-    if not settings.explosion:
+    if not settings.explosion or not scene.rigidbody_world:
         return
     now_s = simulated_time_s(scene, FIRST_STEP_FRAME)
     for charge in charges_of(scene):

@@ -96,6 +96,17 @@ def test_a_flash_is_drawn_while_a_charge_goes_off(ran):
     assert seen[0] == 0 and max(seen) > 0 and seen[-1] == 0
 
 
+def test_charges_without_a_world_to_go_off_in_are_no_trouble(extension):
+    from bridge_demolition_addon.scene.blast.charges import create_charges
+    from bridge_demolition_addon.scene.blast.settings import keep_blast
+
+    scene = extension.context.scene
+    create_charges(scene, SHORT.charges)
+    keep_blast(scene, SHORT.blast)
+    scene.bda.overlays = ALL
+    assert everything(scene) == []
+
+
 def test_the_chosen_shard_is_drawn_with_its_name_where_it_is(ran):
     from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 
