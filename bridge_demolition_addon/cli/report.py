@@ -15,9 +15,14 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         description="From one folder: a report beside its results. From several: a comparison, in --output.",
         allow_abbrev=False,
     )
-    parser.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="folder that bda run made")
+    parser.add_argument(
+        "folders", metavar="DIR", type=Path, nargs="+", help="folder that bda run, study, search or stages made"
+    )
     parser.add_argument("--output", metavar="DIR", type=Path, help="folder for the report (the run's own)")
     parser.add_argument("--trajectories", action="store_true", help="draw the paths of the shards on the map of debris")
+    parser.add_argument(
+        "--stages", action="store_true", help="work out the stages of the run's scenario first, for a chapter on them"
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=report)
 
@@ -30,7 +35,11 @@ def report(arguments: argparse.Namespace) -> None:
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         written = write_report(
-            arguments.folders, arguments.output, trajectories=arguments.trajectories, progress=progress
+            arguments.folders,
+            arguments.output,
+            trajectories=arguments.trajectories,
+            stages=arguments.stages,
+            progress=progress,
         )
     finally:
         progress.finish()

@@ -97,8 +97,8 @@ class Run:
 
     @property
     def name(self) -> str:
-        """Name of the run beside others; bytes of it that are no letters in UTF-8 are shown as numbers."""
-        return os.fsencode(self.folder.resolve().name).decode("utf-8", "backslashreplace")
+        """Name of the run beside others."""
+        return shown_name(self.folder)
 
     @property
     def title(self) -> str:
@@ -119,6 +119,16 @@ class Run:
         return first_hit_s(self.ball)
 
 
+def shown_name(folder: Path) -> str:
+    """Return the name of a folder; bytes of it that are no letters in UTF-8 are shown as numbers."""
+    return os.fsencode(folder.resolve().name).decode("utf-8", "backslashreplace")
+
+
+def holds_run(folder: Path) -> bool:
+    """Return whether a folder holds anything that a run recorded."""
+    return any((folder / name).exists() for name in (RESULTS_FILE, FRAMES_FILE, FORCE_LOG))
+
+
 def read_run(folder: Path) -> Run:
     """Read a run's folder, and say what is missing of it.
 
@@ -130,7 +140,7 @@ def read_run(folder: Path) -> Run:
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
     at_work = _run_at_work(folder)  # before anything is read: what a run that has ended by now left is whole
-    if not any((folder / name).exists() for name in (RESULTS_FILE, FRAMES_FILE, FORCE_LOG)):
+    if not holds_run(folder):
         if at_work:
             raise OutputError(f"{folder}: holds no frame yet, and is being written to by {at_work}: wait for its end")
         raise OutputError(f"{folder}: holds no run: expected {RESULTS_FILE} or {FORCE_LOG} in it")

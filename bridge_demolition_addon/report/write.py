@@ -18,18 +18,26 @@ from ..core.folder_lock import FolderLock
 from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..core.scenario import Site
 from ..core.scenario.file import scenario_text
+from ..core.sequence.checked_model import checked_model
+from ..core.stages.made_elastic import made_elastic
+from ..core.stages.stages import criticality, stages_of
+from ..core.stages.standing import StandingBridge
+from ..core.stages.tables import write_tables as write_stage_tables
 from ..core.study.files import PLAN_DXF, PLAN_GEOJSON, REPORT_FOLDER
 from .comparison import comparison
-from .document.blocks import DataTable, Document, write_tables
+from .document.blocks import DataTable, Document, Listing, Section, write_tables
 from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
-from .run_folder import Run, read_run
+from .run_folder import Run, holds_run, read_run, shown_name
+from .search_folder import is_search, read_found_search
 from .sections.blast import blast_section
 from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, zone_of
 from .sections.forces import force_section, logged_section
+from .sections.search import search_section
+from .sections.stages import has_stages, stages_section
 from .site_plan import write_dxf, write_geojson
 from .study.document import study_document
 from .study.influence import correlation_table
@@ -51,9 +59,14 @@ class Progress(Protocol):
 
 
 def write_report(
-    folders: Sequence[Path], output: Path | None, *, trajectories: bool = False, progress: Progress
+    folders: Sequence[Path],
+    output: Path | None,
+    *,
+    trajectories: bool = False,
+    stages: bool = False,
+    progress: Progress,
 ) -> list[Path]:
-    """Write the report of a run, or the comparison of several.
+    """Write the report of a run, or the comparison of several; of a study, a search, or stages.
 
     Parameters
     ----------
@@ -63,6 +76,9 @@ def write_report(
         Where the report goes, made if it is new; by default into the folder of the run, if it is only one.
     trajectories
         Whether the map of the debris shows the paths of the shards.
+    stages
+        Whether the stages of the run's scenario are worked out first, so that the report has a chapter on them. Their
+        tables go to where the report goes.
     progress
         Shows stages, pictures and pages.
 
@@ -73,22 +89,35 @@ def write_report(
 
     Raises
     ------
+    ScenarioError
+        The scenario's stages cannot be worked out.
     OutputError
         A folder holds no run, several runs are to be compared without a folder for it, something cannot be written, or
         a run or another report is being written to the folder.
     """
     if output is None and len(folders) > 1:
         raise OutputError("several runs are compared in a folder of their own: give one with --output")
+    if stages and len(folders) > 1:
+        raise OutputError("--stages is for the report of one run: leave it out where several are compared")
     if studies := [folder for folder in folders if is_study(folder)]:
         if len(folders) > 1:
             raise OutputError(f"{studies[0]}: is the folder of a study, whose report is made by itself")
+        _check_no_stages(folders[0], stages, "study")
         return write_study_report(folders[0], output, progress=progress)
+    if len(folders) == 1 and is_search(folders[0]):
+        _check_no_stages(folders[0], stages, "search")
+        return _write_search(folders[0], output, progress)
+    if len(folders) == 1 and has_stages(folders[0]) and not holds_run(folders[0]):
+        _check_no_stages(folders[0], stages, "set of stages")
+        return _write_stages_alone(folders[0], output, progress)
     progress.stage("reading the results" if len(folders) == 1 else f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
     target = folders[0] if output is None else output
     with _written_to(target):
         if len(runs) > 1:
             return _written(comparison(runs, add_on_version()), target, progress)
+        if stages:
+            _work_out_stages(runs[0], target, progress)
         return _write_one(runs[0], target, trajectories, progress)
 
 
@@ -149,7 +178,13 @@ def add_on_version() -> str:
 
 
 def document_of(
-    run: Run, version: str, zone: ExclusionZone | None, plans: Sequence[str] = (), *, trajectories: bool = False
+    run: Run,
+    version: str,
+    zone: ExclusionZone | None,
+    plans: Sequence[str] = (),
+    *,
+    trajectories: bool = False,
+    stages: Path | None = None,
 ) -> Document:
     """Return the report of a run.
 
@@ -165,6 +200,8 @@ def document_of(
         Names of the files that have the zone for the site plan.
     trajectories
         Whether the map of the debris shows the paths of the shards.
+    stages
+        Folder with the tables of stages, if there is one.
     """
     debris = None if run.results is None else debris_of(run.results)
     sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
@@ -177,6 +214,8 @@ def document_of(
             sections.append(blast)
     elif run.results is None:
         sections.append(logged_section(run))
+    if stages is not None:
+        sections.append(stages_section(stages))
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
@@ -187,9 +226,48 @@ def _write_one(run: Run, target: Path, trajectories: bool, progress: Progress) -
     progress.stage("evaluating debris, zones, forces and energy")
     zone = zone_of(run)
     plans = [] if zone is None else _write_plans(zone, run, target)
-    document = document_of(run, add_on_version(), zone, [path.name for path in plans], trajectories=trajectories)
+    stages = next((folder for folder in (target, run.folder) if has_stages(folder)), None)
+    names = [path.name for path in plans]
+    document = document_of(run, add_on_version(), zone, names, trajectories=trajectories, stages=stages)
     only_as_file = [] if zone is None else [corner_table(zone)]
     return [*_written(document, target, progress, *only_as_file), *plans]
+
+
+def _write_search(folder: Path, output: Path | None, progress: Progress) -> list[Path]:
+    progress.stage("reading the trials of the search")
+    found, version = read_found_search(folder), add_on_version()
+    target = folder / REPORT_FOLDER if output is None else output
+    scenario = found.search.study.scenario
+    sections = (search_section(found), Section("Search file", (Listing(found.search.text),)))
+    document = Document(
+        scenario.title, f"Report of a search in a simulated demolition. Bridge Demolition Add-on {version}", sections
+    )
+    with _written_to(target):
+        return _written(document, target, progress)
+
+
+def _write_stages_alone(folder: Path, output: Path | None, progress: Progress) -> list[Path]:
+    target = folder if output is None else output
+    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {add_on_version()}"
+    document = Document(shown_name(folder), subtitle, (stages_section(folder),))
+    with _written_to(target):
+        return _written(document, target, progress)
+
+
+def _check_no_stages(folder: Path, stages: bool, what: str) -> None:
+    if stages:
+        raise OutputError(f"{folder}: --stages is for the report of a run, and this is the folder of a {what}")
+
+
+def _work_out_stages(run: Run, target: Path, progress: Progress) -> None:
+    """Write the tables of the stages of a run's scenario."""
+    if run.scenario is None:
+        raise OutputError(f"{run.folder}: has no scenario whose stages could be worked out; leave out --stages")
+    progress.stage("working out the stages")
+    bridge = StandingBridge(checked_model(made_elastic(run.scenario)), run.scenario.joints)
+    found = stages_of(run.scenario, bridge, lambda done, total: progress.part(done, total, "stages"))
+    members = criticality(bridge, lambda done, total: progress.part(done, total, "members taken away"))
+    write_stage_tables(target, found, members, bridge)
 
 
 def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:

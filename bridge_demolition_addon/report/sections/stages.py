@@ -1,0 +1,123 @@
+"""Stages in a report: how the bridge stands between the steps of its demolition, and without each of its members."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...core.errors import OutputError, UnreadableError
+from ...core.reading import MEGABYTE, file_text
+from ...core.stages.tables import CRITICALITY_COLUMNS, CRITICALITY_FILE, STAGE_COLUMNS, STAGES_FILE
+from ..document.blocks import Block, Column, DataTable, Paragraph, Section
+
+_MOST_BYTES = 10 * MEGABYTE
+_WORDS = (
+    "Worked out at rest, by the stiffness of the connections and without a simulation. Used is load over strength: "
+    "above 100 % a connection breaks. Falls at: how many times as heavy everything has to be, equipment included, "
+    "until the bridge begins to come down; below 1 the stage does not stand."
+)
+_COLUMNS = (
+    Column("Stage", "stage"),
+    Column("From (s)", "time_s", ".2f"),
+    Column("What was done", "step"),
+    Column("On it", "equipment"),
+    Column("Weight (kN)", "weight_kN", ".0f"),
+    Column("Not held (t)", "not_held_t", ".1f"),
+    Column("Used most", "largest_utilisation", ".0%"),
+    Column("by", "governed_by"),
+    Column("in", "between"),
+    Column("Falls at", "falls_at"),
+    Column("Sag (mm)", "sag_mm", ".1f"),
+)
+
+
+def has_stages(folder: Path) -> bool:
+    """Return whether a folder holds the tables of stages."""
+    return (folder / STAGES_FILE).is_file() and (folder / CRITICALITY_FILE).is_file()
+
+
+def stages_section(folder: Path) -> Section:
+    """Return what the tables of stages in a folder say.
+
+    Raises
+    ------
+    OutputError
+        One cannot be read, or is none.
+    """
+    stages = _rows(folder / STAGES_FILE, STAGE_COLUMNS)
+    members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
+    try:
+        shown = [_shown(row) for row in stages]
+        falls = [(row["member"], float(row["falls_kg"]) / 1e3, float(row["share_of_the_bridge"])) for row in members]
+    except ValueError as error:
+        raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error
+    blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), DataTable("stages", "Stages", _COLUMNS, shown)]
+    blocks.append(Paragraph(_on_members(falls)))
+    if critical := sorted((each for each in falls if each[1] > 0.0), key=lambda each: -each[1]):
+        columns = (
+            Column("Without", "member"),
+            Column("come down (t)", "falls_t", ".1f"),
+            Column("of the bridge", "share_of_the_bridge", ".0%"),
+        )
+        blocks.append(DataTable("criticality", "Members that hold others", columns, critical))
+    return Section("Stages", tuple(blocks))
+
+
+def _shown(row: dict[str, str]) -> tuple:
+    used, factor = _number(row["largest_utilisation"]), _number(row["collapse_factor"])
+    falls_at = None if factor is None else "more than × 64" if math.isinf(factor) else f"× {factor:.2f}"
+    return (
+        row["stage"],
+        _number(row["time_s"]),
+        row["step"],
+        row["equipment"] or None,
+        _number(row["weight_kN"]),
+        float(row["not_held_kg"]) / 1e3,
+        used,
+        row["governed_by"] or None,
+        row["between"] or None,
+        falls_at,
+        _number(row["sag_mm"]),
+    )
+
+
+def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:
+    """Stages that do not stand, and those of which a part is held by nothing."""
+    told: list[Block] = []
+    for row in stages:
+        factor = _number(row["collapse_factor"])
+        where = f"Stage {row['stage']}, from {float(row['time_s']):g} s ({row['step']})"
+        if factor is not None and factor < 1.0:
+            told.append(Paragraph(f"{where} does not stand: it comes down at {factor:.2f} times its load.", True))
+        elif factor is None:
+            told.append(Paragraph(f"{where}: no connection to a support holds anything.", True))
+        if float(row["not_held_kg"]) > 0.0:
+            mass_t = float(row["not_held_kg"]) / 1e3
+            told.append(Paragraph(f"{where}: {mass_t:.1f} t are held by no connection to a support.", True))
+    return told
+
+
+def _on_members(falls: Sequence[tuple[str, float, float]]) -> str:
+    if not any(falls_t for _, falls_t, _ in falls):
+        return "Each member was taken away by itself from the bridge as it was built: the others stand."
+    return (
+        "Each member was taken away by itself from the bridge as it was built. Without those below, others come down: "
+        "they must not be touched before what they hold."
+    )
+
+
+def _number(cell: str) -> float | None:
+    return float(cell) if cell else None
+
+
+def _rows(path: Path, columns: Sequence[str]) -> list[dict[str, str]]:
+    try:
+        rows = list(csv.DictReader(io.StringIO(file_text(path, _MOST_BYTES), newline="")))
+    except (UnreadableError, csv.Error) as error:
+        raise OutputError(f"{path}: {error}") from error
+    if not rows or any(None in row or None in row.values() or not set(columns) <= set(row) for row in rows):
+        raise OutputError(f"{path}: expected the columns {', '.join(columns[:3])} … of bda stages; run it again")
+    return rows

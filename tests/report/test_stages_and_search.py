@@ -1,0 +1,156 @@
+"""Reports with a chapter on stages, of stages alone, and of a search."""
+
+import csv
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from run_folders import killed_run
+from scenarios import I235
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.core.search.file import search_of
+from bridge_demolition_addon.core.search.settings import SearchSettings
+from bridge_demolition_addon.core.study.criteria import Criterion
+from bridge_demolition_addon.core.study.runs_table import Row, RunsTable, write_runs
+
+STAGES = """\
+stage,time_s,step,shards,not_held,not_held_kg,equipment,weight_kN,reaction_x_kN,reaction_y_kN,reaction_z_kN,\
+largest_utilisation,governed_by,between,at_x_m,at_y_m,at_z_m,overloaded,collapse_factor,sag_mm,first_frequency_Hz
+1,0,as it was built,60,0,0,,500,0,0,500,0.42,bending,deck,1,0,5,0,2.31,3.4,5.1
+2,0.5,"removal of pier <1>",55,0,0,excavator,480,0,0,480,1.3,shear,deck and pier,6,0,5,3,0.83,9.1,3.2
+3,1,"saw cut of 4 connections",55,12,21000,,270,0,0,270,0.1,tension,deck,1,0,5,0,inf,1.1,9.0
+"""
+CRITICALITY = """\
+member,stands,falls_kg,share_of_the_bridge
+deck,true,0,0
+pier 1,false,42000,0.55
+"""
+
+
+def with_stages(folder, stages=STAGES, members=CRITICALITY):
+    """A folder with the tables of stages."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "stages.csv").write_text(stages, encoding="utf-8")
+    (folder / "criticality.csv").write_text(members, encoding="utf-8")
+    return folder
+
+
+def page_of(folder):
+    return (folder / "report.html").read_text(encoding="utf-8")
+
+
+def test_stages_alone_make_a_report_that_warns_of_what_does_not_stand(tmp_path):
+    folder = with_stages(tmp_path / "stages of a bridge")
+    assert main(["report", str(folder), "--quiet"]) == 0
+    page = page_of(folder)
+    assert "<title>stages of a bridge" in page and "× 2.31" in page and "more than × 64" in page
+    assert (
+        "Stage 2, from 0.5 s (removal of pier &lt;1&gt;) does not stand: it comes down at 0.83 times its load." in page
+    )
+    assert "Stage 3, from 1 s (saw cut of 4 connections): 21.0 t are held by no connection to a support." in page
+    assert "pier 1" in page and "42.0" in page and "55%" in page
+    rows = list(csv.DictReader((folder / "tables" / "stages.csv").open(encoding="utf-8")))
+    assert [row["largest_utilisation"] for row in rows] == ["0.42", "1.3", "0.1"]
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF-")
+
+
+def test_a_run_has_a_chapter_on_stages_where_its_folder_holds_them(tmp_path):
+    folder = killed_run(tmp_path / "run")
+    assert main(["report", str(folder), "--quiet"]) == 0
+    assert "Falls at" not in page_of(folder)
+    with_stages(folder)
+    assert main(["report", str(folder), "--quiet"]) == 0
+    page = page_of(folder)
+    assert "Falls at" in page and "only its logs are here" in page
+
+
+def test_stages_of_the_runs_scenario_are_worked_out_when_asked_for(tmp_path, capfd):
+    folder = killed_run(tmp_path / "run")
+    assert main(["report", str(folder), "--stages", "--quiet"]) == 2
+    assert "has no scenario whose stages could be worked out" in capfd.readouterr().err
+    (folder / "scenario_as_run.toml").write_text(scenario_text(I235), encoding="utf-8")
+    assert main(["report", str(folder), "--stages", "--quiet"]) == 2
+    # Its connections share no faces, so that nobody knows how stiff they are.
+    assert 'connections.method is "vertex": expected "face"' in capfd.readouterr().err
+    fixed = replace(
+        I235,
+        ball=None,
+        fracture=replace(I235.fracture, shards=8),
+        connections=replace(I235.connections, type="FIXED", method="face", search_radius_m=None),
+    )
+    (folder / "scenario_as_run.toml").write_text(scenario_text(fixed), encoding="utf-8")
+    assert main(["report", str(folder), "--stages", "--quiet"]) == 0
+    [row] = csv.DictReader((folder / "stages.csv").open(encoding="utf-8"))
+    assert f"× {float(row['collapse_factor']):.2f}" in page_of(folder)
+    assert float(row["reaction_z_kN"]) == pytest.approx(float(row["weight_kN"]), rel=1e-3)
+
+
+def search_folder(folder):
+    """The folder of a search of which one trial was lost."""
+    settings = SearchSettings(
+        scenario="scenario_as_run.toml",
+        key="ball.mass_kg",
+        lowest=100.0,
+        highest=10_000.0,
+        logarithmic=True,
+        trials=20,
+        criteria=(Criterion(name="down", kind="collapsed"),),
+    )
+    search = search_of(settings, I235)
+    folder.mkdir()
+    (folder / search.file_name).write_text(search.text, encoding="utf-8")
+    (folder / "scenario_as_run.toml").write_text(search.scenario_text, encoding="utf-8")
+    masses = np.geomspace(200.0, 8000.0, 20)
+    met = masses > 1500.0
+    met[[8, 13]] = True, False
+    rows = [
+        Row(number, "done", {"ball.mass_kg": float(mass)}, {"success": bool(success)})
+        for number, (mass, success) in enumerate(zip(masses, met, strict=True), start=1)
+    ]
+    rows[-1] = Row(20, "crashed", {"ball.mass_kg": 8000.0}, {})
+    write_runs(RunsTable(tuple(rows)), folder / "trials.csv")
+    (folder / "search.json").write_text(json.dumps({"ended_as": "all trials were made"}), encoding="utf-8")
+    return folder, int(met.sum()) - 1
+
+
+def test_a_search_makes_a_report_of_its_answer_its_curve_and_its_trials(tmp_path):
+    folder, successes = search_folder(tmp_path / "search")
+    assert main(["report", str(folder), "--quiet"]) == 0
+    page = page_of(folder / "report")
+    assert f"{successes} of 20 trials met all criteria: all trials were made." in page
+    assert "ball.mass_kg: half of all runs meet them at" in page and "data:image/" in page
+    rows = list(csv.DictReader((folder / "report" / "tables" / "trials.csv").open(encoding="utf-8")))
+    assert len(rows) == 20 and rows[-1]["success"] == "not met" and float(rows[0]["value"]) == 200.0
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda folder: (folder / "search.json").unlink(), "holds no search.json yet"),
+        (lambda folder: (folder / "search.json").write_text("{}"), "what the search left is damaged"),
+        (lambda folder: (folder / "trials.csv").write_text("a,b\n"), "expected a table of runs"),
+    ],
+)
+def test_a_search_that_cannot_be_read_is_refused(tmp_path, capfd, spoil, said):
+    folder, _ = search_folder(tmp_path / "search")
+    spoil(folder)
+    assert main(["report", str(folder), "--quiet"]) == 2
+    assert said in capfd.readouterr().err and not (folder / "report").exists()
+
+
+@pytest.mark.parametrize("stages", ["", "stage,time_s\n1,2\n", STAGES.replace("0.83", "soon")])
+def test_damaged_tables_of_stages_are_refused(tmp_path, capfd, stages):
+    folder = with_stages(tmp_path / "stages", stages)
+    assert main(["report", str(folder), "--quiet"]) == 2
+    assert "bda stages" in capfd.readouterr().err and not (folder / "report.html").exists()
+
+
+def test_stages_are_worked_out_for_one_run_alone(tmp_path, capfd):
+    folder = with_stages(tmp_path / "stages")
+    assert main(["report", str(folder), "--stages", "--quiet"]) == 2
+    assert "is for the report of a run" in capfd.readouterr().err
+    assert main(["report", str(folder), str(folder), "--stages", "--output", str(tmp_path / "out"), "--quiet"]) == 2
+    assert "leave it out where several are compared" in capfd.readouterr().err
