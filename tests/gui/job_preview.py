@@ -26,7 +26,7 @@ def steps(person: Person) -> Steps:
     look(person)
     settings = person.scene.bda
     person.expect("nothing is built", len(person.scene.objects), 0)
-    yield from person.illustrate("preview", person.view)
+    yield from person.picture("loaded")
     with_it = screen(person)
     settings.show_preview = False
     yield from person.picture("without_preview")
@@ -127,7 +127,10 @@ def hold(person: Person, start: tuple, end: tuple, name: str, leave_with: str = 
     yield 0.1
     for share in np.linspace(0.1, 1.0, 10):
         yield from person.move(*(round(a + share * (b - a)) for a, b in zip(start, end, strict=True)))
-    yield from person.picture(name)
+    if name == "target_dragged":
+        yield from person.illustrate("preview", person.view)
+    else:
+        yield from person.picture(name)
     if leave_with:
         yield from person.press(leave_with)
     person.hand.event_simulate(type="LEFTMOUSE", value="RELEASE", x=end[0], y=end[1])
