@@ -20,7 +20,7 @@ from pathlib import Path
 from places import ROOT, TESTS
 
 from .players import BLENDER
-from .sequences import Drawn
+from .sequences import REFUSED, Drawn
 
 HANG_S = 900.0
 """A step that takes longer hangs, even if it does nothing meanwhile."""
@@ -62,6 +62,11 @@ class Outcome:
     done: tuple[str, ...]
     text: str = ""
 
+    @property
+    def refused(self) -> tuple[int, ...]:
+        """Which of its steps were refused."""
+        return tuple(place for place, words in enumerate(self.done) if f": {REFUSED}: " in words)
+
 
 def outcomes(player: str, sequences: Sequence[Drawn], *, bare: bool = False) -> Iterator[Outcome]:
     """Play sequences, in one process as long as it lives, and give what became of each.
@@ -97,7 +102,7 @@ def alone(player: str, drawn: Drawn, *, before: Sequence[Drawn] = (), bare: bool
 def is_ours(player: str, drawn: Drawn, outcome: Outcome, *, before: Sequence[Drawn] = ()) -> bool:
     """Return whether an outcome is the project's doing: bare Blender crashes over some sequences, too."""
     if player == BLENDER and outcome.ending in (Ending.CRASH, Ending.HANG):
-        part = drawn._replace(most=len(outcome.done))
+        part = drawn._replace(most=len(outcome.done), refused=outcome.refused)
         return alone(player, part, before=before, bare=True, tries=_BARE_TRIES).ending == Ending.WELL
     return outcome.ending != Ending.WELL
 

@@ -32,7 +32,7 @@ from bridge_demolition_addon.ui.preview import decorator as preview
 from bridge_demolition_addon.ui.preview import handles
 from bridge_demolition_addon.ui.scenario.prop import PRESETS
 
-from .sequences import Player, WrongError
+from .sequences import REFUSED, Player, WrongError
 
 SCENARIOS = (SMALL, TESTS / "simulation" / "everything.toml")
 SITE_PLAN = PRESETS / "one_span_explosives.jpg"
@@ -144,6 +144,7 @@ class BlenderPlayer(Player):
     }
     first = ("use_standard_settings", "press_build")
     last = ("begin_another_file",)
+    idle = "update"
 
     def __init__(self, folder: Path, *, bare: bool = False):
         super().__init__(folder, bare=bare)
@@ -187,7 +188,7 @@ class BlenderPlayer(Player):
                 raise WrongError(f"{button} {arguments}: {error}") from error
             if set(bpy.data.objects.keys()) != before:
                 raise WrongError(f"{button} {arguments} was refused and changed objects: {error}") from error
-            return f"{button} {arguments}: {str(error).strip()}"
+            return f"{button} {arguments}: {REFUSED}: {str(error).strip()}"
         return f"{button} {arguments}: {done}"
 
     def _arguments(self, button: str, random: Random) -> dict[str, Any]:

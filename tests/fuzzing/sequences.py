@@ -24,6 +24,8 @@ from places import ROOT
 PACKAGE = str(ROOT / "bridge_demolition_addon")
 SIGNS = ("Traceback (most recent call last)", "Exception ignored")
 """What Python writes where nobody deals with an exception."""
+REFUSED = "refused"
+"""In the words of a step that was not done."""
 
 
 class Drawn(NamedTuple):
@@ -39,12 +41,15 @@ class Drawn(NamedTuple):
         Which of all steps are done; None for all.
     most
         After how many of them only the last steps that every sequence has are done; None for all.
+    refused
+        Which of these, counted from the first, the project refused: the player's `idle` step is done in their place.
     """
 
     seed: int
     length: int
     rows: tuple[int, ...] | None = None
     most: int | None = None
+    refused: tuple[int, ...] = ()
 
     def steps(self, player: type[Player]) -> list[tuple[str, int]]:
         """Return names of the player's methods, each with the seed of what it chooses."""
@@ -54,7 +59,8 @@ class Drawn(NamedTuple):
         rows = list(range(len(steps)) if self.rows is None else self.rows)
         if self.most is not None:
             rows = rows[: self.most] + [row for row in rows[self.most :] if row >= len(steps) - len(player.last)]
-        return [steps[row] for row in rows]
+        done = [steps[row] for row in rows]
+        return [(player.idle if place in self.refused else name, seed) for place, (name, seed) in enumerate(done)]
 
 
 class WrongError(Exception):
@@ -73,11 +79,14 @@ class Player:
         How often each step is taken, by its name.
     first, last
         Steps that all sequences begin and end with.
+    idle
+        Step that is done where another was refused.
     """
 
     weights: dict[str, int]
     first: tuple[str, ...] = ()
     last: tuple[str, ...] = ()
+    idle: str = ""
 
     def __init__(self, folder: Path, *, bare: bool = False):
         self.folder, self.bare = folder, bare

@@ -3,9 +3,10 @@
 import sys
 
 import pytest
-from fuzzing.batches import Ending, fewest, outcomes
+from fuzzing.batches import Ending, Outcome, fewest, outcomes
+from fuzzing.blender_steps import BlenderPlayer
 from fuzzing.players import PLAYERS
-from fuzzing.sequences import Drawn
+from fuzzing.sequences import REFUSED, Drawn
 
 LENGTHS = {"blender": (4, 12), "scenarios": (8, 5), "folders": (1, 3)}
 """How many sequences of how many steps each plays."""
@@ -17,6 +18,13 @@ def test_random_steps_go_well(player):
     count, length = LENGTHS[player]
     for outcome in outcomes(player, [Drawn(seed, length) for seed in range(1, count + 1)]):
         assert outcome.ending == Ending.WELL, "\n".join((*outcome.done, outcome.text))
+
+
+def test_bare_blender_does_not_do_what_the_add_on_refused():
+    drawn = Drawn(2077, 30, rows=(0, 1, 5, 7), most=3)
+    outcome = Outcome(Ending.CRASH, ("use_standard_settings: x", f"press_build: run {{}}: {REFUSED}: Error", "update"))
+    first, build, *rest = drawn.steps(BlenderPlayer)
+    assert drawn._replace(refused=outcome.refused).steps(BlenderPlayer) == [first, ("update", build[1]), *rest]
 
 
 def test_the_fewest_steps_are_found():
