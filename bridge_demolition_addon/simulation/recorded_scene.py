@@ -111,11 +111,13 @@ class RecordedScene:
             self._guard.check_objects(self.scene)  # one that is not shown was not updated since something was deleted
         if self._is_recorded:
             self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
-        with suppress(ReferenceError):
+        try:
             if world_stays:
                 self._guard.stand_still(self.scene)
             else:
                 self._guard.forget()
+        except ReferenceError:  # undo may bring the scene back, with another world
+            self._guard.forget()
 
     def after_load(self) -> None:
         """Go to the start frame, as no body has a place in any other, and show the results of the scene's run."""

@@ -346,6 +346,15 @@ class FallingRow:
         bpy.context.window.scene = wanted.scenes[0]
         self.play(1, 5)
 
+    def delete_scene_and_undo(self) -> None:
+        name = self.scene.name
+        self.choose_another_scene()
+        bpy.ops.ed.undo_push(message="another")
+        bpy.data.scenes.remove(bpy.data.scenes[name])
+        bpy.ops.ed.undo_push(message="deleted")
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+        bpy.context.window.scene = bpy.data.scenes[name]
+
     def undo_and_play_all_scenes(self) -> None:
         bpy.ops.ed.undo_push(message="edited")
         assert bpy.ops.ed.undo() == {"FINISHED"}

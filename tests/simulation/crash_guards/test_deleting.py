@@ -213,6 +213,10 @@ def test_undo_while_a_scene_of_another_file_is_shown(tmp_path):
     do(tmp_path, "watch_from_an_undo_step_on", "show_a_linked_scene", "undo_and_play_all_scenes")
 
 
+def test_a_deleted_scene_that_undo_brings_back(tmp_path):
+    do(tmp_path, "watch_from_an_undo_step_on", "delete_scene_and_undo", "play_on_from_the_start", "fall_from_the_start")
+
+
 def test_undo_without_a_world_goes_as_ever(tmp_path):
     do(tmp_path, "undo_without_a_world")
 
