@@ -14,6 +14,9 @@ from ..units import STANDARD_GRAVITY_M_S2
 from .equipment_loads import equipment_loads
 from .standing import Standing, StandingBridge
 
+_BUILT, _MACHINES = "as it was built", "equipment comes or goes"
+"""What is done where nothing is done to the bridge."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stage:
@@ -93,7 +96,7 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, told: Callable[[int, i
         stages.append(
             Stage(
                 time_s=time_s,
-                step=", ".join(_told(event, model) for event in events) or "as it was built",
+                step=", ".join(_told(event, model) for event in events) or (_MACHINES if number else _BUILT),
                 standing=standing,
                 removed=removed.copy(),
                 loose=~standing.held & ~removed & ~model.fixed,

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from places import EXAMPLES
 from stage_beams import (
     DENSITY_KG_M3,
     DEPTH_M,
@@ -116,6 +117,14 @@ def test_it_falls_in_blender_where_its_factor_is_below_1(blender, tmp_path, fact
         assert ((heights[0] - heights[-1]).max() > 0.5) == (factor < 1.0)
 
 
+def test_examples_are_scenarios_with_steps_and_equipment():
+    paths = sorted((EXAMPLES / "stages").glob("*.toml"))
+    assert paths
+    for path in paths:
+        scenario = read_scenario(path)
+        assert scenario.equipment and scenario.changes and checked_model(scenario).connections
+
+
 def test_tables_and_what_is_printed(tmp_path, capfd):
     path, output = beam_file(tmp_path, 4.0, more=EXCAVATOR), tmp_path / "out"
     assert main(["stages", str(path), "--output", str(output)]) == 0
@@ -124,6 +133,7 @@ def test_tables_and_what_is_printed(tmp_path, capfd):
     assert "without start: 4.8 t come down, 100%" in said
     rows = list(csv.DictReader((output / "stages.csv").open(encoding="utf-8")))
     assert [row["equipment"] for row in rows] == ["", "excavator"]
+    assert [row["step"] for row in rows] == ["as it was built", "equipment comes or goes"]
     for row in rows:
         assert float(row["reaction_z_kN"]) == pytest.approx(float(row["weight_kN"]), rel=1e-4)
         assert row["governed_by"] == "bending" and float(row["collapse_factor"]) > 1.0
