@@ -38,44 +38,37 @@ class BDA_GGT_handles(bpy.types.GizmoGroup):
 
     def setup(self, context: bpy.types.Context) -> None:
         """Make no gizmos yet: there are as many as there are places, which change."""
+        self.made: dict[tuple, bpy.types.Gizmo] = {}
 
     def draw_prepare(self, context: bpy.types.Context) -> None:
-        """Put a gizmo at each place before all are drawn, and hide those left over."""
+        """Put a gizmo at each place before all are drawn, and hide those of places that are gone."""
         try:
             wanted = handles(context.scene)
         except ScenarioError:  # the panel Scenario says what is wrong
             wanted = []
-        free = {is_upright: [each for each in self.gizmos if _is_arrow(each) == is_upright] for is_upright in (0, 1)}
         for each in self.gizmos:
             each.hide = True
         for handle in wanted:
-            gizmos = free[handle.is_upright]
-            self._show(gizmos.pop(0) if gizmos else _new(self, handle.is_upright), handle)
-
-    def _show(self, gizmo: bpy.types.Gizmo, handle: Handle) -> None:
-        gizmo.hide = False
-        gizmo.matrix_basis = Matrix.Translation(handle.place_m)
-        gizmo.color, gizmo.alpha = _COLOURS[handle.kind], 0.9
-        drag = gizmo.target_set_operator("bda.drag_handle")
-        drag.kind, drag.index, drag.is_upright = handle.kind.value, handle.index, handle.is_upright
+            key = (handle.kind, handle.index, handle.is_upright)
+            if key not in self.made:
+                self.made[key] = _new(self, handle)
+            self.made[key].hide = False
+            self.made[key].matrix_basis = Matrix.Translation(handle.place_m)
 
 
 CLASSES = (BDA_GGT_handles,)
 
-_RING, _ARROW = "GIZMO_GT_move_3d", "GIZMO_GT_arrow_3d"
 
-
-def _is_arrow(gizmo: bpy.types.Gizmo) -> bool:
-    return gizmo.bl_idname == _ARROW
-
-
-def _new(group: BDA_GGT_handles, is_upright: bool) -> bpy.types.Gizmo:
-    gizmo = group.gizmos.new(_ARROW if is_upright else _RING)
+def _new(group: BDA_GGT_handles, handle: Handle) -> bpy.types.Gizmo:
+    gizmo = group.gizmos.new("GIZMO_GT_arrow_3d" if handle.is_upright else "GIZMO_GT_move_3d")
+    gizmo.color, gizmo.alpha = _COLOURS[handle.kind], 0.9
     gizmo.color_highlight, gizmo.alpha_highlight = _CHOSEN, 1.0
-    gizmo.scale_basis = _ARROW_SIZE if is_upright else _RING_SIZE
+    gizmo.scale_basis = _ARROW_SIZE if handle.is_upright else _RING_SIZE
     gizmo.use_draw_modal = True
-    if is_upright:
+    if handle.is_upright:
         gizmo.matrix_offset = _ARROW_FOOT
     else:
         gizmo.draw_options = {"FILL_SELECT", "ALIGN_VIEW"}
+    drag = gizmo.target_set_operator("bda.drag_handle")
+    drag.kind, drag.index, drag.is_upright = handle.kind.value, handle.index, handle.is_upright
     return gizmo
