@@ -42,7 +42,7 @@ PICTURE_COLOURS = 128
 
 PROBE_PX = 10
 """Between two places where the mouse looks for a button: half of a button's height."""
-PROBE_COLUMNS = (0.7, 0.3, 0.9, 0.78)
+PROBE_COLUMNS = (0.7, 0.3, 0.5, 0.9, 0.78)
 """Where across the sidebar the mouse looks for buttons."""
 
 
