@@ -86,14 +86,16 @@ def show_until(charge: bpy.types.Object, frame: int) -> None:
 
 
 def show_never(charge: bpy.types.Object) -> None:
-    """Show a charge in no picture."""
-    charge.instance_type = "NONE"
+    """Take back that a charge is shown in pictures."""
+    if charge.instance_type == "COLLECTION":
+        charge.instance_type = "NONE"
     animation = charge.animation_data
     curves = curves_of(animation) if animation and animation.action else []
-    for curve in [each for each in curves if each.data_path == _HIDDEN]:
-        for frame in [point.co.x for point in curve.keyframe_points]:
-            charge.keyframe_delete(_HIDDEN, frame=frame)
-    charge.hide_render = False
+    frames = [point.co.x for curve in curves if curve.data_path == _HIDDEN for point in curve.keyframe_points]
+    for frame in frames:
+        charge.keyframe_delete(_HIDDEN, frame=frame)
+    if frames:
+        charge.hide_render = False
 
 
 def _symbol() -> bpy.types.Collection:

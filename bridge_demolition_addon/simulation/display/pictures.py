@@ -35,6 +35,8 @@ def check_camera(view: PictureSettings) -> None:
 def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
     """Show charges in pictures until they go off, and not at all where there is no explosion."""
     for empty, charge in zip(charge_objects(scene), scenario.charges, strict=True):
+        if empty.library:  # of another file, and animated there
+            continue
         if scenario.blast.explosion:
             show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
         else:

@@ -85,7 +85,7 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 
 def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
     from bridge_demolition_addon.core.blast.charges import Charge
-    from bridge_demolition_addon.scene.blast.charges import create_charges, show_until
+    from bridge_demolition_addon.scene.blast.charges import create_charges, show_never, show_until
     from bridge_demolition_addon.scene.rendering.camera import aim_camera
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
 
@@ -102,6 +102,12 @@ def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
         render_picture(scene, frame, tmp_path / f"{frame}.png")
         picture = imread(tmp_path / f"{frame}.png")
         red.append(int((picture[:, :, 0] > 2.0 * picture[:, :, 1:3].max(axis=2)).sum()))
+    show_until(first, 9)  # as of another run
+    scene.frame_set(8)
+    assert not first.hide_render
+    show_never(first)
+    scene.frame_set(9)
+    assert not first.hide_render and first.instance_type == "NONE"
     # Two red balls of 0.6 m in a view of some 3 m, and then one of them.
     assert red[0] > 200 and red[1] == red[0] and red[2] == red[3]
     assert 0.3 < red[2] / red[0] < 0.7
