@@ -112,8 +112,18 @@ def seen_from(scene: bpy.types.Scene, view: PictureSettings, aspect: float) -> I
         yield
     finally:
         scene.camera = before
-        parts = (camera.data, camera.animation_data and camera.animation_data.action)
-        bpy.data.batch_remove([camera, *filter(None, parts)])
+        _remove(scene, camera)
+
+
+def _remove(scene: bpy.types.Scene, camera: bpy.types.Object) -> None:
+    """Remove a camera; Blender forgets the frames that it played where an object goes that it last saw in a scene."""
+    parts = [camera.data, *([camera.animation_data.action] if camera.animation_data else [])]
+    for each in camera.users_collection:
+        each.objects.unlink(camera)
+    for layer in scene.view_layers:
+        layer.update()
+    bpy.data.objects.remove(camera)
+    bpy.data.batch_remove([each for each in parts if each])
 
 
 def _corners(scene: bpy.types.Scene) -> np.ndarray:
