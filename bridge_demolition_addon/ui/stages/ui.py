@@ -6,8 +6,10 @@ import math
 
 import bpy
 
+from ..course import draw_course, going_on
 from ..sidebar import SidebarPanel, draw_sentence
 from .checked import checked_in
+from .operator import BDA_OT_check_stages
 
 
 class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
@@ -20,6 +22,8 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
         layout, settings = self.layout, context.scene.bda
         layout.prop(settings, "stages_directory", text="", placeholder="Folder for tables")
         layout.operator("bda.check_stages")
+        if (course := going_on()) and course.what == BDA_OT_check_stages.what:
+            draw_course(layout, context, course)
         found = checked_in(context.scene)
         if found is None:
             return
