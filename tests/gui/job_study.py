@@ -75,7 +75,10 @@ def set_up(person: Person, panels: Panels) -> Steps:
     yield from person.click("bda.add_table")
     yield 0.5
     yield from person.picture("empty_table")
-    yield from person.fill_in("key", HEIGHT_KEY)
+    yield from person.click("key")
+    yield from person.replace_text(HEIGHT_KEY)
+    yield 1.0  # Blender looks for what it proposes
+    yield from person.press("RET")
     yield from person.click("distribution")
     yield 0.3
     yield from person.picture("distributions")
