@@ -19,7 +19,7 @@ from file_browser import choose_file
 from habits import delete_all, play_or_pause, register
 from panels import Panels
 from person import Person, Steps, region_of
-from traces import PRESETS, charges, colours, opened, recording_runs, rows, scenario_in, scenario_shown
+from traces import PRESETS, charges, colours, module, opened, recording_runs, rows, scenario_in, scenario_shown
 
 PRESET = PRESETS / "one_span_explosives.toml"
 PRESET_KEY = "O"
