@@ -214,6 +214,12 @@ class FallingRow:
     def remove_world(self) -> None:
         bpy.ops.rigidbody.world_remove()
 
+    def empty_world(self) -> None:
+        self.kept, self.scene.rigidbody_world.collection = self.scene.rigidbody_world.collection, None
+
+    def fill_world_again(self) -> None:
+        self.scene.rigidbody_world.collection = self.kept
+
     def take_body_out_of_world(self) -> None:
         self.blocks.world.collection.objects.unlink(self.doomed)
 

@@ -85,6 +85,8 @@ class WorldGuard:
         if not _has_world(scene):
             if self._world and scene.rigidbody_world is None:
                 self._world.outlive()
+            elif self._world:  # it has lost its collection, and stays until the start frame
+                self._stand_still(scene, bodies_stay=False)
             self.release()
             return "the rigid-body world was removed while it was recorded"
         if self._objects.are_the_same():

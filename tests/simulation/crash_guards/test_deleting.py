@@ -47,6 +47,15 @@ def test_taking_a_body_out_of_the_world(tmp_path):
     do(tmp_path, "record", "take_body_out_of_world", "update", "stand_still_until_the_start")
 
 
+@pytest.mark.parametrize("deletion", ["delete_body", "remove_everything"])
+def test_deleting_after_the_world_has_lost_its_collection(tmp_path, deletion):
+    do(tmp_path, "watch", "empty_world", "update", deletion, "update", "play_on_from_the_start", "open_another_file")
+
+
+def test_a_world_that_has_its_collection_again(tmp_path):
+    do(tmp_path, "watch", "empty_world", "update", "fill_world_again", "update", "fall_from_the_start")
+
+
 @pytest.mark.parametrize("after", [(), ("update",), ("go_to_start",)])
 @pytest.mark.parametrize("deletion", ["remove_connection", "remove_everything"])
 def test_deleting_after_the_world_was_removed(tmp_path, after, deletion):
