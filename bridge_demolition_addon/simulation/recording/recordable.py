@@ -6,7 +6,7 @@ import bpy
 
 from ...core.errors import SimulationError
 from ...scene.bodies import bodies_of, lacks_ground
-from ...scene.connections.constraints import loose_connections
+from ...scene.connections.constraints import connections_of, loose_connections, sections_of
 
 
 def check_recordable(scene: bpy.types.Scene) -> None:
@@ -16,7 +16,7 @@ def check_recordable(scene: bpy.types.Scene) -> None:
     ------
     SimulationError
         It has no rigid-body world, or one without bodies or in which no time passes, other units than metres, nothing
-        that bears what was built in it, or connections without a body.
+        that bears what was built in it, or connections without a body, or whose sections were edited by hand.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
@@ -42,3 +42,4 @@ def check_recordable(scene: bpy.types.Scene) -> None:
         raise SimulationError(
             f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
         )
+    sections_of(connections_of(scene))  # says what was edited by hand, before anything is begun

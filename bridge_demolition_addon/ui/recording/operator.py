@@ -128,6 +128,20 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     return recording
 
 
+def check_output(settings: bpy.types.PropertyGroup) -> None:
+    """See that the folder and the files of logs that are chosen can be used, without changing anything.
+
+    Raises
+    ------
+    OutputError
+        One of them cannot be used.
+    """
+    for path in (settings.force_log_path, settings.debris_log_path):
+        _log_file(path, settings.overwrite)
+    if settings.output_directory:
+        check_folder(absolute(settings.output_directory), overwrite=settings.overwrite)
+
+
 def _as_run(scene: bpy.types.Scene) -> tuple[Scenario | None, list[str]]:
     """Return what a scene will run, and what of it no scenario can say; None where it was not built from one."""
     to_run = scenario_to_run(scene.bda)

@@ -12,7 +12,14 @@ from ..long_action import LOOKING_ROUND
 from ..operators import Action, Refusing, no_world, other_mode, recording_runs, refused
 from ..scenario.operator import BDA_OT_build_anew, build
 from . import session
-from .operator import end_with_results, new_recording, rest_to_stop_at, why_not_recorded, withdraw_recording
+from .operator import (
+    check_output,
+    end_with_results,
+    new_recording,
+    rest_to_stop_at,
+    why_not_recorded,
+    withdraw_recording,
+)
 
 _TICK_S = 0.001
 """Between two frames, for Blender to draw and to read mouse and keyboard."""
@@ -96,6 +103,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def _build(self, context: bpy.types.Context) -> None:
         if reason := other_mode(context):
             raise SimulationError(reason)
+        check_output(context.scene.bda)
         self.report({"INFO"}, build(context.scene, anew=True))
         bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 

@@ -132,6 +132,21 @@ def test_building_anew_and_running_is_one_step(built, settings, tmp_path):
     assert summary["mass_kg"]["ball"] == 5000.0
 
 
+@pytest.mark.parametrize(
+    ("spoilt", "said"),
+    [("output_directory", "has no place yet"), ("force_log_path", "has no place yet"), (None, "edited")],
+)
+def test_a_run_that_is_refused_has_changed_no_objects(built, settings, spoilt, said):
+    if spoilt:
+        settings[spoilt] = "//results"
+    else:
+        built.context.scene.rigidbody_world.constraints.objects[0]["bda_area_m2"] = ""
+    before = {each.name: each.session_uid for each in built.data.objects}
+    with pytest.raises(RuntimeError, match=said):
+        built.ops.bda.run(build_anew=spoilt is not None)
+    assert {each.name: each.session_uid for each in built.data.objects} == before
+
+
 def test_build_anew_leaves_everything_where_it_is_refused(built, settings):
     settings.scenario.ball.target_m = (1000.0, 0.0)
     before = sorted(each.name for each in built.data.objects)
