@@ -118,6 +118,11 @@ def write_float(address: int, value: float) -> None:
     _FLOATS[_indices(address, 4)] = value
 
 
+def write_short(address: int, value: int) -> None:
+    """Write one 16-bit integer to a checked address."""
+    _SHORTS[_indices(address, 2)] = value
+
+
 def write_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
     """Write vectors (n, 3) of doubles to checked addresses (n,)."""
     _DOUBLES[_indices(addresses, 8)[:, None] + np.arange(3)] = vectors
@@ -156,6 +161,7 @@ _DOUBLES = np.asarray(_AddressSpace("<f8", 8))
 _BYTES = np.asarray(_AddressSpace("|u1", 1))
 _FLOATS = np.asarray(_AddressSpace("<f4", 4))
 _POINTERS = np.asarray(_AddressSpace("<u8", 8))
+_SHORTS = np.asarray(_AddressSpace("<i2", 2))
 _INTEGERS = np.asarray(_AddressSpace("<i4", 4))
 
 

@@ -17,7 +17,7 @@ from ..core.errors import LayoutError
 from ..scene.world import evaluated_scenes
 from . import checks
 from .layout import platform_layout
-from .memory import read_value, write_float
+from .memory import read_value, write_float, write_short
 
 _NEVER = -2_000_000.0
 """No frame comes after this one: Blender's first is -1 048 574."""
@@ -33,6 +33,20 @@ def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
     """
     for world in _evaluated_worlds(scene):
         _write_time_scale(world, time_scale)
+
+
+def set_substeps(scene: bpy.types.Scene, substeps: int) -> None:
+    """Let the coming frame have so many sub-steps.
+
+    Raises
+    ------
+    LayoutError
+        Memory is not as expected; nothing has been written.
+    """
+    layout = platform_layout()
+    for world in _evaluated_worlds(scene):
+        checks.check_settings(layout, world)
+        write_short(world.as_pointer() + layout.blender.world_substeps, substeps)
 
 
 def time_stands_still(depsgraph: bpy.types.Depsgraph) -> bool:

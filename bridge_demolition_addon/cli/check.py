@@ -138,7 +138,9 @@ def _time_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
     shortest = timeline.frame_lengths_s.min()
     slowed = "" if shortest > 0.999 * time.step.frame_s else f", down to {shortest:.3g} s around detonations"
     yield "frames", f"{len(timeline)} of {time.step.frame_s:.6g} s{slowed}"
-    yield "sub-step", f"{time.step.substep_s:.6g} s, {time.substeps_per_frame} in a frame"
+    farthest_m = time.farthest_per_substep_m
+    shortened = "" if farthest_m is None else f", more where a body would go farther than {farthest_m:g} m in one"
+    yield "sub-step", f"{time.step.substep_s:.6g} s, {time.substeps_per_frame} in a frame{shortened}"
 
 
 def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:

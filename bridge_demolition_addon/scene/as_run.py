@@ -21,7 +21,7 @@ from ..core.timing.time_step import TimeStep
 from .bodies import Kind, bodies_of, is_marked, kind_of
 from .demolition import FIRST_STEP_FRAME
 from .time_scale import time_is_animated, time_step_at
-from .world import START_FRAME
+from .world import START_FRAME, farthest_per_substep_of
 
 _DEFAULT_MARGIN_M = 0.04
 """Collision margin of a body for which none is set (Bullet's CONVEX_DISTANCE_MARGIN)."""
@@ -47,6 +47,7 @@ def time_settings(scene: bpy.types.Scene) -> dict[str, Any]:
         "frames_per_second": scene.render.fps,
         "frames_per_second_base": scene.render.fps_base,
         "substeps_per_frame": world.substeps_per_frame,
+        "farthest_per_substep_m": farthest_per_substep_of(scene),
         "solver_iterations": world.solver_iterations,
         "split_impulse": world.use_split_impulse,
         "time_scale": world.time_scale,

@@ -11,6 +11,7 @@ import bpy
 from ..core.scenario import TimeSettings
 from ..core.timing.time_step import TimeStep
 from ..core.units import STANDARD_GRAVITY_M_S2
+from .custom_properties import kept_number
 
 START_FRAME = 1
 
@@ -22,6 +23,8 @@ _OF_RENDERING = ("fps", "fps_base", "use_lock_interface")
 
 _OURS = "bda_"
 """What the names of properties begin with that a scene keeps for us."""
+
+_FARTHEST_PER_SUBSTEP = "bda_farthest_per_substep_m"
 
 
 def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int) -> bpy.types.RigidBodyWorld:
@@ -39,6 +42,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
     world = scene.rigidbody_world
     world.substeps_per_frame = settings.substeps_per_frame
     world.solver_iterations = settings.solver_iterations
+    _keep_farthest_per_substep(scene, settings.farthest_per_substep_m)
     world.use_split_impulse = settings.split_impulse
     world.time_scale = settings.time_scale
     world.point_cache.frame_start, world.point_cache.frame_end = START_FRAME, last_frame
@@ -93,6 +97,18 @@ def scene_time_step(scene: bpy.types.Scene) -> TimeStep:
     """Return the length of frames and sub-steps that the scene has now."""
     world = scene.rigidbody_world
     return TimeStep(scene.render.fps, scene.render.fps_base, world.substeps_per_frame, world.time_scale)
+
+
+def farthest_per_substep_of(scene: bpy.types.Scene) -> float | None:
+    """Return how far a body may go in one sub-step before frames have more of them, m; None where they never do."""
+    return kept_number(scene, _FARTHEST_PER_SUBSTEP, 0.0) or None
+
+
+def _keep_farthest_per_substep(scene: bpy.types.Scene, farthest_m: float | None) -> None:
+    if farthest_m is not None:
+        scene[_FARTHEST_PER_SUBSTEP] = farthest_m
+    elif _FARTHEST_PER_SUBSTEP in scene:
+        del scene[_FARTHEST_PER_SUBSTEP]
 
 
 def start_over(scene: bpy.types.Scene) -> None:

@@ -74,12 +74,19 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "blender": bpy.app.version_string,
         "fingerprint": _fingerprint(recording, results),
         "substep_s": context.substep_s,
+        "shortest_substep_s": _shortest_substep_s(results),
         "elasticity": None if recording.elasticity is None else asdict(recording.elasticity),
         **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
         "made_by_hand": list(context.made_by_hand),
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results)
+
+
+def _shortest_substep_s(results: Results) -> float | None:
+    """Length of the shortest sub-step; None where no time passed."""
+    lengths_s = results.frames.substep_s
+    return float(lengths_s[lengths_s > 0.0].min()) if (lengths_s > 0.0).any() else None
 
 
 def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:

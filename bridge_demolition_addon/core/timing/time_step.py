@@ -8,6 +8,9 @@ from dataclasses import dataclass
 FRAME_NOISE = 1e-6
 """Part of a frame that rounding may add to a duration without a frame being added for it."""
 
+MOST_SUBSTEPS = 1000
+"""Blender's limit of sub-steps in a frame."""
+
 
 @dataclass(frozen=True, slots=True)
 class TimeStep:
@@ -37,6 +40,23 @@ class TimeStep:
     def substep_s(self) -> float:
         """Simulated time of one sub-step, s."""
         return self.frame_s / self.substeps_per_frame
+
+    def substeps_within(self, farthest_m: float, speed_m_s: float, acceleration_m_s2: float) -> int:
+        """Return how many sub-steps a frame needs so that a body goes no farther than so much in one of them.
+
+        Parameters
+        ----------
+        farthest_m : float
+        speed_m_s, acceleration_m_s2 : float
+            Speed of the body as the frame begins, and by how much it may grow.
+
+        Returns
+        -------
+        int
+            At least `substeps_per_frame`, at most `MOST_SUBSTEPS`.
+        """
+        way_m = (speed_m_s + acceleration_m_s2 * self.frame_s) * self.frame_s
+        return max(self.substeps_per_frame, math.ceil(min(way_m / farthest_m, MOST_SUBSTEPS)))
 
     def impulse(self, force_newton: float) -> float:
         """Impulse of a steady force over one sub-step, N·s: the unit of Blender's breaking threshold."""

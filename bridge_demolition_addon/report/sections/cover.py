@@ -102,11 +102,13 @@ def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
         yield "Simulated", f"{run.logged_forces.times_s[-1]:.3f} s as far as logged"
     if run.scenario:
         time = run.scenario.time
+        farthest_m = time.farthest_per_substep_m
+        more = "" if farthest_m is None else f" or more, so that no body goes farther than {farthest_m:g} m in one"
         yield (
             "Frames, steps, iterations",
             (
                 f"{time.frames_per_second / time.frames_per_second_base:g} frames a second, "
-                f"{time.substeps_per_frame} steps a frame, {time.solver_iterations} iterations a step"
+                f"{time.substeps_per_frame} steps a frame{more}, {time.solver_iterations} iterations a step"
             ),
         )
     if results is not None:

@@ -65,7 +65,7 @@ class BulletReader:
         loads: bool,
     ):
         self._scene, self._world, self._every_substep = scene, world, every_substep
-        self._inventory = inventory
+        self._inventory, self._substeps_of_frame = inventory, scene.rigidbody_world.substeps_per_frame
         self.rigid_because: LayoutError | None = None
         self._built_positions_m, self._built_rotations = world.positions()
         elastic = self._elastic_connections(bodies, connections) if is_elastic(scene) and connections else None
@@ -97,9 +97,10 @@ class BulletReader:
             self._substeps.before_substep, self._substeps.after_substep if every_substep else None
         )
 
-    def before_frame(self) -> None:
-        """Prepare the coming frame."""
-        self._substeps.before_frame(self._scene.rigidbody_world.substeps_per_frame)
+    def before_frame(self, substeps: int) -> None:
+        """Know how many sub-steps the coming frame has."""
+        self._substeps_of_frame = substeps
+        self._substeps.before_frame(substeps)
 
     def close(self) -> None:
         """Read nothing any more; what is still worked out is waited for."""
@@ -163,7 +164,7 @@ class BulletReader:
         """Return the frame whose sub-steps have this length, without blast, and what broke in it."""
         if not self._every_substep:
             self._substeps.after_substep(substep_s)
-            self._substeps.skip(substep_s * (self._scene.rigidbody_world.substeps_per_frame - 1))
+            self._substeps.skip(substep_s * (self._substeps_of_frame - 1))
         if self._substeps.error:
             raise self._substeps.error
         loads, work, breaks = self._substeps.finish_frame()

@@ -11,9 +11,10 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...bullet.time_control import release_time, set_time_scale, time_stands_still
+from ...bullet.time_control import release_time, set_substeps, set_time_scale, time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...core.errors import LayoutError, OutputError, SimulationError
+from ...core.geometry.vectors import dot
 from ...core.results.arrays import Results
 from ...core.results.fingerprint import built_digest
 from ...core.results.frames import BallHistory, Frame
@@ -28,6 +29,7 @@ from ...scene.inventory import take_inventory
 from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
+from ...scene.world import farthest_per_substep_of
 from .blast import Blast, check_blast, goes_off
 from .bullet_reader import BulletReader
 from .elastic_connections import Elasticity
@@ -112,6 +114,7 @@ class Recording:
         self._blast: Blast | None = None
         self._stream: FrameStream | None = None
         self._last: Frame | None = None
+        self._has_set_substeps = False
         self.built_digest = ""
 
     def before_frame(self) -> None:
@@ -125,7 +128,7 @@ class Recording:
         self._set_time()
         self._prepare_blast()
         if self._reader:
-            self._reader.before_frame()
+            self._reader.before_frame(self._set_substeps())
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Record the frame.
@@ -287,6 +290,9 @@ class Recording:
             self.distrust = error
         finally:
             release_time(self.scene)
+            if self._has_set_substeps:
+                set_substeps(self.scene, self.scene.rigidbody_world.substeps_per_frame)
+                self._has_set_substeps = False
 
     def _follow_motion(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Record the frame from where the bodies are."""
@@ -324,7 +330,7 @@ class Recording:
         breaking = breaking_of(self.scene, self._connections)
         strength, ductility = (astuple(each) if each else () for each in (breaking.strength, breaking.ductility))
         thresholds = [each.rigid_body_constraint.breaking_threshold for each in self._connections]
-        step = time_step_at(self.scene, self._start_frame)
+        step, farthest_m = time_step_at(self.scene, self._start_frame), farthest_per_substep_of(self.scene)
         elastic = {}
         if is_elastic(self.scene):
             stiffness = stiffness_of(self._connections)
@@ -344,7 +350,7 @@ class Recording:
             strength_pa=np.array(strength, float),
             ductility=np.array(ductility, float),
             blast_impulses_ns=self._blast.whole_impulses(places, rotations) if self._blast else np.zeros(0),
-            step=[step.frame_s, step.substep_s],
+            step=[step.frame_s, step.substep_s, *([] if farthest_m is None else [farthest_m])],
             **elastic,
         )
 
@@ -360,6 +366,20 @@ class Recording:
             if animated:
                 raise SimulationError(f"an animated time scale cannot be followed, as {error}: remove it") from error
             self.distrust = error
+
+    def _set_substeps(self) -> int:
+        """Give the coming frame as many sub-steps as its bodies are fast, where the scene says so; return how many."""
+        coming, farthest_m = self.scene.frame_current, farthest_per_substep_of(self.scene)
+        step = time_step_at(self.scene, coming)
+        if farthest_m is None or self._last is None or coming != self._last.number + 1 or self.distrust:
+            return step.substeps_per_frame
+        velocities = self._last.velocities_m_s
+        speed_m_s = float(np.sqrt(dot(velocities, velocities).max()))
+        gravity = np.array(self.scene.gravity, float) if self.scene.use_gravity else np.zeros(3)
+        substeps = step.substeps_within(farthest_m, speed_m_s, float(np.sqrt(dot(gravity, gravity))))
+        set_substeps(self.scene, substeps)
+        self._has_set_substeps = True
+        return substeps
 
     def _prepare_blast(self) -> None:
         """Load the coming frame, if it follows on the last one recorded."""

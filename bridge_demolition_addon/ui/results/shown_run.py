@@ -116,9 +116,16 @@ def forget_shown() -> None:
 def explained_peak(summary: dict[str, Any]) -> str:
     """Return in a sentence what the peak force is, and why the contours show another number."""
     return (
-        f"The resultant on a shard in its worst sub-step, of {summary['substep_s'] * _MS_PER_S:.3g} ms. Contours show "
+        f"The resultant on a shard in its worst sub-step, of {_substep_text(summary)} ms. Contours show "
         "the frame mean, or with Peak So Far this peak"
     )
+
+
+def _substep_text(summary: dict[str, Any]) -> str:
+    """Length of a sub-step, ms; the shortest and the longest where frames have more or fewer of them."""
+    longest, shortest = summary["substep_s"], summary.get("shortest_substep_s") or summary["substep_s"]
+    shortened = f"{shortest * _MS_PER_S:.3g} to " if shortest < 0.999 * longest else ""
+    return f"{shortened}{longest * _MS_PER_S:.3g}"
 
 
 def lines_of(summary: dict[str, Any]) -> list[str]:

@@ -50,6 +50,7 @@ TYPICAL: dict[str, Any] = {
     "bridge.abutments.length_m": 1.5,
     "bridge.abutments.width_m": 9.0,
     "bridge.abutments.height_m": 5.0,
+    "time.farthest_per_substep_m": 0.01,
     "fracture.shards": 200,
     "fracture.members.shards": 50,
     "fracture.members.share": 0.5,

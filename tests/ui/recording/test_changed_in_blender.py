@@ -41,6 +41,7 @@ CHANGES = {
     "time.frames_per_second": (render("fps", 60), 60),
     "time.frames_per_second_base": (render("fps_base", 1.001), 1.001),
     "time.substeps_per_frame": (world("substeps_per_frame", 7), 7),
+    "time.farthest_per_substep_m": (lambda scene: scene.__setitem__("bda_farthest_per_substep_m", 0.02), 0.02),
     "time.solver_iterations": (world("solver_iterations", 23), 23),
     "time.split_impulse": (world("use_split_impulse", False), False),
     "time.time_scale": (world("time_scale", 0.7), 0.7),
