@@ -46,7 +46,7 @@ def flying_shards(count=30, frames=25, frame_s=1 / 24):
     places = first + times[:, None, None] * velocities
     places[:, :, 2] = np.maximum(first[:, 2] - G / 2 * times[:, None] ** 2, sizes[:, 2] / 2)
     speeds = np.broadcast_to(velocities, places.shape).copy()
-    speeds[:, :, 2] = -G * times[:, None]
+    speeds[:, :, 2] = np.where(places[:, :, 2] > sizes[:, 2] / 2, -G * times[:, None], 0.0)
     pairs = np.column_stack([np.arange(count - 1), np.arange(1, count)])
     connections = len(pairs)
     intact = np.ones((frames, connections), bool)

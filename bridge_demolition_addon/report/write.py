@@ -38,6 +38,7 @@ from .sections.debris import corner_table, debris_section, exclusion_section, zo
 from .sections.forces import force_section, logged_section
 from .sections.search import search_section
 from .sections.stages import has_stages, stages_section
+from .sections.touchdown import touchdown_section
 from .site_plan import write_dxf, write_geojson
 from .study.document import study_document
 from .study.influence import correlation_table
@@ -212,6 +213,8 @@ def document_of(
         sections.append(collapse_section(run))
         if run.scenario and (blast := blast_section(run.scenario, debris.outline)):
             sections.append(blast)
+        if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
+            sections.append(touchdown)
     elif run.results is None:
         sections.append(logged_section(run))
     if stages is not None:

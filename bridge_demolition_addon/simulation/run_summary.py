@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..core.debris.touchdown import landings, shaking_at
 from ..core.results.arrays import Results
 from ..core.results.fingerprint import motion_digest, result_digest
 from ..core.results.summary import settling, summarise
@@ -132,7 +133,15 @@ def _of_scenario(scenario: Scenario, recording: Recording, results: Results) -> 
         "settled": settling(results, scenario.connections.warm_up_s),
         "came_to_rest_s": rest.came_to_rest_s,
         "fell_by_itself": fell_by_itself(results, scenario),
+        "touchdown": _touchdown(scenario, results),
     }
+
+
+def _touchdown(scenario: Scenario, results: Results) -> dict[str, Any]:
+    """How the fall shakes the ground at each neighbour, by its name; None where nothing fell."""
+    landed = landings(results)
+    shaken = ((each.name, shaking_at(each.place_m, landed)) for each in scenario.neighbours)
+    return {name: shaking and asdict(shaking) for name, shaking in shaken}
 
 
 def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:

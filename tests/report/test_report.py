@@ -26,6 +26,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.blast.charges import Charge
 from bridge_demolition_addon.core.blast.models import BlastModel
 from bridge_demolition_addon.core.debris.throws import debris_of
+from bridge_demolition_addon.core.debris.touchdown import landings, shaking_at
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.folder_lock import FolderLock
 from bridge_demolition_addon.core.results.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
@@ -118,9 +119,10 @@ def test_names_of_the_user_are_text_and_nothing_else(whole):
 def test_all_sections_are_there(whole):
     _, page, _ = whole
     numbered = re.findall(
-        r"\d (The run|What is modelled[^1]*?|Debris|Exclusion zone|Forces|Collapse|Blast|The scenario)", page.text
+        r"\d (The run|What is modelled[^1]*?|Debris|Exclusion zone|Forces|Collapse|Blast|Shaking of the ground[a-z ]*|The scenario)",
+        page.text,
     )
-    assert len(set(numbered)) == 8
+    assert len(set(numbered)) == 9
 
 
 def test_the_pdf_is_one(whole):
@@ -151,6 +153,11 @@ def test_tables_hold_what_the_results_say(whole):
     assert (far["bodies_entered"], far["first_entry_s"]) == ("0", "")
     assert {row["charge"]: float(row["mass_kg"]) for row in table(folder, "charges")} == {"Charge 1": 5, "Charge 2": 2}
     assert [row["neighbour"] for row in table(folder, "neighbours")] == ["House", "School & yard"]
+    landed = landings(results)
+    shaken = {row["neighbour"]: float(row["peak_particle_velocity_mm_s"]) for row in table(folder, "touchdown")}
+    expected = {each.name: 1e3 * shaking_at(each.place_m, landed).velocity_m_s for each in TOLD.neighbours}
+    assert shaken == pytest.approx(expected)
+    assert max(shaken.values()) > 0.1
     broken = sum(int(row["broken"]) for row in table(folder, "breaking"))
     assert broken == (~results.frames.intact[-1]).sum()
     (hit,) = table(folder, "hits_of_the_ball")

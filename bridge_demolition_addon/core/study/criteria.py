@@ -16,6 +16,7 @@ _NEEDED = {
     "zone not entered": ("zone",),
     "pressure below": ("neighbour", "limit_kpa"),
     "vibration below": ("neighbour", "limit_mm_s"),
+    "touchdown below": ("neighbour", "limit_mm_s"),
 }
 """Keys that a kind of criterion cannot do without."""
 
@@ -39,7 +40,8 @@ class Criterion(Table):
         "`span down`, `span stands`: so much of the height of a span's centre of mass is lost at the end, or never. "
         "`zone not entered`: no shard and no ball reaches into a zone at any time. `pressure below`, `vibration "
         "below`: what the charges do to a neighbour stays below a limit; the fall of the bridge, which shakes the "
-        "ground as well, is not in it.",
+        "ground as well, is not in it. `touchdown below`: the fall shakes the ground at a neighbour by less, as it is "
+        "estimated.",
         choices=tuple(_NEEDED),
     )
     share: float | None = key(
@@ -111,6 +113,8 @@ class Criterion(Table):
                 return zone_output(self.zone, "entered")
             case "pressure below":
                 return neighbour_output(self.neighbour, "pressure_kPa")
+            case "touchdown below":
+                return neighbour_output(self.neighbour, "touchdown_mm_s")
             case _:
                 return neighbour_output(self.neighbour, "vibration_mm_s")
 

@@ -14,6 +14,7 @@ from ..blast.receptors import loads_at
 from ..debris.footprint import footprint, plan_hulls, swept_footprint
 from ..debris.reach import bodies_that_moved, reaches_on_the_way
 from ..debris.throws import debris_of
+from ..debris.touchdown import landings, shaking_at
 from ..debris.zones import watch_zone
 from ..errors import OutputError
 from ..geometry.plan_areas import outlines
@@ -182,11 +183,13 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         found[zone_output(zone.name, "entered")] = bool(watched.entries)
         found[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
     charges = [each for each in scenario.charges if each.mass_kg > 0.0] if scenario.blast.explosion else []
-    model = BlastModel(scenario.blast.model)
+    model, landed = BlastModel(scenario.blast.model), landings(results)
     for neighbour in scenario.neighbours:
         loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None
         found[neighbour_output(neighbour.name, "pressure_kPa")] = loads.peak_pa / 1e3 if loads else 0.0
         found[neighbour_output(neighbour.name, "vibration_mm_s")] = loads.peak_velocity_m_s * 1e3 if loads else 0.0
+        shaking = shaking_at(neighbour.place_m, landed)
+        found[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
     return found
 
 

@@ -28,6 +28,12 @@ SITE = replace(I235, neighbours=(Neighbour(name="house", place_m=(30.0, 0.0, 2.0
             4.99,
             5.0,
         ),
+        (
+            {"kind": "touchdown below", "neighbour": "house", "limit_mm_s": 5},
+            "neighbours.house.touchdown_mm_s",
+            4.99,
+            5.0,
+        ),
     ],
 )
 def test_a_criterion_is_met_up_to_its_limit(keys, output, met, missed):

@@ -159,6 +159,7 @@ def test_what_reaches_neighbours_is_what_the_report_says():
     outputs = outputs_of(thrown((0, 0, 6), (0, 0, 6)), scenario)
     assert outputs["neighbours.house.pressure_kPa"] == loads.peak_pa / 1000.0
     assert outputs["neighbours.house.vibration_mm_s"] == loads.peak_velocity_m_s * 1000.0
+    assert outputs["neighbours.house.touchdown_mm_s"] == 0.0  # nothing fell
     silent = replace(scenario, blast=replace(BARE.blast, explosion=False))
     assert outputs_of(thrown((0, 0, 6), (0, 0, 6)), silent)["neighbours.house.pressure_kPa"] == 0.0
 
