@@ -22,8 +22,11 @@ from bridge_demolition_addon.report.study.study_runs import StudyRuns
 from bridge_demolition_addon.studies.draw_process import End
 from bridge_demolition_addon.studies.folder import StudyFolder
 
+_EXPLOSIVES = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
+
 TOLD_SCENARIO = replace(
-    read_scenario(EXAMPLES / "two_spans_13m_explosives.toml"),
+    _EXPLOSIVES,
+    connections=replace(_EXPLOSIVES.connections, stiffness="rigid"),
     title='Two spans <b>& $5$ "Co"</b>',
     zones=(
         Zone(name="Road <1> $2$", kind="road", corners_m=((-12, 12), (40, 12), (40, 20), (-12, 20))),
