@@ -222,6 +222,14 @@ class BulletWorld:
         """Angular velocities (n, 3) of all bodies, rad/s."""
         return gather_doubles(self._body_fields(self._layout.body.angular_velocity), 3)
 
+    def set_velocities(self, bodies: np.ndarray, velocities_m_s: np.ndarray, spins_rad_s: np.ndarray) -> None:
+        """Give bodies (k,) velocities (k, 3) and spins (k, 3); those that sleep go on sleeping."""
+        for offset, vectors in (
+            (self._layout.body.linear_velocity, velocities_m_s),
+            (self._layout.body.angular_velocity, spins_rad_s),
+        ):
+            write_vectors(self._bound.bodies[bodies] + np.uint64(offset), vectors)
+
     def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray | None = None) -> None:
         """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
 

@@ -14,6 +14,7 @@ from ..core.errors import SimulationError
 from ..core.mechanics.strength import Ductility, Strength
 from ..core.scenario import ConnectionSettings, Scenario
 from ..core.structure.model import Model
+from ..core.structure.start_motion import start_motions
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
 from .blast.settings import keep_blast
@@ -22,6 +23,7 @@ from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
+from .start_motion import keep_start_motion
 from .structural_changes import keep_changes
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball, create_hits
@@ -102,6 +104,7 @@ def _build(
             mark_member(shard, model.members[row].name, model.members[row].kind)
         for row in model.fixed.nonzero()[0]:
             shards[row].rigid_body.type = "PASSIVE"
+        keep_start_motion(shards, *start_motions(scenario.geometry, model))
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, joints, model.joint_of_connection, scenario.time.step)
         if model.stiffness is None:

@@ -28,7 +28,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
     meshes = [scaled_mesh(body) for body in bodies]
     members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
     return Inventory(
-        body_names=np.array([body.name for body in bodies]),
+        body_names=np.array([body.name for body in bodies], str),
         body_kinds=np.array([kind_of(body).value for body in bodies]),
         masses_kg=np.where(moves, [body.rigid_body.mass for body in bodies], 0.0),
         volumes_m3=np.where(moves, _volumes(meshes), 0.0),
@@ -36,7 +36,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         body_member_kinds=members[:, 1],
         vertices_m=np.concatenate([np.zeros((0, 3)), *(mesh.vertices for mesh in meshes)]),
         vertex_counts=np.array([len(mesh.vertices) for mesh in meshes], int),
-        connection_names=np.array([connection.name for connection in connections]),
+        connection_names=np.array([connection.name for connection in connections], str),
         pairs=pairs,
         points_m=np.array([each.matrix_world.translation for each in connections], float).reshape(-1, 3),
         areas_m2=areas,

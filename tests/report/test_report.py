@@ -119,7 +119,8 @@ def test_names_of_the_user_are_text_and_nothing_else(whole):
 def test_all_sections_are_there(whole):
     _, page, _ = whole
     numbered = re.findall(
-        r"\d (The run|What is modelled[^1]*?|Debris|Exclusion zone|Forces|Collapse|Blast|Shaking of the ground[a-z ]*|The scenario)",
+        r"\d (The run|What is modelled[^1]*?|Debris|Exclusion zone|Forces|Collapse|Blast|Shaking of the ground[a-z ]*"
+        r"|The scenario)",
         page.text,
     )
     assert len(set(numbered)) == 9

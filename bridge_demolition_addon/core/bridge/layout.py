@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..geometry.mesh import TriangleMesh
-from ..geometry.rotations import rotation_about_z
+from ..geometry.rotations import turn_in_plane
 from ..geometry.vectors import transformed
 from ..scenario import Bridge
 
@@ -62,7 +62,7 @@ def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: 
     """A solid that stands at a place on an unskewed axis, moved to the skewed axis and turned with it, in shape."""
     if bridge.skew_deg == 0.0:
         return solid
-    rotation = rotation_about_z(-math.radians(bridge.skew_deg))
+    rotation = turn_in_plane(-math.radians(bridge.skew_deg))
     on_axis = np.array((along + across * bridge.shift_across, across))
     vertices = solid.vertices.copy()
     vertices[:, :2] = transformed(rotation, vertices[:, :2] - (along, across)) + on_axis

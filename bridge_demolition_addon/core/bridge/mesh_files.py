@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import GeometryError, ScenarioError, UnreadableError
 from ..geometry.mesh import TriangleMesh
 from ..geometry.repair import repaired_solid
-from ..geometry.rotations import rotation_about_z
+from ..geometry.rotations import turn_in_plane
 from ..geometry.solids import union
 from ..geometry.vectors import transformed
 from ..reading import MEGABYTE, check_file
@@ -26,6 +26,9 @@ MOST_BYTES = 1000 * MEGABYTE
 
 _BELOW_GROUND_M = 1e-3
 """How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
+
+_PLANES = ([1, 2], [2, 0], [0, 1])
+"""Axes of the planes in which turns about x, y and z are, each from the first to the second."""
 
 _FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Turns coordinates with y up and z towards the viewer into ours, with z up."""
@@ -73,8 +76,10 @@ def placed_mesh(table: Geometry) -> TriangleMesh:
     up = table.up or ("y" if path.suffix.lower() == ".glb" else "z")
     if up == "y":
         vertices = transformed(_FROM_Y_UP, vertices)
-    if table.rotation_deg:
-        vertices[:, :2] = transformed(rotation_about_z(math.radians(table.rotation_deg)), vertices[:, :2])
+    turns_deg = (*table.tilt_deg, table.rotation_deg)
+    for plane, angle_deg in zip(_PLANES, turns_deg, strict=True):
+        if angle_deg:
+            vertices[:, plane] = transformed(turn_in_plane(math.radians(angle_deg)), vertices[:, plane])
     return TriangleMesh(vertices + np.array(table.place_m), mesh.triangles)
 
 

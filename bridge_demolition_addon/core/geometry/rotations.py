@@ -11,7 +11,7 @@ _SMALLEST_SINE = 1e-9
 """Below it an angle and its sine are one."""
 
 
-def rotation_about_z(angle_rad: float) -> np.ndarray:
+def turn_in_plane(angle_rad: float) -> np.ndarray:
     """Matrix (2, 2) that turns plane vectors by an angle, anticlockwise."""
     return np.array([[cosine(angle_rad), -sine(angle_rad)], [sine(angle_rad), cosine(angle_rad)]])
 

@@ -25,11 +25,24 @@ class Geometry(Table):
         default=None,
         choices=("y", "z"),
     )
+    tilt_deg: tuple[float, float] = key(
+        "Turns about the axes x and y through the file's origin, first about x; `rotation_deg` follows.",
+        default=(0.0, 0.0),
+        unit="°",
+    )
     rotation_deg: float = key(
         "Turn about the vertical through the file's origin, counter-clockwise.", default=0.0, unit="°"
     )
     place_m: tuple[float, float, float] = key(
         "Where the file's origin goes: along the road, across it, above the ground.", default=(0.0, 0.0, 0.0), unit="m"
+    )
+    velocity_m_s: tuple[float, float, float] = key(
+        "Velocity with which the member begins, along x, y and z.", default=(0.0, 0.0, 0.0), unit="m/s"
+    )
+    spin_rad_s: tuple[float, float, float] = key(
+        "Spin with which it begins, about axes along x, y and z through its centre of mass.",
+        default=(0.0, 0.0, 0.0),
+        unit="rad/s",
     )
     density_kg_m3: float | None = key("Density. Give this or `mass_kg`.", default=None, unit="kg/m³", above=0)
     mass_kg: float | None = key(
@@ -38,6 +51,11 @@ class Geometry(Table):
         unit="kg",
         above=0,
     )
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it begins with a velocity or a spin."""
+        return any(self.velocity_m_s) or any(self.spin_rad_s)
 
     def _check_together(self) -> None:
         check_exactly_one(self, "density_kg_m3", "mass_kg")

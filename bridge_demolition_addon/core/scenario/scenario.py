@@ -108,6 +108,11 @@ class Scenario(Table):
             hammer.check_time(self.time)
             for number, point in enumerate(hammer.path_m):
                 self._check_on_deck(f"jackhammers.path_m[{number}]", point)
+        if self.shards.start_deactivated and (moving := [each.name for each in self.geometry if each.is_moving]):
+            raise ScenarioError(
+                f"geometry {shown(moving[0])} begins with a velocity or a spin: "
+                "expected shards.start_deactivated = false, or it would begin at rest"
+            )
         check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
 
     def _check_charges(self) -> None:

@@ -26,6 +26,7 @@ from ...scene.connections.breaking_thresholds import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
 from ...scene.inventory import take_inventory
+from ...scene.start_motion import start_motion_of
 from ...scene.structural_changes import changes_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
@@ -304,6 +305,11 @@ class Recording:
         self._keep(self._momentum.read_frame(depsgraph), BallHistory.unknown())
 
     def _begin_with_motion(self) -> None:
+        if self._start_motion():
+            raise SimulationError(
+                "velocities and spins to begin with need Blender's memory, which is not as expected "
+                f"({self.distrust}): take them out of the scenario, or run it in another Blender"
+            )
         if changes_of(self.scene):
             raise SimulationError(
                 "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
@@ -350,9 +356,15 @@ class Recording:
             strength_pa=np.array(strength, float),
             ductility=np.array(ductility, float),
             blast_impulses_ns=self._blast.whole_impulses(places, rotations) if self._blast else np.zeros(0),
+            **self._start_motion(),
             step=[step.frame_s, step.substep_s, *([] if farthest_m is None else [farthest_m])],
             **elastic,
         )
+
+    def _start_motion(self) -> dict[str, np.ndarray]:
+        """Velocities and spins with which bodies begin, where any does."""
+        motion = np.column_stack(start_motion_of(self._bodies))
+        return {"start_motion": motion} if motion.any() else {}
 
     def _set_time(self) -> None:
         """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""
@@ -404,7 +416,7 @@ class Recording:
             return
         substep = self.world.take_substep()
         if state is WorldState.NEW:
-            self._begin()
+            self._begin(held)
             # The solver of a new world names a default step before it has taken any.
             self._keep(self._reader.read_first_frame(0.0 if held else substep), BallHistory.unknown())
         elif substep > 0.0:
@@ -414,10 +426,11 @@ class Recording:
                 self._logs.write_breaks(frame.number, breaks)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
-    def _begin(self) -> None:
-        """Begin with the first frame of a new world."""
+    def _begin(self, held: bool) -> None:
+        """Begin with the first frame of a new world, in which time was held or not."""
         if self._reader:  # of an earlier world
             self._reader.close()
+        self._set_moving(held)
         self.inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self.world)
         self._reader = BulletReader(
@@ -430,6 +443,14 @@ class Recording:
             every_substep=self._every_substep,
             loads=self.has_loads,
         )
+
+    def _set_moving(self, held: bool) -> None:
+        """Give bodies the velocities and spins with which they begin."""
+        velocities, spins = start_motion_of(self._bodies)
+        moving = np.flatnonzero(velocities.any(axis=1) | spins.any(axis=1))
+        if len(moving) and not held:
+            raise SimulationError("bodies that begin with a velocity need the timeline played from its start frame")
+        self.world.set_velocities(moving, velocities[moving], spins[moving])
 
     def _keep(self, frame: Frame, balls: BallHistory) -> None:
         """Keep and log a frame, with what exploded and what hit the balls in it."""
