@@ -88,15 +88,15 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "largest_throw_m": (0.0, 10.0),  # 0.1 to 5.7
     },
     "single_span_explosives": {
-        "moved_before_m": (0.0, 0.01),  # 0.001 to 0.002 over 20 seeds
+        "moved_before_m": (0.0, 0.03),  # 0.004 to 0.011 over 20 seeds
         # Slivers between members, and parts of the feet of columns.
-        "broken_before_share": (0.0, 0.05),  # 0.00 to 0.03
+        "broken_before_share": (0.0, 0.05),  # 0.00 to 0.01
         "shards_by_a_charge": (4, MOST),  # 7 to 10
-        "outward_median_cosine": (0.3, 1.0),  # 0.69 to 0.86
-        "outward_share": (0.85, 1.0),  # 1
-        "broken_share_at_1_5_s": (0.25, 1.0),  # 0.44 to 0.72
-        "inner_deck_fallen_share_at_1_5_s": (0.4, 1.0),  # 0.65 to 0.74
-        "largest_throw_m": (0.0, 8.0),  # 1.4 to 3.6
+        "outward_median_cosine": (0.3, 1.0),  # 0.63 to 0.93
+        "outward_share": (0.8, 1.0),  # 0.93 to 1
+        "broken_share_at_1_5_s": (0.25, 1.0),  # 0.63 to 0.82
+        "inner_deck_fallen_share_at_1_5_s": (0.4, 1.0),  # 0.75 to 0.78
+        "largest_throw_m": (0.0, 8.0),  # 2.4 to 4.5
     },
     "three_span_box_girder": {  # 2.3 s, over 20 seeds; the ball hits at 1.93 s, and what it breaks breaks at once
         "moved_before_m": (0.0, 0.005),  # 0.000: Bullet's own sag, with 100 iterations

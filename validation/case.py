@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What every case of the validation has: what is asked, what is expected and why, and what came out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.core.results.arrays import Results, load_results
+from bridge_demolition_addon.core.scenario.file import read_scenario
+
+EXACT, PUBLISHED, MEASURED = "Exact answers", "Published formulas", "Measurements"
+GROUPS = (EXACT, PUBLISHED, MEASURED)
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A quantity of a case, next to what it should be.
+
+    Attributes
+    ----------
+    quantity, unit : str
+    expected : float or tuple of float
+        A number, or the range that it has to be in.
+    found : float
+    tolerance : float
+        By how much of the expected number it may be off; of a range, 0.
+    """
+
+    quantity: str
+    unit: str
+    expected: float | tuple[float, float]
+    found: float
+    tolerance: float = 0.0
+
+    @property
+    def is_met(self) -> bool:
+        """Whether it is as it should be."""
+        if isinstance(self.expected, tuple):
+            return self.expected[0] <= self.found <= self.expected[1]
+        return abs(self.found - self.expected) <= self.tolerance * abs(self.expected)
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a case came to: comparisons, and what draws its picture."""
+
+    comparisons: Sequence[Comparison]
+    draw: Callable[[Figure], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A case of the validation.
+
+    Attributes
+    ----------
+    name, title, group : str
+    asked, left_out, source, reason : str
+        What it is, what the model leaves out, where the expected values are from, and why they may be off by so much.
+    run : callable
+        Runs it in a folder.
+    """
+
+    name: str
+    title: str
+    group: str
+    asked: str
+    left_out: str
+    source: str
+    reason: str
+    run: Callable[[Path], Found]
+
+
+def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, TriangleMesh]) -> Results:
+    """Write a scenario and its meshes into a folder, so that anyone can run it, run it, and return the results."""
+    from bridge_demolition_addon.core.bridge.mesh_files import exported
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    place = folder / name
+    place.mkdir(parents=True, exist_ok=True)
+    for mesh, solid in meshes.items():
+        (place / f"{mesh}.stl").write_bytes(exported(solid, ".stl"))
+    (place / "scenario.toml").write_text(scenario, encoding="utf-8")
+    run_scenario(
+        read_scenario(place / "scenario.toml"), place / "run", overwrite=True, pictures=False, progress=Silence()
+    )
+    return load_results(place / "run" / "results.npz")
+
+
+LOOSE = """
+[connections]
+type = "FIXED"
+method = "face"
+breaking_force_n = 1e12
+
+[[connections.between]]
+members = ["member", "ground"]
+none = true
+"""
+"""Connections of cases whose bodies only touch the ground."""
+
+RIGID_BODIES = """
+[shards]
+linear_damping = 0.0
+angular_damping = 0.0
+use_deactivation = false
+start_deactivated = false
+friction = {friction}
+collision_margin_m = 0.0
+
+[ground]
+friction = {ground}
+"""
+"""Settings of all cases: nothing damps, nothing sleeps, and edges are sharp."""
