@@ -113,31 +113,31 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "abutments_moved_m": (0.0, 0.0),
     },
     "two_spans_13m_ball": {
-        # Sag by Bullet's own compliance with 50 iterations, not by that of concrete; and slivers of faces.
-        "moved_before_m": (0.0, 0.05),  # 0.02 to 0.04 over 20 seeds
-        "broken_before_share": (0.0, 0.04),  # 0.00 to 0.02
+        # Decks that lie loose tremble; and slivers of faces.
+        "moved_before_m": (0.0, 0.2),  # 0.01 to 0.09 over 20 seeds
+        "broken_before_share": (0.0, 0.04),  # 0.00 to 0.01
         # The ball has a radius of 0.67 m, and the middle of a shard under it is up to 0.7 m away.
         "most_loaded_from_target_m": (0.0, 0.67 + 0.7),  # 0.1 to 0.8
-        "ten_most_loaded_from_target_m": (0.0, 13.0 / 4.0),  # 0.8 to 1.7
+        "ten_most_loaded_from_target_m": (0.0, 13.0 / 4.0),  # 0.8 to 1.6
         # Far below the deck, of which the underside was at 5.5 m.
-        "ball_ends_m": (0.0, 2.5),  # 0.7 to 1.3
-        "span_1_median_fall_m": (3.0, MOST),  # 4.4 to 5.5
+        "ball_ends_m": (0.0, 2.5),  # 0.7
+        "span_1_median_fall_m": (3.0, MOST),  # 5.4 to 5.5
         "span_1_share_fallen_2_m": (0.8, 1.0),  # 0.94 to 1
-        # Later the debris may break the middle pier, and the neighbour follows.
-        "neighbour_moved_at_3_s_m": (0.0, 0.3),  # 0.02 to 0.15
-        "far_pier_moved_at_3_s_m": (0.0, 0.05),  # 0.00 to 0.02
-        "throw_95_percent_m": (0.0, 8.0),  # 1.6 to 5.4
+        # The debris may break the middle pier, and the neighbour follows.
+        "neighbour_moved_at_3_s_m": (0.0, 3.0),  # 0.02 to 0.12 in 19 of 20, and 0.53
+        "far_pier_moved_at_3_s_m": (0.0, 0.05),  # 0.00
+        "throw_95_percent_m": (0.0, 8.0),  # 2.7 to 5.0
     },
     "two_spans_13m_explosives": {
-        "moved_before_m": (0.0, 0.05),  # 0.00 to 0.03 over 20 seeds
+        "moved_before_m": (0.0, 0.05),  # 0.01 to 0.02 over 20 seeds
         # Shards are still connected with those around them, which turns them, but hardly any flies towards its charge.
         "shards_by_a_charge": (4, MOST),  # 6 to 11
-        "outward_median_cosine": (0.3, 1.0),  # 0.42 to 0.77
-        "outward_share": (0.85, 1.0),  # 0.97 to 1
+        "outward_median_cosine": (0.3, 1.0),  # 0.67 to 0.85
+        "outward_share": (0.75, 1.0),  # 0.9 to 1
         "span_1_median_fall_m": (4.0, MOST),  # 5.5
         "span_2_median_fall_m": (4.0, MOST),  # 5.5
-        # The largest throw is chance, as one light shard beside a charge gets away or does not: 5.1 to 24.4 m.
-        "throw_95_percent_m": (0.0, 8.0),  # 3.6 to 5.7
+        # The largest throw is chance, as one light shard beside a charge gets away or does not: 7.8 to 34.7 m.
+        "throw_95_percent_m": (0.0, 10.0),  # 4.0 to 6.8
     },
     "two_spans_20m_at_once": {  # 1.5 s, over 20 seeds
         "moved_before_m": (0.0, 0.04),  # 0.01 to 0.02

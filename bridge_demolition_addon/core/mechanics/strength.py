@@ -18,6 +18,9 @@ from .section_forces import SectionForces
 NEWTON_PER_SQUARE_MILLIMETRE = 1e6
 """1 N/mm² in Pa."""
 
+_ROUNDING = 1e-9
+"""Part by which principal second moments of a square may differ that was cut from a mesh."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Strength:
@@ -144,7 +147,7 @@ class Ductility:
 def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Sections:
     """Sections with known second moments of area, as the rectangles that have the same.
 
-    The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
+    Squares lie along the section's axes. The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
     area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned.
 
     Parameters
@@ -162,10 +165,19 @@ def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Secti
     """
     areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
     moments, directions = symmetric_eigenvectors_2d(second_moments)
+    directions = np.where(_are_square(moments)[:, None, None], np.eye(2), directions)
     sides = np.sqrt(12.0 * moments / areas[:, None])
     short, long = sides.T
     torsion_moduli = areas * short / (3.0 + 1.8 * short / long)
     return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
+
+
+def _are_square(moments: np.ndarray) -> np.ndarray:
+    """Whether principal second moments (m, 2) are equal but for rounding, which alone would then turn the section.
+
+    Sections of upright columns and level beams lie along their y and z axes, and so squares are taken to.
+    """
+    return moments[:, 1] - moments[:, 0] <= _ROUNDING * moments[:, 1]
 
 
 def sections_at(sections: Sections, rows: np.ndarray) -> Sections:

@@ -67,6 +67,14 @@ def test_square_section(forces, expected):
     assert used(**forces) == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.parametrize("noise", [1e-18, -1e-18, 1e-14])
+def test_rounding_does_not_turn_a_square(noise):
+    """Principal axes of a square are any: at 45° bending about a side would count √2 times."""
+    moments = 16.0 / 12.0 * np.eye(2) + np.array([[0.0, noise], [noise, 0.0]])
+    sections = rectangular_sections(np.array([4.0]), moments[None])
+    assert used(sections, bending=(MODULUS * 1e6, 0)) == pytest.approx(1e6 / 5e6, rel=1e-12)
+
+
 @pytest.mark.parametrize("forces", [{"axial": 16e6}, {"axial": -160e6}, {"shear": (8e6, 0)}])
 def test_breaks_at_its_strength_and_not_before(forces):
     assert used(**{name: 0.999 * np.asarray(value) for name, value in forces.items()}) < 1.0
