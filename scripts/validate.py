@@ -13,15 +13,13 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "validation")]
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "validation"))
 
-import matplotlib
 from case import GROUPS, Case, Comparison, Found
 from matplotlib.figure import Figure
 
-matplotlib.use("Agg")
-
+ROOT = Path(__file__).resolve().parent.parent
 CASES = ("falling_rod", "rocking_block", "sliding_block", "semicircular_arch", "breaking_tower")
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
 
@@ -117,9 +115,9 @@ def _cells(comparison: Comparison) -> tuple[str, ...]:
 
 _HEAD = """# Validation
 
-Cases with a known answer, side by side with what this add-on makes of them. `scripts/validate` runs them and writes this
-page. Exact answers, published formulas and measurements are kept apart. What the model leaves out stands before the
-numbers. A case that misses stays in.
+Cases with a known answer, side by side with what this add-on makes of them. `scripts/validate` runs them and writes
+this page. Exact answers, published formulas and measurements are kept apart; so far there are exact answers alone. What
+the model leaves out stands before the numbers. A case that misses stays in.
 
 Bodies are rigid, and contacts are Bullet's: damping is off in all cases, and edges are sharp.
 """

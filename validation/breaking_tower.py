@@ -116,11 +116,11 @@ CASE = Case(
     name="breaking_tower",
     title="Tower that breaks in the air",
     group=EXACT,
-    asked=f"A slender tower in {COUNT} slices falls about a hinge at its foot, from {LEAN_DEG:g}°. It breaks where the "
-    "stress at its edge, by bending and its own weight, first reaches its strength.",
+    asked=f"A slender tower in {COUNT} slices falls about a hinge at its foot, from {LEAN_DEG:g}°. It breaks where "
+    "the stress at its edge, by bending and its own weight, first reaches its strength.",
     left_out="Shear, which breaks real ones near the foot, and cracks between the joints of the slices.",
-    source="M = m g H sin θ (x³ - 2 x² + x) / 4 and the axial force with it (G. Varieschi and K. Kamiya, *Toy models for "
-    "the falling chimney*); angle and place from both, worked out apart from this code.",
+    source="M = m g H sin θ (x³ - 2 x² + x) / 4 and the axial force with it (G. Varieschi and K. Kamiya, *Toy models "
+    "for the falling chimney*); angle and place from both, worked out apart from this code.",
     reason="10 % of the angle: the joints are 5 % of the height apart, and a frame is up to 0.5°.",
     run=run,
 )

@@ -140,12 +140,12 @@ CASE = Case(
     name="falling_rod",
     title="Rod that falls about its foot",
     group=EXACT,
-    asked=f"A rod of {LENGTH_M:g} m falls about a hinge, from {LEAN_DEG:g}° beside the vertical. And: below which angle "
-    "over the horizontal is its tip down before a stone that is let go beside it?",
+    asked=f"A rod of {LENGTH_M:g} m falls about a hinge, from {LEAN_DEG:g}° beside the vertical. And: below which "
+    "angle over the horizontal is its tip down before a stone that is let go beside it?",
     left_out="Friction in the hinge, and air.",
     source="ω² = (3 g / H)(cos θ₀ - cos θ); the angle of 47.9° from the same, with the time of a free fall "
     "(J. M. Aguirregabiria, Ejs simulations).",
-    reason="1 %: sub-steps of 0.5 ms. Bullet gives a leaning rod the inertia of the upright box around it: 0.3 % too much "
-    "here. The angle is interpolated between two runs 1° apart.",
+    reason="1 %: sub-steps of 0.5 ms. Bullet gives a leaning rod the inertia of the upright box around it: 0.3 % too "
+    "much here. The angle is interpolated between two runs 1° apart.",
     run=run,
 )

@@ -30,7 +30,9 @@ def run(folder: Path) -> Found:
     toppled = [_topples(folder, share) for share in PUSHES]
     lowest = min((each for each, falls in zip(PUSHES, toppled, strict=True) if falls), default=math.inf)
     comparisons = [
-        Comparison("quarter of a period", "s", math.acosh(1.0 / (1.0 - tilt / SLENDERNESS)) / FREQUENCY, quarter_s, 0.03),
+        Comparison(
+            "quarter of a period", "s", math.acosh(1.0 / (1.0 - tilt / SLENDERNESS)) / FREQUENCY, quarter_s, 0.03
+        ),
         Comparison("spin after the impact over that before", "", 1.0 - 1.5 * math.sin(SLENDERNESS) ** 2, ratio, 0.05),
         Comparison("least spin that topples, over Housner's", "", (0.97, 1.03), lowest),
     ]
@@ -90,11 +92,11 @@ CASE = Case(
     name="rocking_block",
     title="Rocking block",
     group=EXACT,
-    asked=f"A block {WIDTH_M:g} m wide and {HEIGHT_M:g} m high leans by half the angle at which it topples, and is let go; "
-    "another stands, and begins to turn about its edge.",
+    asked=f"A block {WIDTH_M:g} m wide and {HEIGHT_M:g} m high leans by half the angle at which it topples, and is "
+    "let go; another stands, and begins to turn about its edge.",
     left_out="What is elastic: measured blocks lose less or more at each impact, by the evenness of their faces.",
     source="G. W. Housner, *Bull. Seismol. Soc. Am.* 53 (1963) 403-417.",
-    reason="3 % of time and spin to topple, 5 % of the spin after the impact: in Bullet it is spread over some sub-steps "
-    "and points of contact.",
+    reason="3 % of time and spin to topple, 5 % of the spin after the impact: in Bullet it is spread over some "
+    "sub-steps and points of contact.",
     run=run,
 )

@@ -2,6 +2,7 @@
 """The thinnest semicircular arch that stands under its own weight: voussoirs that only touch (Couplet, Heyman)."""
 
 import math
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -40,11 +41,16 @@ def _course(folder: Path, thickness: float) -> tuple[np.ndarray, np.ndarray]:
     angles = np.linspace(0.0, math.pi, COUNT + 1)
     meshes = {
         f"voussoir_{row:02d}": prism(
-            np.array([(r * math.cos(a), r * math.sin(a)) for r, a in ((inner, low), (outer, low), (outer, high), (inner, high))]),
+            np.array(
+                [
+                    (r * math.cos(a), r * math.sin(a))
+                    for r, a in ((inner, low), (outer, low), (outer, high), (inner, high))
+                ]
+            ),
             -DEPTH_M / 2.0,
             DEPTH_M / 2.0,
         )
-        for row, (low, high) in enumerate(zip(angles[:-1], angles[1:], strict=True))
+        for row, (low, high) in enumerate(pairwise(angles))
     }
     for side, sign in (("left", -1.0), ("right", 1.0)):
         low, high = sorted((sign * (inner - 0.5), sign * (outer + 0.5)))
@@ -100,7 +106,8 @@ CASE = Case(
     name="semicircular_arch",
     title="Thinnest semicircular arch",
     group=EXACT,
-    asked=f"{COUNT} voussoirs that only touch each other stand as a semicircle, if it is thick enough: t/R at least 0.1075.",
+    asked=f"{COUNT} voussoirs that only touch each other stand as a semicircle, if it is thick enough: t/R at least "
+    "0.1075.",
     left_out="Crushing of the edges. What Bullet's contacts sink into each other makes the arch thinner.",
     source="M. Milankovitch 1904 and 1907, 0.10746; 0.1075 for 20 voussoirs by a linear program, without sliding.",
     reason="The thicknesses are 0.005 apart; the threshold may be up to 7 % too large, as contacts sink.",

@@ -64,7 +64,7 @@ CASE = Case(
     asked=f"A flat block of concrete slides on level ground with {SPEED_M_S:g} m/s until it stops, after v² / (2 μ g).",
     left_out="Friction that depends on speed, and the difference between static and sliding friction.",
     source="Coulomb's law of friction.",
-    reason="2 %: the way is short by what the first sub-steps do; 2.8 % with sub-steps of 4.2 ms, 1.4 % with 1 ms, 0.7 % with "
-    "these of 0.5 ms (friction 0.3).",
+    reason="2 %: the way is short by what the first sub-steps do; 2.8 % with sub-steps of 4.2 ms, 1.4 % with 1 ms, "
+    "0.7 % with these of 0.5 ms (friction 0.3).",
     run=run,
 )

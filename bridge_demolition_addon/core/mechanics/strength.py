@@ -147,8 +147,9 @@ class Ductility:
 def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Sections:
     """Sections with known second moments of area, as the rectangles that have the same.
 
-    Squares lie along the section's axes. The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
-    area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned.
+    The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
+    area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned, but for squares,
+    whose second moments do not say it: these lie along the section's axes.
 
     Parameters
     ----------
