@@ -6,7 +6,8 @@ import sys
 import pytest
 from places import ROOT
 
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "validation")]
+sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(1, str(ROOT / "validation"))
 
 import validate
 from case import GROUPS, Comparison
