@@ -272,6 +272,7 @@ def record(person: Person, panels: Panels) -> Steps:
     yield from panels.show_only("Frame Change Event Handler")
     yield from register(person, person.folder / "results")
     person.expect_reports("nothing but the registering is reported", "Recording to")
+    yield 1.0  # Blender moves the panels below slowly
     yield from person.illustrate("registered", person.sidebar)
     log = person.folder / "my_force_log.csv"
     yield from play_or_pause(person)
