@@ -32,10 +32,10 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
             line = grid.row(align=True)
             for text in cells_of(row):
                 line.label(text=text)
+        layout.operator("bda.show_utilisation")
         layout.prop(settings, "stage_shown")
         for sentence in found.sentences[min(settings.stage_shown, len(found.rows)) - 1]:
             draw_sentence(layout, context, sentence, icon="NONE")
-        layout.operator("bda.show_utilisation")
         for sentence in found.members:
             draw_sentence(layout, context, sentence, icon="NONE")
 
