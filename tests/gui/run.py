@@ -57,7 +57,7 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|(Video )?[Aa]ppend frame \d+"
     r"|(Info: )?Deleted \d+ object"
     r"|(Info|Warning|Error): (30 shards, |Recording to |Stopped after |Baked: )"
-    r"|(Info|Warning|Error): (The recording ended early|Results are in)"
+    r"|(Info|Warning|Error): (The recording ended early|Results are in|4 stages, with tables in )"
 )
 """Lines that Blender writes as it goes, and reports of operators that a job calls."""
 
