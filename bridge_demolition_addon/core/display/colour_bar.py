@@ -56,7 +56,7 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
     since = "of the whole run" if settings.whole_run else "so far"
     if settings.quantity == Quantity.UTILISATION:
-        yield "largest of a shard's connections"
+        yield "worst connection"
     elif settings.quantity == Quantity.DISPLACEMENT:
         if settings.peak:
             yield f"peak {since}"
