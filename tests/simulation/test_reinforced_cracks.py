@@ -14,6 +14,7 @@ from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.structural_changes import keep_changes
+from bridge_demolition_addon.scene.time_scale import curves_of
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)
@@ -46,7 +47,7 @@ def weigh(scene, shares):
     for frame, share in shares.items():
         scene.gravity[2] = -share * GRAVITY
         scene.keyframe_insert("gravity", index=2, frame=frame)
-    for curve in scene.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+    for curve in curves_of(scene.animation_data):
         for each in curve.keyframe_points:
             each.interpolation = "LINEAR"
 
