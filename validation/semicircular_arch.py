@@ -108,8 +108,8 @@ CASE = Case(
     group=EXACT,
     asked=f"{COUNT} voussoirs that only touch each other stand as a semicircle, if it is thick enough: t/R at least "
     "0.1075.",
-    left_out="Crushing of the edges. Bullet's contacts creep: arches that stand sink by 2 cm in a second with sub-steps "
-    "of 0.26 ms, and by four times that with 1 ms.",
+    left_out="Crushing of the edges. Bullet's contacts creep: arches that stand sink by 2 cm in a second with "
+    "sub-steps of 0.26 ms, and by four times that with 1 ms.",
     source="M. Milankovitch 1904 and 1907, 0.10746; 0.1075 for 20 voussoirs by a linear program, without sliding.",
     reason="The thicknesses are 0.005 apart; the threshold may be up to 7 % too large, as contacts sink.",
     run=run,
