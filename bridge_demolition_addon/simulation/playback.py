@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 
+import bpy
+
 from ..core.errors import SimulationError
 from ..core.sequence.rest import Rest
 from ..scene.world import start_over
@@ -44,13 +46,7 @@ class Playing:
         self.recording = recording
         self._rest = stop_at
         self._scene = recording.scene
-        cache = self._scene.rigidbody_world.point_cache
-        last = min(self._scene.frame_end, cache.frame_end)
-        if last <= cache.frame_start + 1:
-            raise SimulationError(
-                f"nothing to play: the last frame, {last}, is not after frame {cache.frame_start + 1}"
-            )
-        self.total = last - cache.frame_start
+        self.total = frames_to_play(self._scene)
         self.done = 0
         self.longest_frame_s = 0.0
         self.seconds = 0.0
@@ -114,3 +110,18 @@ def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
         playing.end()
     if recording.error:
         raise recording.error
+
+
+def frames_to_play(scene: bpy.types.Scene) -> int:
+    """Return how many frames a scene has to play, without the start frame.
+
+    Raises
+    ------
+    SimulationError
+        There are none.
+    """
+    cache = scene.rigidbody_world.point_cache
+    last = min(scene.frame_end, cache.frame_end)
+    if last <= cache.frame_start + 1:
+        raise SimulationError(f"nothing to play: the last frame, {last}, is not after frame {cache.frame_start + 1}")
+    return last - cache.frame_start

@@ -6,7 +6,7 @@ from bpy.props import BoolProperty
 from ...core.errors import DemolitionError, SimulationError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
-from ...simulation.playback import Playing
+from ...simulation.playback import Playing, frames_to_play
 from .. import course, messages
 from ..long_action import LOOKING_ROUND
 from ..operators import Action, Refusing, no_world, other_mode, recording_runs, refused
@@ -91,6 +91,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         try:
             if self.build_anew:
                 self._build(context)
+            frames_to_play(context.scene)  # a recording changes the scene before it is played
             recording = new_recording(context.scene)
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except (DemolitionError, OSError) as error:

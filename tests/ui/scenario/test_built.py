@@ -147,6 +147,18 @@ def test_a_run_that_is_refused_has_changed_no_objects(built, settings, spoilt, s
     assert {each.name: each.session_uid for each in built.data.objects} == before
 
 
+def test_a_run_without_frames_has_changed_no_objects(extension, settings):
+    settings.scenario_path = str(EXAMPLES / "single_span_explosives.toml")
+    extension.ops.bda.load_scenario()
+    settings.scenario.fracture.shards = 8
+    extension.ops.bda.build_scenario()
+    extension.context.scene.frame_end = 1
+    before = set(extension.data.objects.keys())
+    with pytest.raises(RuntimeError, match="nothing to play: the last frame, 1"):
+        extension.ops.bda.run()
+    assert set(extension.data.objects.keys()) == before
+
+
 def test_build_anew_leaves_everything_where_it_is_refused(built, settings):
     settings.scenario.ball.target_m = (1000.0, 0.0)
     before = sorted(each.name for each in built.data.objects)
