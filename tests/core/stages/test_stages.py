@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from places import EXAMPLES
+from scenarios import I235
 from stage_beams import (
     DENSITY_KG_M3,
     DEPTH_M,
@@ -19,8 +20,10 @@ from stage_beams import (
 )
 
 from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.sequence.checked_model import checked_model
+from bridge_demolition_addon.core.stages.made_elastic import made_elastic
 from bridge_demolition_addon.core.stages.stages import criticality, reactions_n
 from bridge_demolition_addon.core.stages.standing import StandingBridge
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
@@ -159,3 +162,8 @@ def test_wrong_equipment_is_refused_in_words(tmp_path, change, said, capfd):
     path, output = beam_file(tmp_path, 4.0, more=EXCAVATOR.replace(*change)), tmp_path / "out"
     assert main(["stages", str(path), "--output", str(output), "--quiet"]) == 2
     assert said in capfd.readouterr().err and not output.exists()
+
+
+def test_connections_that_cannot_be_elastic_are_refused_by_what_they_are_needed_for():
+    with pytest.raises(ScenarioError, match=r'how a bridge rests .* connections.method is "vertex": expected "face"'):
+        made_elastic(I235)
