@@ -56,7 +56,7 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Time: \d+:\d\d\.\d\d \(Saving: "
     r"|(Video )?[Aa]ppend frame \d+"
     r"|(Info: )?Deleted \d+ object"
-    r"|(Info|Warning|Error): (30 shards, |Recording to |Stopped after |Baked: )"
+    r"|(Info|Warning|Error): (30 shards, |Recording to |Stopped after |Baked: |\d+ clouds of dust)"
     r"|(Info|Warning|Error): (The recording ended early|Results are in|4 stages, with tables in )"
 )
 """Lines that Blender writes as it goes, and reports of operators that a job calls."""
