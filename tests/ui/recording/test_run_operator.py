@@ -183,6 +183,7 @@ def test_a_run_of_a_scenario_is_told_of_as_on_the_command_line(extension, tmp_pa
     extension.ops.bda.load_scenario()
     settings.scenario.fracture.shards = 20
     settings.scenario.time.duration_s = 0.5
+    settings.scenario.connections.warm_up_s = 0.2
     extension.ops.bda.build_scenario()
     settings.output_directory = str(tmp_path / "results")
     extension.ops.bda.run()
