@@ -198,6 +198,7 @@ def test_a_single_shard(build):
         masses_kg=MODEL.masses_kg[:1],
         centres_m=MODEL.centres_m[:1],
         member_of_shard=MODEL.member_of_shard[:1],
+        fixed=MODEL.fixed[:1],
         connections=type(MODEL.connections)(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.zeros((0, 3))),
         joint_of_connection=np.zeros(0, int),
         second_moments_m4=np.zeros((0, 2, 2)),

@@ -68,6 +68,7 @@ def test_last_event():
     detonations = [explosive.blast.start_s + charge.delay_s for charge in explosive.charges]
     assert last_event_s(replace(explosive, ball=None)) == max(detonations) > 0.0
     quiet = replace(explosive.blast, explosion=False)
-    assert last_event_s(replace(explosive, ball=None, blast=quiet)) == 0.2  # its warm-up
+    warmed_up = replace(explosive.connections, warm_up_s=0.2)
+    assert last_event_s(replace(explosive, ball=None, blast=quiet, connections=warmed_up)) == 0.2
     hit = BallHit(lift_time_s=2, lift_duration_s=1, release_time_s=3.5, target_m=(6, 0), drop_height_m=4.903325)
     assert last_event_s(replace(I235, ball=replace(I235.ball, hits=[hit]))) == pytest.approx(4.5)
