@@ -75,6 +75,7 @@ def set_up(person: Person, panels: Panels) -> Steps:
     yield from person.click("bda.add_table")
     yield 0.5
     yield from person.picture("empty_table")
+    yield from person.hover("highest")  # scrolls, as the lower edge of the sidebar may cut the first field
     yield from person.click("key")
     yield from person.replace_text(HEIGHT_KEY)
     yield 1.0  # Blender looks for what it proposes
