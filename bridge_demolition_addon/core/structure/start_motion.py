@@ -17,8 +17,10 @@ def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray,
     Of members in several files, the first says how they move. Shards that are held do not.
     """
     velocities, spins = np.zeros((2, len(model.shards), 3))
-    for table in reversed(tables):
-        shards = np.flatnonzero([model.members[row].name == table.name for row in model.member_of_shard])
+    names = np.array([member.name for member in model.members])[model.member_of_shard]
+    first_of_each = {table.name: table for table in reversed(tables)}
+    for table in (each for each in first_of_each.values() if each.is_moving):
+        shards = np.flatnonzero(names == table.name)
         masses, centres = model.masses_kg[shards, None], model.centres_m[shards]
         spins[shards] = table.spin_rad_s
         arms = centres - (masses * centres).sum(axis=0) / masses.sum()

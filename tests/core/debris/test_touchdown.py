@@ -5,6 +5,7 @@ import pytest
 from moving_boxes import moving_boxes
 
 from bridge_demolition_addon.core.debris.touchdown import landings, shaking_at, touchdown_velocity
+from bridge_demolition_addon.core.debris.vibration_limits import reached
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
 
 
@@ -57,6 +58,16 @@ def test_the_nearer_of_two_equal_landings_shakes_most():
     landed = landings(falling([5.0, 5.0], [0.0, 0.5], [[40.0, 0, 0], [10.0, 0, 0]]))
     assert shaking_at(np.zeros(3), landed).time_s > 0.5
     assert shaking_at(np.array([50.0, 0.0, 0.0]), landed).time_s < 1.1
+
+
+@pytest.mark.parametrize(
+    "velocity_mm_s, reached_mm_s",
+    [(2.9, []), (3.0, [3]), (5.0, [3, 5]), (14.9, [3, 5]), (19.9, [3, 5, 15]), (50.0, [3, 5, 15, 20, 50])],
+)
+def test_limits_are_those_of_the_codes_at_low_frequency(velocity_mm_s, reached_mm_s):
+    """DIN 4150-3, table 1, below 10 Hz: 3, 5 and 20 mm/s; BS 7385-2 at 4 Hz: 15 and 50 mm/s."""
+    found = [1e3 * each.velocity_m_s for each in reached(1e-3 * velocity_mm_s)]
+    assert found == pytest.approx(reached_mm_s)
 
 
 def test_what_still_falls_or_only_settles_does_not_land():
