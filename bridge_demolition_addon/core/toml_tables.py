@@ -10,9 +10,11 @@ import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any, TypeVar
 
-from .errors import ScenarioError
+from .errors import ScenarioError, UnreadableError
+from .reading import MEGABYTE, file_text
 from .schema import (
     Table,
     expected,
@@ -32,6 +34,21 @@ LIKENESS = 0.68
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
 _Root = TypeVar("_Root", bound=Table)
+
+
+def document_of_file(path: Path, what: str, most_bytes: int = MEGABYTE) -> dict[str, Any]:
+    """Return what a TOML file says.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, is larger than that or is not TOML. The text does not name it.
+    """
+    try:
+        text = file_text(path, most_bytes)
+    except UnreadableError as error:
+        raise ScenarioError(f"{error}: expected {what} in TOML") from error
+    return toml_document(text)
 
 
 def toml_document(text: str) -> dict[str, Any]:

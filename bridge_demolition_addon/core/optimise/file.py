@@ -7,8 +7,7 @@ from dataclasses import dataclass, fields, replace
 from os import PathLike, fspath
 from pathlib import Path
 
-from ..errors import ScenarioError, UnreadableError
-from ..reading import MEGABYTE, file_text
+from ..errors import ScenarioError
 from ..results.files import SCENARIO_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
@@ -17,12 +16,11 @@ from ..study.draws import Draw, draw_of
 from ..study.file import Study, variations_of
 from ..study.keys import changed
 from ..study.settings import StudySettings
-from ..toml_tables import table_of_document, tables_text, toml_document
+from ..toml_tables import document_of_file, table_of_document, tables_text
 from .files import OPTIMISE_FILE
 from .settings import OptimiseSettings
 from .space import Space, space_of
 
-_MOST_BYTES = MEGABYTE
 _PASSED_ON = ("scenario", "seed", "least_mass_kg", "time_limit_s", "memory_limit_mb", "vary", "criteria")
 """Settings that an optimisation has in common with a study."""
 
@@ -92,7 +90,7 @@ def read_optimisation(path: str | PathLike[str]) -> Optimisation:
     """
     path = Path(path)
     try:
-        settings = table_of_document(OptimiseSettings, toml_document(_file_text(path)))
+        settings = table_of_document(OptimiseSettings, document_of_file(path, "an optimisation"))
         return optimisation_of(settings, read_scenario(path.parent / settings.scenario))
     except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
@@ -124,10 +122,3 @@ def _check_objective(settings: OptimiseSettings, scenario: Scenario) -> None:
         raise settings.unexpected("objective", "another one, as the scenario has no charges that go off")
     if settings.neighbour is not None and settings.neighbour not in [each.name for each in scenario.neighbours]:
         raise settings.unexpected("neighbour", "the name of one of [[neighbours]] of the scenario")
-
-
-def _file_text(path: Path) -> str:
-    try:
-        return file_text(path, _MOST_BYTES)
-    except UnreadableError as error:
-        raise ScenarioError(f"{error}: expected an optimisation in TOML") from error

@@ -8,10 +8,10 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from ..errors import ScenarioError, UnreadableError
-from ..reading import MEGABYTE, file_text
+from ..errors import ScenarioError
+from ..reading import MEGABYTE
 from ..schema import shown
-from ..toml_tables import table_of_document, tables_text, toml_document
+from ..toml_tables import document_of_file, table_of_document, tables_text, toml_document
 from .scenario import Scenario
 
 PATHS = (("geometry", "file"), ("fracture", "points_file"), ("fracture", "painted_file"))
@@ -66,16 +66,9 @@ def scenario_text(scenario: Scenario) -> str:
     return tables_text(scenario)
 
 
-def _file_text(path: Path) -> str:
-    try:
-        return file_text(path, MOST_BYTES)
-    except UnreadableError as error:
-        raise ScenarioError(f"{error}: expected a scenario in TOML") from error
-
-
 def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
     """Return what a file says with all that it is based on; it must not be one of its own variants."""
-    document = toml_document(_file_text(path))
+    document = document_of_file(path, "a scenario", MOST_BYTES)
     _make_paths_absolute(path.parent, document)
     name, without = take_based_on(document)
     if name is None:

@@ -6,8 +6,7 @@ from dataclasses import dataclass, fields, replace
 from os import PathLike, fspath
 from pathlib import Path
 
-from ..errors import ScenarioError, UnreadableError
-from ..reading import MEGABYTE, file_text
+from ..errors import ScenarioError
 from ..results.files import SCENARIO_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
@@ -16,12 +15,11 @@ from ..study.draws import Draw, draw_of
 from ..study.file import SEED, Study, variations_of
 from ..study.keys import ScenarioKey, changed, keys_named
 from ..study.settings import StudySettings
-from ..toml_tables import table_of_document, tables_text, toml_document
+from ..toml_tables import document_of_file, table_of_document, tables_text
 from .files import SEARCH_FILE
 from .scale import Scale
 from .settings import SearchSettings
 
-_MOST_BYTES = MEGABYTE
 _PASSED_ON = ("scenario", "seed", "time_limit_s", "memory_limit_mb", "vary", "criteria")
 """Settings that a search has in common with a study."""
 
@@ -107,7 +105,7 @@ def read_search(path: str | PathLike[str]) -> Search:
     """
     path = Path(path)
     try:
-        settings = table_of_document(SearchSettings, toml_document(_file_text(path)))
+        settings = table_of_document(SearchSettings, document_of_file(path, "a search"))
         return search_of(settings, read_scenario(path.parent / settings.scenario))
     except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
@@ -140,10 +138,3 @@ def search_of(settings: SearchSettings, scenario: Scenario) -> Search:
     common = {item.name: getattr(settings, item.name) for item in fields(settings) if item.name in _PASSED_ON}
     study = Study(StudySettings(runs=settings.trials, **common), scenario, variations)
     return Search(settings, study, keys)
-
-
-def _file_text(path: Path) -> str:
-    try:
-        return file_text(path, _MOST_BYTES)
-    except UnreadableError as error:
-        raise ScenarioError(f"{error}: expected a search in TOML") from error

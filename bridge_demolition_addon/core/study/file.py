@@ -8,22 +8,18 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from ..errors import ScenarioError, UnreadableError
-from ..reading import MEGABYTE, file_text
+from ..errors import ScenarioError
 from ..results.files import SCENARIO_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown
-from ..toml_tables import table_of_document, tables_text, toml_document
+from ..toml_tables import document_of_file, table_of_document, tables_text
 from .criteria import Criterion, check_criteria
 from .distributions import Distribution
 from .files import STUDY_FILE
 from .keys import ScenarioKey, changed, keys_named
 from .settings import StudySettings, Vary
 from .statements import check_runs
-
-MOST_BYTES = MEGABYTE
-"""Size up to which a study file is read."""
 
 SEED = f"{Scenario.table}.seed"
 """Key that each run draws, and that no table varies."""
@@ -108,7 +104,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     """
     path = Path(path)
     try:
-        settings = table_of_document(StudySettings, toml_document(_file_text(path)))
+        settings = table_of_document(StudySettings, document_of_file(path, "a study"))
         scenario = read_scenario(path.parent / settings.scenario)
         return study_of(settings, scenario)
     except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
@@ -146,13 +142,6 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
             raise ScenarioError(f"[[{Vary.table}]] number {number}: {error}") from error
         variations |= {each.key.name: each for each in found}
     return tuple(variations.values())
-
-
-def _file_text(path: Path) -> str:
-    try:
-        return file_text(path, MOST_BYTES)
-    except UnreadableError as error:
-        raise ScenarioError(f"{error}: expected a study in TOML") from error
 
 
 def _variations(scenario: Scenario, vary: Vary) -> list[Variation]:
