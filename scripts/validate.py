@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run the cases of the validation and write docs/validation.md, with a picture for each.
 
-Named ones are run alone and printed; the document is written when all are run. Each case writes scenarios with their
-meshes into a folder, so that `bda run` repeats any of them.
+Named ones are run alone and printed; `--keep` writes what they came to into the document, which is otherwise done when
+all are run. Each case writes scenarios with their meshes into a folder, so that `bda run` repeats any of them.
 """
 
 import argparse
 import importlib
+import json
 import sys
 import tempfile
 import time
 from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
@@ -20,63 +22,126 @@ from case import GROUPS, Case, Comparison, Found
 from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parent.parent
-CASES = ("falling_rod", "rocking_block", "sliding_block", "semicircular_arch", "breaking_tower")
+CASES = (
+    # exact answers
+    "falling_rod",
+    "rocking_block",
+    "sliding_block",
+    "semicircular_arch",
+    "breaking_tower",
+    # published formulas
+    # measurements
+)
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
+KEPT = ROOT / "docs" / "data" / "validation"
+"""What each case came to when it was kept last, in a file of its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a case came to, and how many seconds that took."""
+
+    case: Case
+    comparisons: Sequence[Comparison]
+    seconds: float
+
+    @property
+    def is_met(self) -> bool:
+        """Whether everything in it is as it should be."""
+        return all(each.is_met for each in self.comparisons)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is asked for; the exit status is 1 where something is not as it should be."""
     options = _arguments(arguments)
-    names = options.cases or CASES
+    names = [] if options.page else options.cases or CASES
+    is_kept = options.keep or tuple(names) == CASES
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.output or Path(temporary)
-        outcomes = [(case, *_run(case, folder)) for case in map(_case, names)]
-    for case, found, seconds in outcomes:
-        print(f"{case.title} ({seconds:.0f} s)")
-        for each in found.comparisons:
-            print("  " + "  ".join(_cells(each)))
-    if tuple(names) == CASES:
-        _write(outcomes)
-    return 0 if all(each.is_met for _, found, _ in outcomes for each in found.comparisons) else 1
+        outcomes = [_run(case_named(name), folder, is_kept=is_kept) for name in names]
+    if is_kept or options.page:
+        DOCUMENT.write_text(page([kept(name) for name in CASES]), encoding="utf-8")
+    return 0 if all(each.is_met for each in outcomes) else 1
 
 
 def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="validate", description=__doc__.splitlines()[0])
     parser.add_argument("cases", nargs="*", choices=[[], *CASES], metavar="CASE", help="cases: " + ", ".join(CASES))
     parser.add_argument("--output", type=Path, metavar="DIR", help="keep scenarios and results here")
+    parser.add_argument("--keep", action="store_true", help="write what the named cases come to into the document")
+    parser.add_argument("--page", action="store_true", help="write the document anew from what was kept; run nothing")
     return parser.parse_args(arguments)
 
 
-def _case(name: str) -> Case:
+def case_named(name: str) -> Case:
+    """Return the case in the module of a name."""
     return importlib.import_module(name).CASE
 
 
-def _run(case: Case, folder: Path) -> tuple[Found, float]:
+def _run(case: Case, folder: Path, *, is_kept: bool) -> Outcome:
+    """Run a case and print what it came to; keep that and its picture."""
     began = time.perf_counter()
-    return case.run(folder / case.name), time.perf_counter() - began
+    found = case.run(folder / case.name)
+    outcome = Outcome(case, found.comparisons, time.perf_counter() - began)
+    print(f"{case.title} ({outcome.seconds:.0f} s)")
+    for each in found.comparisons:
+        print("  " + "  ".join(_cells(each)), flush=True)
+    if is_kept:
+        _draw(found, PICTURES / f"{case.name}.png")
+        _keep(outcome)
+    return outcome
 
 
-def _write(outcomes: Sequence[tuple[Case, Found, float]]) -> None:
-    """Write the document and the pictures."""
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    lines = [_HEAD]
+def _keep(outcome: Outcome) -> None:
+    rows = [asdict(each) for each in outcome.comparisons]
+    text = json.dumps({"seconds": round(outcome.seconds, 1), "comparisons": rows}, indent=1, ensure_ascii=False)
+    KEPT.mkdir(parents=True, exist_ok=True)
+    (KEPT / f"{outcome.case.name}.json").write_text(text + "\n", encoding="utf-8")
+
+
+def kept(name: str) -> Outcome:
+    """Return what a case came to when it was kept last."""
+    data = json.loads((KEPT / f"{name}.json").read_text(encoding="utf-8"))
+    comparisons = [Comparison(**{**row, "expected": _expected(row["expected"])}) for row in data["comparisons"]]
+    return Outcome(case_named(name), comparisons, data["seconds"])
+
+
+def _expected(value: float | list[float]) -> float | tuple[float, ...]:
+    return tuple(value) if isinstance(value, list) else value
+
+
+def page(outcomes: Sequence[Outcome]) -> str:
+    """Return the document."""
+    lines = [_HEAD, "| case | group | held against | within |", "| --- | --- | --- | --- |"]
+    for each in outcomes:
+        met = sum(comparison.is_met for comparison in each.comparisons)
+        title = f"[{each.case.title}](#{_anchor(each.case.title)})"
+        lines.append(f"| {title} | {each.case.group} | {len(each.comparisons)} | {met} |")
+    minutes = sum(each.seconds for each in outcomes) / 60.0
+    lines += ["", f"All of them take {minutes:.0f} minutes.", ""]
     for group in GROUPS:
-        members = [each for each in outcomes if each[0].group == group]
+        members = [each for each in outcomes if each.case.group == group]
         lines += [f"## {group}", ""] if members else []
-        for case, found, seconds in members:
-            _draw(found, PICTURES / f"{case.name}.png")
-            lines += _section(case, found, seconds)
-    DOCUMENT.write_text("\n".join(lines), encoding="utf-8")
+        for each in members:
+            lines += _section(each)
+    return "\n".join(lines)
+
+
+def _anchor(title: str) -> str:
+    """Return the anchor of a heading, as GitHub makes it."""
+    return "".join(each for each in title.lower() if each.isalnum() or each in " -").replace(" ", "-")
 
 
 def _draw(found: Found, path: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
     figure = Figure(figsize=(7.0, 3.6), layout="constrained")
     found.draw(figure)
     figure.savefig(path, dpi=130)
 
 
-def _section(case: Case, found: Found, seconds: float) -> list[str]:
-    rows = [f"| {' | '.join(_cells(each))} |" for each in found.comparisons]
+def _section(outcome: Outcome) -> list[str]:
+    case, seconds = outcome.case, outcome.seconds
+    rows = [f"| {' | '.join(_cells(each))} |" for each in outcome.comparisons]
     return [
         f"### {case.title}",
         "",
@@ -116,8 +181,8 @@ def _cells(comparison: Comparison) -> tuple[str, ...]:
 _HEAD = """# Validation
 
 Cases with a known answer, side by side with what this add-on makes of them. `scripts/validate` runs them and writes
-this page. Exact answers, published formulas and measurements are kept apart; so far there are exact answers alone. What
-the model leaves out stands before the numbers. A case that misses stays in.
+this page. Exact answers, published formulas and measurements are kept apart. What the model leaves out stands before
+the numbers. A case that misses stays in.
 
 Bodies are rigid, and contacts are Bullet's: damping is off in all cases, and edges are sharp.
 """
