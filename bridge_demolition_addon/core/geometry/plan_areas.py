@@ -9,18 +9,19 @@ from manifold3d import CrossSection, OpType
 
 from .vectors import cross_2d, distance, dot
 
+FEWEST_CORNERS = 3
+
+_UNITED_AT_ONCE = 8
+
+_PAIRS_PER_BLOCK = 200_000
+"""Pairs of point and side that `distances_outside` looks at in one go; bounds its memory to some tens of megabytes."""
+
 
 def signed_area(corners: np.ndarray) -> np.ndarray:
     """Areas (...) within polygons (..., k, 2), negative where the corners run clockwise (Gauss's shoelace formula)."""
     # From the first corner, because a small polygon far from the origin would lose its area in rounding.
     arms = corners - corners[..., :1, :]
     return cross_2d(arms, np.roll(arms, -1, axis=-2)).sum(axis=-1) / 2.0
-
-
-_UNITED_AT_ONCE = 8
-
-_PAIRS_PER_BLOCK = 200_000
-"""Pairs of point and side that `distances_outside` looks at in one go; bounds its memory to some tens of megabytes."""
 
 
 def united(areas: Iterable[CrossSection]) -> CrossSection:
@@ -82,3 +83,33 @@ def _windings(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.nd
     rises = (starts[:, 1] <= heights) & (heights < ends[:, 1]) & (is_left > 0.0)
     falls = (ends[:, 1] <= heights) & (heights < starts[:, 1]) & (is_left < 0.0)
     return rises.sum(axis=1) - falls.sum(axis=1)
+
+
+def sides_cross(corners: np.ndarray) -> bool:
+    """Whether two sides of a polygon (k, 2) that are not neighbours meet, or it has no area."""
+    ends = np.roll(corners, -1, axis=0)
+    if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.square(np.ptp(corners, axis=0).max()))):
+        return True
+    count = len(corners)
+    return any(
+        _meet(corners[i], ends[i], corners[j], ends[j])
+        for i in range(count)
+        for j in range(i + 2, count)
+        if (i, j) != (0, count - 1)
+    )
+
+
+def _meet(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> bool:
+    """Return whether the segments from a to b and from c to d have a point in common; all (2,) float."""
+
+    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> float:
+        return float(np.sign(cross_2d(q - p, r - p)))
+
+    def within(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> bool:
+        return bool(((np.minimum(p, q) <= r) & (r <= np.maximum(p, q))).all())
+
+    first, second, third, fourth = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+    if first != second and third != fourth:
+        return True
+    on_line = ((first, a, b, c), (second, a, b, d), (third, c, d, a), (fourth, c, d, b))
+    return any(turn == 0.0 and within(p, q, r) for turn, p, q, r in on_line)

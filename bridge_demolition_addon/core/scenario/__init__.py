@@ -9,7 +9,7 @@ from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
 from ..mechanics.materials import Material
 from .ball import Ball, BallCable, BallHit
-from .bodies import Equipment, Ground, ShardSettings, Support
+from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
 from .connections import ConnectionBetween, ConnectionSettings
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
@@ -42,6 +42,7 @@ __all__ = [
     "Geometry",
     "Girders",
     "Ground",
+    "GroundSurface",
     "Jackhammer",
     "Material",
     "MemberFracture",

@@ -3,7 +3,11 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..schema import Table, key
+import numpy as np
+
+from ..errors import ScenarioError
+from ..geometry.plan_areas import FEWEST_CORNERS, sides_cross
+from ..schema import FARTHEST_M, SHORTEST_LENGTH_M, Table, check_exactly_one, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,14 +25,111 @@ class Support(Table):
     )
 
 
+_AXES = 3
+
+SURFACE_KINDS = ("water", "river bank", "carriageway", "railway", "other")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GroundSurface(Table):
+    """A second surface that never moves, such as water, a river bank or the carriageway below: level within an outline,
+    or a mesh. Debris on it is counted by itself. Water is as hard as all else: nothing sinks in it."""
+
+    table: ClassVar[str] = "ground.surfaces"
+
+    name: str = key("What it is called in reports; a name of its own for each.")
+    kind: str = key("What it is.", default="other", choices=SURFACE_KINDS)
+    height_m: float | None = key(
+        "Height of a level surface. Give this, with `corners_m`, or `file`.",
+        default=None,
+        unit="m",
+        at_least=-FARTHEST_M,
+        at_most=FARTHEST_M,
+    )
+    corners_m: tuple[tuple[float, float], ...] | None = key(
+        "Corners of a level surface in plan, x and y of each, in order around it; three or more.",
+        default=None,
+        unit="m",
+    )
+    file: str | None = key(
+        "Path of a mesh in place of a level surface: STL, OBJ, PLY, GLB or LandXML, with the `origin`, `bearing_deg`, "
+        "`scale` and `up` of `ground`.",
+        default=None,
+    )
+    friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+
+    def _check_together(self) -> None:
+        check_exactly_one(self, "height_m", "file")
+        if (self.corners_m is None) != (self.height_m is None):
+            raise ScenarioError(
+                "ground.surfaces.corners_m and ground.surfaces.height_m: expected both, of a level surface, or neither"
+            )
+        if self.corners_m is None:
+            return
+        if len(self.corners_m) < FEWEST_CORNERS:
+            wanted = f"expected at least {FEWEST_CORNERS}"
+            raise ScenarioError(f"ground.surfaces.corners_m has {len(self.corners_m)} places: {wanted}")
+        if sides_cross(np.array(self.corners_m)):
+            raise ScenarioError(
+                "ground.surfaces.corners_m: sides cross or touch each other; expected corners in order around it"
+            )
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ground(Table):
-    """The ground: flat and unyielding."""
+    """The ground: unyielding, and flat at height 0 or as a file has it. Columns and abutments reach down to it."""
 
     table: ClassVar[str] = "ground"
 
+    file: str | None = key(
+        "Path of the terrain: a mesh (STL, OBJ, PLY, GLB), an ESRI ASCII grid (ASC), points (XYZ, CSV, TXT), a LandXML "
+        "surface (XML) or a GeoTIFF (TIF). Without it the ground is flat.",
+        default=None,
+    )
+    origin: tuple[float, ...] | None = key(
+        "Where the origin of the scenario lies in the file, in its own units: easting, northing and height; by default "
+        "0, 0, 0.",
+        default=None,
+    )
+    bearing_deg: float | None = key(
+        "Direction of the x axis in the file, clockwise from its north; by default `site.bearing_deg`, or 90: x runs "
+        "east.",
+        default=None,
+        unit="°",
+        at_least=-360,
+        at_most=360,
+    )
+    scale: float = key("Metres in one unit of the file: 0.3048 for feet.", default=1.0, above=0)
+    up: str | None = key(
+        "Axis of a mesh file that points up; by default `y` for GLB, and `z` for all others.",
+        default=None,
+        choices=("y", "z"),
+    )
+    no_data: float | None = key(
+        "Height that stands for no data in a grid; by default what the file says, and all that is no number.",
+        default=None,
+    )
+    tolerance_m: float = key(
+        "How far the ground may lie above or below the file's heights where it is made of fewer triangles.",
+        default=0.05,
+        unit="m",
+        at_least=SHORTEST_LENGTH_M,
+        at_most=10,
+    )
     friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
     restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    surfaces: tuple[GroundSurface, ...] = ()
+
+    def _check_together(self) -> None:
+        if self.origin is not None and len(self.origin) != _AXES:
+            raise self.unexpected("origin", "3 numbers: easting, northing and height")
+        names = [each.name for each in self.surfaces]
+        for name in names:
+            if names.count(name) > 1:
+                raise ScenarioError(
+                    f'ground.surfaces.name is "{name}" for {names.count(name)} surfaces: expected one each'
+                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,7 @@
 A file may be a variant, which only says how it differs from the file that it is based on.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,13 @@ from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text, toml_document
 from .scenario import Scenario
 
-PATHS = (("geometry", "file"), ("fracture", "points_file"), ("fracture", "painted_file"))
+PATHS = (
+    ("geometry", "file"),
+    ("fracture", "points_file"),
+    ("fracture", "painted_file"),
+    ("ground", "file"),
+    ("ground.surfaces", "file"),
+)
 """Table and key of every path of another file."""
 
 BASED_ON = "based_on"
@@ -66,6 +72,16 @@ def scenario_text(scenario: Scenario) -> str:
     return tables_text(scenario)
 
 
+def files_of(scenario: Scenario) -> Iterator[Path]:
+    """Give the paths of all other files that a scenario names, in the order of `PATHS`."""
+    for name, key in PATHS:
+        tables: list[Any] = [scenario]
+        for step in name.split("."):
+            found = [getattr(each, step) for each in tables]
+            tables = [inner for each in found for inner in (each if isinstance(each, tuple) else [each])]
+        yield from (Path(path) for each in tables if (path := getattr(each, key)))
+
+
 def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
     """Return what a file says with all that it is based on; it must not be one of its own variants."""
     document = document_of_file(path, "a scenario", MOST_BYTES)
@@ -89,10 +105,21 @@ def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, 
 def _make_paths_absolute(folder: Path, document: dict[str, Any]) -> None:
     """Make the paths of other files absolute: they are given from the folder of this file."""
     for table, key in PATHS:
-        tables = document.get(table)
-        for each in tables if isinstance(tables, list) else [tables]:
-            if isinstance(each, dict) and isinstance(each.get(key), str) and each[key].strip():
+        for each in _tables_in(document, table.split(".")):
+            if isinstance(each.get(key), str) and each[key].strip():
                 each[key] = _absolute(folder, each[key])
+
+
+def _tables_in(table: Any, path: list[str]) -> Iterator[dict[str, Any]]:
+    """Give all tables of a document to which a path of names leads, through lists of tables as well."""
+    if isinstance(table, list):
+        for each in table:
+            yield from _tables_in(each, path)
+    elif isinstance(table, dict):
+        if path:
+            yield from _tables_in(table.get(path[0]), path[1:])
+        else:
+            yield table
 
 
 def _absolute(folder: Path, path: str) -> str:

@@ -6,13 +6,10 @@ from typing import ClassVar
 import numpy as np
 
 from ..errors import ScenarioError
-from ..geometry.plan_areas import signed_area
-from ..geometry.vectors import cross_2d
+from ..geometry.plan_areas import FEWEST_CORNERS, sides_cross
 from ..schema import Table, key
 
 ZONE_KINDS = ("road", "railway", "power line", "pipeline", "building", "water", "other")
-
-FEWEST_CORNERS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +32,7 @@ class Zone(Table):
     def _check_together(self) -> None:
         if len(self.corners_m) < FEWEST_CORNERS:
             raise ScenarioError(f"zones.corners_m has {len(self.corners_m)} places: expected at least {FEWEST_CORNERS}")
-        if _sides_cross(np.array(self.corners_m)):
+        if sides_cross(np.array(self.corners_m)):
             raise ScenarioError(
                 "zones.corners_m: sides cross or touch each other; expected corners in order around the zone"
             )
@@ -85,33 +82,3 @@ class Neighbour(Table):
 
     name: str = key("What it is called in the report.")
     place_m: tuple[float, float, float] = key("Where it is: x, y, z.", unit="m")
-
-
-def _sides_cross(corners: np.ndarray) -> bool:
-    """Return whether two sides of a polygon (k, 2) that are not neighbours meet, or it has no area."""
-    ends = np.roll(corners, -1, axis=0)
-    if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.square(np.ptp(corners, axis=0).max()))):
-        return True
-    count = len(corners)
-    return any(
-        _meet(corners[i], ends[i], corners[j], ends[j])
-        for i in range(count)
-        for j in range(i + 2, count)
-        if (i, j) != (0, count - 1)
-    )
-
-
-def _meet(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> bool:
-    """Return whether the segments from a to b and from c to d have a point in common; all (2,) float."""
-
-    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> float:
-        return float(np.sign(cross_2d(q - p, r - p)))
-
-    def within(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> bool:
-        return bool(((np.minimum(p, q) <= r) & (r <= np.maximum(p, q))).all())
-
-    first, second, third, fourth = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
-    if first != second and third != fourth:
-        return True
-    on_line = ((first, a, b, c), (second, a, b, d), (third, c, d, a), (fourth, c, d, b))
-    return any(turn == 0.0 and within(p, q, r) for turn, p, q, r in on_line)

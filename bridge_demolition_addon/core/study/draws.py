@@ -11,14 +11,13 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import ScenarioError
 from ..scenario import Scenario
-from ..scenario.file import PATHS, scenario_text
+from ..scenario.file import files_of, scenario_text
 from .file import SEED, Study, Variation
 from .keys import changed
 
@@ -110,14 +109,11 @@ def _judged_by(study: Study) -> str:
 def _files_of(scenario: Scenario) -> list[str]:
     """Return digests of the files that a scenario names."""
     digests = []
-    for table, key in PATHS:
-        tables = getattr(scenario, table)
-        for each in tables if isinstance(tables, tuple) else [tables]:
-            if path := getattr(each, key):
-                try:
-                    digests.append(_digest(Path(path).read_bytes()).hex())
-                except OSError as error:
-                    raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
+    for path in files_of(scenario):
+        try:
+            digests.append(_digest(path.read_bytes()).hex())
+        except OSError as error:
+            raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
     return digests
 
 
