@@ -15,7 +15,6 @@ from ..core.scenario import (
     Ball,
     BallCable,
     Bridge,
-    Change,
     ConnectionBetween,
     ConnectionSettings,
     Scenario,
@@ -24,6 +23,7 @@ from ..core.scenario import (
 from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..core.scenario.file import read_scenario
 from ..core.sequence.checked_model import checked_model
+from ..core.sequence.loads import placed_on_model
 from ..core.stages.made_elastic import made_elastic
 from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
 from ..core.structure.model import Model
@@ -84,6 +84,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
     if scenario.changes or scenario.jackhammers:
         yield from _section("Sequence", _sequence_facts(scenario))
+    if scenario.loads:
+        yield from _section("Loads", _load_facts(scenario, model))
     if scenario.charges:
         yield from _section("Charges", _charge_facts(scenario))
 
@@ -240,7 +242,7 @@ def _ball_facts(ball: Ball, time: TimeSettings) -> Iterator[tuple[str, str]]:
 
 def _sequence_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
     """Yield what is planned besides hits and charges, in order of time."""
-    steps = [(change.time_s, f"{change.kind}, {_where(change)}") for change in scenario.changes]
+    steps = [(change.time_s, f"{change.kind}, {change.where or 'everywhere'}") for change in scenario.changes]
     for hammer in scenario.jackhammers:
         work = f"jackhammer until {hammer.end_time_s:g} s, at up to {hammer.largest_speed_m_s:.1f} m/s"
         steps.append((hammer.start_time_s, work))
@@ -248,11 +250,20 @@ def _sequence_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
         yield f"{time_s:.3f} s", text
 
 
-def _where(change: Change) -> str:
-    members = ", ".join(change.members) if change.members else ""
-    corners = zip(change.lowest_corner_m or (), change.highest_corner_m or (), strict=True)
-    box = " by ".join(f"{low:g} to {high:g}" for low, high in corners)
-    return " in ".join(part for part in (members, box and f"{box} m") if part) or "everywhere"
+def _load_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
+    """Yield how large each load becomes, on how many shards."""
+    for number, placed in enumerate(placed_on_model(scenario.loads, model), start=1):
+        load = placed.load
+        course = ", ".join(
+            f"{force_n / 1000.0:g} kN at {time_s:g} s"
+            for time_s, force_n in zip(load.times_s, load.forces_n, strict=True)
+        )
+        names = sorted({model.members[row].name for row in model.member_of_shard[placed.bodies]})
+        yield f"load {number}", f"{course}, towards ({', '.join(f'{each:g}' for each in load.direction)})"
+        point = "" if load.point_m is None else f" at ({', '.join(f'{each:g}' for each in load.point_m)}) m"
+        count, mass_kg = len(placed.bodies), model.masses_kg[placed.bodies].sum()
+        borne = f"{count} shards" if count > 1 else "a shard"
+        yield "", f"on {borne} of {', '.join(names)}{point}, together {mass_kg / 1000.0:.3f} t"
 
 
 def _swing_facts(ball: Ball, cable: BallCable) -> Iterator[tuple[str, str]]:

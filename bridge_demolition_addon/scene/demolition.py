@@ -24,7 +24,7 @@ from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
 from .start_motion import keep_start_motion
-from .structural_changes import keep_changes
+from .structural_changes import keep_changes, keep_loads
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball, create_hits
 from .tools.cable import create_cable
@@ -98,6 +98,7 @@ def _build(
     joints = scenario.joints
     keep_breaking(scene, _breaking(scenario.connections, joints[0].strength))
     keep_changes(scene, scenario.changes)
+    keep_loads(scene, scenario.loads)
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
         for shard, row in zip(shards, model.member_of_shard, strict=True):

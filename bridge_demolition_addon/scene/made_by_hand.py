@@ -16,7 +16,7 @@ from .connections.breaking_settings import breaking_of
 from .connections.breaking_thresholds import kept_breaking_force
 from .connections.constraints import connections_of
 from .connections.elasticity import damping_ratio_of, is_elastic
-from .structural_changes import changes_of
+from .structural_changes import changes_of, loads_of
 from .time_scale import curves_of
 from .tools.ball import lifts_of
 
@@ -92,6 +92,7 @@ def _parts(scene: bpy.types.Scene) -> Iterator[tuple[str, dict[str, Any]]]:
         },
     )
     yield "removals, saw cuts and weakenings", {"planned": repr(changes_of(scene))}
+    yield "loads", {"planned": repr(loads_of(scene))}
 
 
 def _strengths(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object]) -> dict[str, Any]:

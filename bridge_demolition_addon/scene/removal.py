@@ -12,7 +12,7 @@ from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
-from .structural_changes import keep_changes
+from .structural_changes import keep_changes, keep_loads
 from .time_scale import stop_animation
 from .world import START_FRAME, remove_world
 
@@ -43,6 +43,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     stop_animation(scene)
     keep_breaking(scene, Breaking())
     keep_changes(scene, ())
+    keep_loads(scene, ())
     fields = force_collection(scene)
     if fields and not fields.all_objects:
         bpy.data.collections.remove(fields)

@@ -11,7 +11,7 @@ from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_fac
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionBetween, ConnectionSettings, Geometry
+from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionBetween, ConnectionSettings, Geometry, Load
 from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.core.structure.model import build_model
@@ -201,6 +201,18 @@ def test_a_step_that_concerns_no_member_is_refused_as_by_run(tmp_path, capsys):
     path.write_text(I235_FILE.read_text(encoding="utf-8") + step, encoding="utf-8")
     assert main(["check", str(path)]) == 2
     assert 'weakenings.members names "pear"' in capsys.readouterr().err
+
+
+def test_loads_are_told_with_what_bears_them():
+    course = {"times_s": (0.5, 2), "forces_n": (0, 90_000)}
+    whole, point = Load(members=("deck",), **course), Load(point_m=(6.5, 0, 6), direction=(0, 1, 0), **course)
+    scenario = replace(I235, loads=(whole, point))
+    lines = [" ".join(line.split()) for line in scenario_facts(scenario)]
+    start = lines.index("Loads") + 1
+    assert lines[start] == "load 1 0 kN at 0.5 s, 90 kN at 2 s, towards (0, 0, -1)"
+    deck = lines[lines.index("Members") + 1]  # by volume and density, as the member itself
+    assert deck.startswith("deck") and lines[start + 1] == f"on 129 shards of deck, together {deck.split(' m³ ')[1]}"
+    assert lines[start + 2] == "load 2 0 kN at 0.5 s, 90 kN at 2 s, towards (0, 1, 0)"
 
 
 def test_checking_needs_no_blender():

@@ -30,10 +30,11 @@ from bridge_demolition_addon.core.debris.touchdown import landings, shaking_at
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.folder_lock import FolderLock
 from bridge_demolition_addon.core.results.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
-from bridge_demolition_addon.core.scenario import BallCable, BallHit
+from bridge_demolition_addon.core.scenario import BallCable, BallHit, Load
 from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.report.sections.collapse import collapse_section
 from bridge_demolition_addon.report.sections.cover import cover_section
 from bridge_demolition_addon.report.write import write_report
 
@@ -168,6 +169,14 @@ def test_tables_hold_what_the_results_say(whole):
 def test_loads_beyond_the_one_breaking_force_are_explained(whole):
     _, page, _ = whole
     assert any("√3 times as large" in text for text in page.texts)
+
+
+def test_a_load_is_told_as_large_as_it_was_when_the_bridge_gave_way(tmp_path):
+    """All fall from the first frame on, and the first connections break in the tenth."""
+    load = Load(members=("deck",), times_s=(0, 1), forces_n=(0, 24e3))
+    section = collapse_section(read_run(keep_run(tmp_path / "run", flying_shards(6), replace(I235, loads=(load,)))))
+    (rows,) = (each.rows for each in section.blocks if getattr(each, "name", "") == "collapse")
+    assert rows[-1] == ("Load 1 on deck", "10 kN at the first break; 1 kN as the first shard moved; 24 kN at the end")
 
 
 def test_site_plans_lie_beside_it(whole):

@@ -14,14 +14,14 @@ from blocks import Blocks
 from bridge_demolition_addon.core.elasticity.section_stiffness import SectionStiffness
 from bridge_demolition_addon.core.mechanics.joint import Joint, Springs
 from bridge_demolition_addon.core.mechanics.strength import Strength
-from bridge_demolition_addon.core.scenario import Jackhammer, Removal, SawCut, Weakening
+from bridge_demolition_addon.core.scenario import Jackhammer, Load, Removal, SawCut, Weakening
 from bridge_demolition_addon.core.timing.timeline import Timeline
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking, set_strength
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.connections.joints import set_joints
-from bridge_demolition_addon.scene.structural_changes import keep_changes
+from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_loads
 from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
@@ -77,15 +77,15 @@ class BeamOnPosts:
         return results, np.where(is_beam[:, None], 1.0, -1.0) * on_first
 
 
-def shares(left):
-    """What posts (p,) bear of the weight, by the balance of forces and moments, where some are left.
+def shares(left, load_n=0.0, load_at_m=0.0):
+    """What posts (p,) bear of the weight and a load, by the balance of forces and moments, where some are left.
 
     By its own weight the foot of a post gives way too, and takes half of that off what its top bears.
     """
     own = np.where(left, 0.5 * POST_KG * GRAVITY, 0.0)
     stiff = np.where(left, STIFF_N_M, 0.0)
     sums = np.array([[stiff.sum(), (stiff * PLACES_M).sum()], [(stiff * PLACES_M).sum(), (stiff * PLACES_M**2).sum()]])
-    sink, slope = np.linalg.solve(sums, [WEIGHT_N + own.sum(), (own * PLACES_M).sum()])
+    sink, slope = np.linalg.solve(sums, [WEIGHT_N + load_n + own.sum(), load_n * load_at_m + (own * PLACES_M).sum()])
     return stiff * (sink + slope * PLACES_M) - own
 
 
@@ -118,6 +118,19 @@ def test_what_is_left_of_a_bridge_shares_its_weight_after_each_step_of_a_sequenc
         # What is taken away or sawn off bears nothing; the one whose foot broke hangs from the beam.
         assert (abs(forces[frame, ~left & (np.arange(5) != 2)]) == 0.0).all()
     assert results.frames.intact[-1].sum() == 6
+
+
+def test_posts_bear_a_load_that_grows_at_a_point_of_the_beam(blender, tmp_path):
+    """So slowly, against its 100 swings a second, that it is at rest at any time."""
+    beam, most_n, at_m = BeamOnPosts(), 3.0 * WEIGHT_N, 2.5
+    keep_loads(beam.scene, [Load(point_m=(at_m, 0, 10.5), times_s=(0.2, 0.8), forces_n=(0, most_n))])
+    results, forces = beam.play(tmp_path)
+    times = results.frames.time_s
+    middles = times - (times[-1] - times[-2]) / 2.0
+    for frame in np.flatnonzero((times > 0.3) & (abs(times - 0.8) > 0.05)):
+        load_n = most_n * np.clip((middles[frame] - 0.2) / 0.6, 0.0, 1.0)
+        expected = shares(np.ones(5, bool), load_n, at_m)
+        np.testing.assert_allclose(forces[frame, :, 2], expected, rtol=EXACT, atol=EXACT * (WEIGHT_N + load_n))
 
 
 def test_a_post_that_bears_too_little_breaks_at_once_and_the_others_take_its_share(blender, tmp_path):

@@ -7,6 +7,7 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
+from ..loads.load import Load
 from ..mechanics.materials import Material
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
@@ -44,6 +45,7 @@ __all__ = [
     "Ground",
     "GroundSurface",
     "Jackhammer",
+    "Load",
     "Material",
     "MemberFracture",
     "Neighbour",

@@ -6,6 +6,7 @@ from typing import ClassVar
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
+from ..loads.load import Load
 from ..mechanics.joint import Joint
 from ..mechanics.materials import Material, check_materials
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
@@ -52,6 +53,7 @@ class Scenario(Table):
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
     weakenings: tuple[Weakening, ...] = ()
+    loads: tuple[Load, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
     zones: tuple[Zone, ...] = ()
@@ -113,6 +115,10 @@ class Scenario(Table):
                 f"geometry {shown(moving[0])} begins with a velocity or a spin: "
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
+        for load in self.loads:
+            if load.times_s[0] >= self.time.duration_s:
+                wanted = f"less than time.duration_s, {self.time.duration_s} (s)"
+                raise ScenarioError(f"loads.times_s[0] is {load.times_s[0]}: expected {wanted}")
         check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
 
     def _check_charges(self) -> None:

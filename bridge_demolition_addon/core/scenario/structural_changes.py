@@ -4,39 +4,18 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import ScenarioError
-from ..schema import Table, key, shown
+from ..loads.part import Part
+from ..schema import key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Change(Table):
+class Change(Part):
     """A change at a time to a part of the bridge: to some members, to what lies in a box, or to both at once."""
 
     table: ClassVar[str] = "changes"
     kind: ClassVar[str] = "change"
 
     time_s: float = key("When it happens.", unit="s", at_least=0)
-    members: tuple[str, ...] | None = key(
-        'Members that it happens to, by the names that `bda check` lists or by kind: `["pier 1", "pier cap"]`.',
-        default=None,
-    )
-    lowest_corner_m: tuple[float, float, float] | None = key(
-        "Lowest x, y and z of the box that it happens in, as the bridge was built. Give both corners or none.",
-        default=None,
-        unit="m",
-    )
-    highest_corner_m: tuple[float, float, float] | None = key("Highest x, y and z of that box.", default=None, unit="m")
-
-    def _check_together(self) -> None:
-        lowest, highest = self.lowest_corner_m, self.highest_corner_m
-        if (lowest is None) != (highest is None):
-            given, missing = ("lowest", "highest") if highest is None else ("highest", "lowest")
-            raise self.unexpected(f"{missing}_corner_m", f"it with {self.table}.{given}_corner_m")
-        for place, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True)):
-            if not low < high:
-                raise ScenarioError(
-                    f"{self.table}.highest_corner_m[{place}] is {high}: expected more than that of the lowest "
-                    f"corner, {low} (m)"
-                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

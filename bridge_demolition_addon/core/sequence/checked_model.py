@@ -11,6 +11,7 @@ from ..geometry.solids import to_manifold
 from ..scenario import Ball, Scenario
 from ..structure.model import Model, build_model
 from .events import model_structure, schedule
+from .loads import placed_on_model
 
 _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""
@@ -32,10 +33,11 @@ def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -
         The bridge cannot be cut as asked, nothing lies under the ball or the beginning of a jackhammer's path, or the
         ball begins within a member.
     ScenarioError
-        There is no member of a name, or a change concerns nothing.
+        There is no member of a name, or a change or a load concerns nothing.
     """
     model = build_model(scenario, members)
     schedule(scenario.changes, model_structure(model))
+    placed_on_model(scenario.loads, model)
     drops = [drop.target_m for drop in scenario.ball.drops] if scenario.ball else []
     heights = [surface_height(scenario, model.members, place) for place in drops]
     for hammer in scenario.jackhammers:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..geometry.vectors import dot
+from ..loads.part import Part
 from ..results.inventory import Inventory
 from ..scenario import Change, Removal, SawCut, Weakening
 from ..structure.model import Model
@@ -112,8 +113,8 @@ def _event(change: Change, structure: Structure) -> Event:
     factor = 0.0
     match change:
         case Removal():
-            in_box = _in_box(change, structure.centres_m)
-            bodies = np.flatnonzero(_of_members(change, structure) & in_box & structure.is_shard)
+            inside = in_box(change, structure.centres_m)
+            bodies = np.flatnonzero(of_members(change, structure) & inside & structure.is_shard)
             connections = np.flatnonzero(np.isin(structure.pairs, bodies).any(axis=1))
         case SawCut():
             connections = np.flatnonzero(_selected(change, structure) & _crosses(change, structure))
@@ -131,29 +132,29 @@ def _event(change: Change, structure: Structure) -> Event:
 
 def _selected(change: Change, structure: Structure) -> np.ndarray:
     """Return whether each connection (m,) has a shard of the members and is in the box."""
-    return _of_members(change, structure)[structure.pairs].any(axis=1) & _in_box(change, structure.points_m)
+    return of_members(change, structure)[structure.pairs].any(axis=1) & in_box(change, structure.points_m)
 
 
-def _of_members(change: Change, structure: Structure) -> np.ndarray:
+def of_members(part: Part, structure: Structure) -> np.ndarray:
     """Return whether each body (n,) is of the members; all where none are named."""
-    if change.members is None:
+    if part.members is None:
         return np.ones(len(structure.centres_m), bool)
     names, kinds = structure.member_names, structure.member_kinds
     known = sorted({*names.tolist(), *kinds.tolist()} - {""})
-    for name in change.members:
+    for name in part.members:
         if name not in known:
             raise ScenarioError(
-                f"{change.table}.members names {json.dumps(name, ensure_ascii=False)}: "
+                f"{part.table}.members names {json.dumps(name, ensure_ascii=False)}: "
                 f"expected names or kinds of members, which are {', '.join(known) or 'not known here'}"
             )
-    return np.isin(names, change.members) | np.isin(kinds, change.members)
+    return np.isin(names, part.members) | np.isin(kinds, part.members)
 
 
-def _in_box(change: Change, positions_m: np.ndarray) -> np.ndarray:
+def in_box(part: Part, positions_m: np.ndarray) -> np.ndarray:
     """Return whether positions (k, 3) are in the box; all where there is none."""
-    if change.lowest_corner_m is None:
+    if part.lowest_corner_m is None:
         return np.ones(len(positions_m), bool)
-    return ((positions_m >= change.lowest_corner_m) & (positions_m <= change.highest_corner_m)).all(axis=1)
+    return ((positions_m >= part.lowest_corner_m) & (positions_m <= part.highest_corner_m)).all(axis=1)
 
 
 def _crosses(cut: SawCut, structure: Structure) -> np.ndarray:

@@ -67,6 +67,7 @@ class Rest:
 def last_event_s(scenario: Scenario) -> float:
     """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest."""
     times = [scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
+    times += [load.times_s[-1] for load in scenario.loads]
     times += [hammer.end_time_s for hammer in scenario.jackhammers]
     if scenario.blast.explosion:
         times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges]

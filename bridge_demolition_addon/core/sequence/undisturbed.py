@@ -19,6 +19,7 @@ def first_event_s(scenario: Scenario) -> float:
     A ball counts from a frame before free fall brings it to the bridge, and one that swings from when it is let go.
     """
     times = [change.time_s for change in scenario.changes]
+    times += [load.begins_s for load in scenario.loads]
     times += [hammer.start_time_s for hammer in scenario.jackhammers]
     if scenario.blast.explosion:
         times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges if charge.mass_kg > 0.0]

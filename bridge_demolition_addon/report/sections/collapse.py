@@ -27,7 +27,7 @@ def collapse_section(run: Run) -> Section:
     )
     blocks: list[Block] = [
         Paragraph(definitions),
-        facts("Course of the collapse", _course(rest_of(results), progress), "collapse"),
+        facts("Course of the collapse", [*_course(rest_of(results), progress), *_load_rows(run)], "collapse"),
     ]
     if spans:
         blocks += [
@@ -98,6 +98,21 @@ def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
         ("All shards at rest", ended),
         ("Progress of the collapse at the end", f"{100.0 * progress[-1]:.1f} %"),
     ]
+
+
+def _load_rows(run: Run) -> list[tuple[str, str]]:
+    """How large each load was when the bridge first gave way under it."""
+    results, rows = run.results, []
+    broken = np.flatnonzero((~results.frames.intact).any(axis=1))
+    moved_s = rest_of(results).first_motion_s
+    for number, load in enumerate(run.scenario.loads if run.scenario else (), start=1):
+        said = [f"{load.force_n(float(results.frames.time_s[-1])) / 1e3:.4g} kN at the end"]
+        if moved_s is not None:
+            said.insert(0, f"{load.force_n(moved_s) / 1e3:.4g} kN as the first shard moved")
+        if len(broken):
+            said.insert(0, f"{load.force_n(float(results.frames.time_s[broken[0]])) / 1e3:.4g} kN at the first break")
+        rows.append((f"Load {number}{f' on {load.where}' if load.where else ''}", "; ".join(said)))
+    return rows
 
 
 def _span_table(spans: tuple[Span, ...]) -> DataTable:

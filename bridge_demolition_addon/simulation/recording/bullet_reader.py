@@ -17,11 +17,12 @@ from ...core.results.frames import BallHistory, Frame
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
-from ...scene.structural_changes import events_of
+from ...scene.structural_changes import events_of, placed_loads_of
 from ...scene.time_scale import time_step_at
 from .blast import Blast
 from .elastic_connections import ElasticConnections
 from .events import AppliedEvent, Events
+from .loads import Loads
 from .substeps import Breaks, SubstepRecorder
 
 
@@ -86,6 +87,7 @@ class BulletReader:
             breaking,
             self._events,
             blast,
+            Loads(world, placed_loads_of(scene, bodies, inventory)),
             normal_substep_s,
             work,
             elastic,

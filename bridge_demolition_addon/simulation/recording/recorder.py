@@ -27,7 +27,7 @@ from ...scene.connections.constraints import connections_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
 from ...scene.inventory import take_inventory
 from ...scene.start_motion import start_motion_of
-from ...scene.structural_changes import changes_of
+from ...scene.structural_changes import changes_of, loads_of, placed_loads_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
 from ...scene.world import farthest_per_substep_of
@@ -310,6 +310,11 @@ class Recording:
                 "velocities and spins to begin with need Blender's memory, which is not as expected "
                 f"({self.distrust}): take them out of the scenario, or run it in another Blender"
             )
+        if loads_of(self.scene):
+            raise SimulationError(
+                f"loads need Blender's memory, which is not as expected ({self.distrust}): take them out of the "
+                "scenario, or run it in another Blender"
+            )
         if changes_of(self.scene):
             raise SimulationError(
                 "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
@@ -357,6 +362,7 @@ class Recording:
             ductility=np.array(ductility, float),
             blast_impulses_ns=self._blast.whole_impulses(places, rotations) if self._blast else np.zeros(0),
             **self._start_motion(),
+            **self._loads(),
             step=[step.frame_s, step.substep_s, *([] if farthest_m is None else [farthest_m])],
             **elastic,
         )
@@ -365,6 +371,15 @@ class Recording:
         """Velocities and spins with which bodies begin, where any does."""
         motion = np.column_stack(start_motion_of(self._bodies))
         return {"start_motion": motion} if motion.any() else {}
+
+    def _loads(self) -> dict[str, np.ndarray]:
+        """Loads that grow with time, and what bears them."""
+        parts = {}
+        for number, each in enumerate(placed_loads_of(self.scene, self._bodies, self.inventory)):
+            load = each.load
+            course = np.array((*load.direction, *load.times_s, *load.forces_n, *(load.point_m or ())))
+            parts |= {f"load {number}": course, f"load {number} bears": np.stack((each.bodies, each.shares))}
+        return parts
 
     def _set_time(self) -> None:
         """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""

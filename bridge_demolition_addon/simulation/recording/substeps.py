@@ -32,6 +32,7 @@ from .blast import Blast
 from .elastic_connections import ElasticConnections
 from .events import Events
 from .load_reader import LoadReader
+from .loads import Loads
 from .reinforcement import Reinforcement
 
 _SINGLE_PRECISION = 1e-6
@@ -110,6 +111,8 @@ class SubstepRecorder:
         Removals, saw cuts and weakenings.
     blast : Blast or None
         What explodes.
+    loads_on_bridge : Loads
+        What else pushes.
     threshold_step_s : float
         Length of the sub-steps that Blender's breaking thresholds, impulses in a sub-step, were made for.
     work : WorkAccumulator
@@ -140,6 +143,7 @@ class SubstepRecorder:
         breaking: Breaking,
         events: Events,
         blast: Blast | None,
+        loads_on_bridge: Loads,
         threshold_step_s: float,
         work: WorkAccumulator,
         elastic: ElasticConnections | None = None,
@@ -154,6 +158,7 @@ class SubstepRecorder:
         self._world, self._inventory, self._breaking = world, inventory, breaking
         self._events, self._work, self._elastic = events, work, elastic
         self._blast, self._threshold_step_s = blast, threshold_step_s
+        self._loads_on_bridge = loads_on_bridge
         self._reinforcement = None
         remaining = events.remaining_strength
         if breaking.ductility and elastic:
@@ -213,6 +218,7 @@ class SubstepRecorder:
                 self._reinforcement.before_substep(substep_s)
             if self._blast:
                 self._blast.before_substep(substep_s)
+            self._loads_on_bridge.before_substep(self.elapsed_s, substep_s)
             if self._elastic:
                 self._predict(substep_s)
         except Exception as error:  # whoever follows the frames raises it there
