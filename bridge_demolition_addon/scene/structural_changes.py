@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import bpy
 import numpy as np
-from mathutils import Vector
 
+from ..core.geometry.vectors import transformed
 from ..core.results.inventory import Inventory
 from ..core.scenario import Change, Load, Removal, SawCut, Weakening
 from ..core.scenario.kept import tables_from_text, tables_text
@@ -84,7 +84,9 @@ def placed_loads_of(
     loads = loads_of(scene)
     if not loads:
         return ()
-    corners = np.array([[body.matrix_world @ Vector(each) for each in body.bound_box] for body in bodies])
+    matrices = np.array([body.matrix_world for body in bodies], float)
+    corners = np.array([body.bound_box for body in bodies], float)
+    corners = transformed(matrices[:, None, :3, :3], corners) + matrices[:, None, :3, 3]
     boxes_m = np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
     return placed_loads(loads, recorded_structure(inventory, _centres(bodies)), inventory.masses_kg, boxes_m)
 
