@@ -61,7 +61,7 @@ class Watch(Silence):
         self.parts: list[tuple[int, float, float]] = []
         """Frames so far, memory in MB, and the median time of a frame in the part in ms."""
 
-    def frame(self, done: int, total: int, broken: int) -> None:
+    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
         """Note a frame."""
         now_s = time.perf_counter()
         self._seconds.append(now_s - self._last_s)

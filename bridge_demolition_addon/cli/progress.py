@@ -4,6 +4,8 @@ from typing import TextIO
 
 from tqdm import tqdm
 
+from ..core.timing.time_left import clock
+
 
 class Progress:
     """Stages and counts of a command, each shown as the kind of progress does."""
@@ -11,10 +13,10 @@ class Progress:
     def stage(self, text: str) -> None:
         """Name what begins now."""
 
-    def frame(self, done: int, total: int, broken: int) -> None:
-        """Give how many frames are done and how many connections are broken."""
+    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
+        """Give how many frames are done, how many connections are broken, and how long the rest takes, if known."""
         connections = "connection" if broken == 1 else "connections"
-        self._show(done, total, f"frame {_counted(done, total)}, {broken} {connections} broken")
+        self._show(done, total, f"frame {_counted(done, total)}, {broken} {connections} broken", left_s)
 
     def part(self, done: int, total: int, text: str) -> None:
         """Give how many parts of a stage are done."""
@@ -27,7 +29,7 @@ class Progress:
     def finish(self) -> None:
         """Leave the terminal ready for other output."""
 
-    def _show(self, done: int, total: int, text: str) -> None:
+    def _show(self, done: int, total: int, text: str, left_s: float | None = None) -> None:
         """Show a count."""
 
 
@@ -51,8 +53,9 @@ class TerminalBar(Progress):
             self._bar.close()
         self._bar = None
 
-    def _show(self, done: int, total: int, text: str) -> None:
-        layout = "[{bar}] {desc}" + (", {remaining} left" if done < total else "")
+    def _show(self, done: int, total: int, text: str, left_s: float | None = None) -> None:
+        left = "{remaining}" if left_s is None else clock(left_s)
+        layout = "[{bar}] {desc}" + (f", {left} left" if done < total else "")
         if self._bar is None:
             look = {"bar_format": layout, "ascii": ".#", "dynamic_ncols": True}
             self._bar = _Bar(total=total, initial=done, desc=text, file=self._stream, **look)
@@ -77,9 +80,9 @@ class PlainLines(Progress):
     def stage(self, text: str) -> None:
         print(text, file=self._stream, flush=True)
 
-    def frame(self, done: int, total: int, broken: int) -> None:
+    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
         if self._begins_a_tenth(done, total):
-            super().frame(done, total, broken)
+            super().frame(done, total, broken, left_s)
 
     def draws(self, done: int, total: int, lost: int) -> None:
         if self._begins_a_tenth(done, total):
@@ -94,7 +97,7 @@ class PlainLines(Progress):
         if done == total:
             super().part(done, total, text)
 
-    def _show(self, done: int, total: int, text: str) -> None:
+    def _show(self, done: int, total: int, text: str, left_s: float | None = None) -> None:
         print(text, file=self._stream, flush=True)
 
 

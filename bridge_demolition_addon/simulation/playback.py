@@ -8,9 +8,11 @@ import bpy
 
 from ..core.errors import SimulationError
 from ..core.sequence.rest import Rest
+from ..core.timing.time_left import Pace
 from ..scene.world import start_over
 from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording
+from .workload import Workload
 
 
 class Playing:
@@ -35,6 +37,8 @@ class Playing:
         Frames played.
     seconds, longest_frame_s
         Wall time of all of them, and of the one that took longest.
+    left_s
+        Time on the clock that the rest takes, what happens between the frames included; None before the third frame.
 
     Raises
     ------
@@ -50,8 +54,13 @@ class Playing:
         self.done = 0
         self.longest_frame_s = 0.0
         self.seconds = 0.0
+        self.left_s: float | None = None
         start_recording(recording, alone=alone)
         start_over(self._scene)
+        first = self._scene.rigidbody_world.point_cache.frame_start + 1
+        self._workload = Workload(self._scene, first, first + self.total - 1)
+        self._stepping, self._between = Pace(), Pace()
+        self._stepped_at_s: float | None = None
 
     @property
     def finished(self) -> bool:
@@ -79,8 +88,19 @@ class Playing:
         self.longest_frame_s = max(self.longest_frame_s, took)
         self.done += 1
         self._see_whether_recorded()
+        self._judge_time(began, took)
         if self._rest and self.recording.recorded_frames:
             self._rest.observe(*self.recording.motion())
+
+    def _judge_time(self, began_s: float, took_s: float) -> None:
+        """Note how long the last frame took, and judge how long those to come take."""
+        if self._stepped_at_s is not None:  # not the first frame, in which Blender makes its world
+            self._stepping.note(took_s, self.recording.substeps)
+            self._between.note(began_s - self._stepped_at_s)
+            if last := self.recording.last:
+                substeps, frames = self._workload.to_come(last), self.total - self.done
+                self.left_s = self._stepping.left_s(substeps) + self._between.left_s(frames)
+        self._stepped_at_s = began_s + took_s
 
     def end(self) -> None:
         """End the recording, and leave it at its logs."""

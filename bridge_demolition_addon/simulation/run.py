@@ -41,8 +41,8 @@ class Progress(Protocol):
     def stage(self, text: str) -> None:
         """Say what is done now."""
 
-    def frame(self, done: int, total: int, broken: int) -> None:
-        """Say how many frames are done and how many connections broken."""
+    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
+        """Say how many frames are done, how many connections broken, and how long the other frames take, if known."""
 
     def part(self, done: int, total: int, text: str) -> None:
         """Say how many parts of a stage are done."""
@@ -229,7 +229,8 @@ def _simulate(
         while not playing.finished and not (signals and recording.recorded_frames):
             playing.step()
             if recording.recorded_frames > 1:
-                progress.frame(recording.recorded_frames - 1, playing.total - 1, recording.broken)
+                done = recording.recorded_frames - 1
+                progress.frame(done, playing.total - 1, recording.broken, playing.left_s)
     except Exception:
         if not (recording.error and recording.recorded_frames):  # or there is something to keep
             raise

@@ -93,7 +93,7 @@ class _NoProgress:
     def stage(self, text: str) -> None:
         """Say nothing."""
 
-    def frame(self, done: int, total: int, broken: int) -> None:
+    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
         """Say nothing."""
 
     def part(self, done: int, total: int, text: str) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ..core.timing.time_left import in_words, remaining_s
+from ..core.timing.time_left import Pace, in_words
 from .sidebar import draw_sentence, redraw_sidebars
 
 
@@ -37,7 +37,8 @@ class Course:
     note: str = ""
     left_s: float | None = None
     share: float = 0.0
-    _marks_s: list[float] = field(default_factory=lambda: [time.perf_counter()])
+    _began_s: float = field(default_factory=time.perf_counter)
+    _pace: Pace = field(default_factory=Pace)
 
     @property
     def lines(self) -> list[str]:
@@ -47,16 +48,16 @@ class Course:
         return [f"{self.what}: {done}", *left, *filter(None, [self.note]), "Esc: stop"]
 
     def step(self) -> None:
-        """Note that one more step is done."""
-        self._marks_s.append(time.perf_counter())
-        self.share = (len(self._marks_s) - 1) / self.total
-        self.left_s = remaining_s(self._marks_s, self.total)
+        """Note that one more step is done, of those that take alike long."""
+        self._pace.note(time.perf_counter() - self._began_s - sum(self._pace.took_s))
+        self.share = len(self._pace.took_s) / self.total
+        self.left_s = self._pace.left_s(self.total - len(self._pace.took_s))
 
     def reach(self, share: float) -> None:
         """Note how much is done of work whose steps take unequally long."""
         self.share = share
         if share > 0.0:
-            self.left_s = (time.perf_counter() - self._marks_s[0]) * (1.0 - share) / share
+            self.left_s = (time.perf_counter() - self._began_s) * (1.0 - share) / share
 
 
 _going_on: list[Course] = []

@@ -21,7 +21,7 @@ needs_terminal = pytest.mark.skipif(sys.platform == "win32", reason="Windows has
 def play(progress, frames):
     progress.stage("simulating")
     for done in range(1, frames + 1):
-        progress.frame(done, frames, broken=done // 2)
+        progress.frame(done, frames, broken=done // 2, left_s=65.0 * (frames - done))
     progress.stage("rendering")
     progress.finish()
 
@@ -80,7 +80,7 @@ def test_the_bar_grows_in_place_and_leaves_its_line(terminal):
     first, bars, last = shown().split("\n")[:3]
     drawn = bars.split("\r")[1:]
     assert (first, last) == ("simulating", "rendering")
-    assert re.match(r"\[#+\.+\] frame 1 of 4, 0 connections broken, .* left$", drawn[0])
+    assert re.match(r"\[#+\.+\] frame 1 of 4, 0 connections broken, 3:15 left$", drawn[0])
     assert re.match(r"\[#+\] frame 4 of 4, 2 connections broken *$", drawn[-1])
 
 
@@ -89,8 +89,8 @@ def test_the_bar_grows_in_place_and_leaves_its_line(terminal):
 def test_the_bar_fits_a_narrow_terminal(columns, terminal):
     stream, shown = terminal(columns)
     progress = TerminalBar(stream)
-    progress.frame(1, 4, 0)
-    progress.frame(4, 4, 0)
+    progress.frame(1, 4, 0, None)
+    progress.frame(4, 4, 0, 0.0)
     progress.finish()
     assert max(len(drawn) for drawn in shown().strip("\n").split("\r")) <= columns
 
@@ -102,7 +102,7 @@ def test_the_bar_tells_how_long_it_still_takes(terminal, monkeypatch):
     stream, shown = terminal(100)
     progress = TerminalBar(stream)
     for done in range(1, 4):
-        progress.frame(done, 10, 0)
+        progress.frame(done, 10, 0, None)
     progress.finish()
     assert re.search(r"\d\d:\d\d left", shown())
 

@@ -18,7 +18,6 @@ FROM_SHARE, TO_SHARE = 0.2, 0.9
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
     yield from build(person, SCENARIO)
-    person.scene.frame_end = 60
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)
     yield from follow(person, "the run", 15)

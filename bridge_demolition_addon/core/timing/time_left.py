@@ -1,36 +1,96 @@
-"""The time that work still takes, judged by the steps that are done."""
+"""The time that work still takes, judged by what of it is done."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from ..geometry.vectors import dot
+
 _SECONDS_PER_MINUTE = 60
 
+_AT_REST_M_S = 0.5
+"""Speed below which a body is taken to stay where it is."""
 
-def remaining_s(marks_s: Sequence[float], total: int) -> float | None:
-    """Return how long the steps still to come take, if each takes as long as the later half of those done, s.
+_SLOWING_S = 0.4
+"""Time in which what has landed gets slower by a factor of e: from 0.3 to 0.6 s the time left of three examples, with
+a ball and with explosives, is within a factor of 1.5 in most looks."""
+
+_MOST_TIMES = 60
+"""Times to come that are looked at."""
+
+
+class Pace:
+    """How long work takes, judged by the later half of its steps: Blender makes its world in the first one.
+
+    Attributes
+    ----------
+    took_s
+        Time on the clock of each step.
+    work
+        How much was done in it, in any unit.
+    """
+
+    def __init__(self) -> None:
+        self.took_s: list[float] = []
+        self.work: list[float] = []
+
+    def note(self, took_s: float, work: float = 1.0) -> None:
+        """Note a step that is done."""
+        self.took_s.append(took_s)
+        self.work.append(work)
+
+    def left_s(self, work: float) -> float | None:
+        """Return how long so much work still takes, s; None before a step is done."""
+        earlier = len(self.work) // 2
+        done = sum(self.work[earlier:])
+        return sum(self.took_s[earlier:]) / done * max(work, 0.0) if done else None
+
+
+def speeds_to_come(
+    heights_m: np.ndarray, velocities_m_s: np.ndarray, gravity_m_s2: float, after_s: Sequence[float]
+) -> np.ndarray:
+    """Return how fast the fastest body probably is at some times to come.
+
+    What moves flies on until it is as low as the lowest body, and slows down there. What rests is taken to stay at
+    rest: nobody knows what will fall.
 
     Parameters
     ----------
-    marks_s : sequence of float
-        When the work began, and when each step so far was done, whatever else happened in between included: time on the
-        clock, not only that of the steps.
-    total : int
-        Number of all steps.
+    heights_m : array of float, shape (n,)
+    velocities_m_s : array of float, shape (n, 3)
+    gravity_m_s2 : float
+        Downwards; above 0.
+    after_s : sequence of float, shape (k,)
+        Times from now on, in order.
 
     Returns
     -------
-    float or None
-        None before a step is done.
+    array of float, shape (k,)
+        Speeds, m/s.
     """
-    done = len(marks_s) - 1
-    if done < 1:
-        return None
-    earlier = done // 2
-    return (marks_s[-1] - marks_s[earlier]) / (done - earlier) * max(total - done, 0)
+    times = np.asarray(after_s, float)
+    moving = dot(velocities_m_s, velocities_m_s) > _AT_REST_M_S**2
+    if not moving.any():
+        return np.zeros(len(times))
+    fall_m = (heights_m - heights_m.min())[moving]
+    upwards = velocities_m_s[moving, 2]
+    sideways_squared = dot(velocities_m_s, velocities_m_s)[moving] - upwards**2
+    lands_s = (upwards + np.sqrt(upwards**2 + 2.0 * gravity_m_s2 * fall_m)) / gravity_m_s2
+    looked_at = np.unique(np.linspace(0, len(times) - 1, _MOST_TIMES).round().astype(int))
+    flown_s = np.minimum(times[looked_at, None], lands_s)
+    speeds = np.sqrt(sideways_squared + (upwards - gravity_m_s2 * flown_s) ** 2)
+    slowed = np.exp(-(times[looked_at, None] - flown_s) / _SLOWING_S)
+    return np.interp(times, times[looked_at], (speeds * slowed).max(axis=1))
+
+
+def clock(seconds: float) -> str:
+    """Return a time in minutes and seconds, such as ``1:05``."""
+    whole = round(seconds)
+    return f"{whole // _SECONDS_PER_MINUTE}:{whole % _SECONDS_PER_MINUTE:02d}"
 
 
 def in_words(seconds: float) -> str:
     """Return a time left in words, such as ``about 1:05 min left``."""
-    whole = round(seconds)
-    return f"about {whole // _SECONDS_PER_MINUTE}:{whole % _SECONDS_PER_MINUTE:02d} min left"
+    return f"about {clock(seconds)} min left"

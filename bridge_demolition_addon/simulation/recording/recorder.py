@@ -81,6 +81,8 @@ class Recording:
         The world that is recorded.
     inventory : Inventory or None
         The bodies and connections; None before the first frame.
+    substeps : int
+        Sub-steps of the frame played last.
     built_digest : str
         Digest of what was built; empty before the first frame.
     """
@@ -116,6 +118,7 @@ class Recording:
         self._stream: FrameStream | None = None
         self._last: Frame | None = None
         self._has_set_substeps = False
+        self.substeps = 0
         self.built_digest = ""
 
     def before_frame(self) -> None:
@@ -128,8 +131,9 @@ class Recording:
         """
         self._set_time()
         self._prepare_blast()
+        self.substeps = self._set_substeps()
         if self._reader:
-            self._reader.before_frame(self._set_substeps())
+            self._reader.before_frame(self.substeps)
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Record the frame.
@@ -177,6 +181,11 @@ class Recording:
     def recorded_frames(self) -> int:
         """Frames recorded so far."""
         return len(self.frames)
+
+    @property
+    def last(self) -> Frame | None:
+        """The last frame recorded; None before the first."""
+        return self._last
 
     @property
     def last_frame(self) -> int | None:

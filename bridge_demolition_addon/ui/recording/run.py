@@ -109,7 +109,8 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _show(self, context: bpy.types.Context) -> None:
-        self._course.step()
+        self._course.share = self._playing.done / self._playing.total
+        self._course.left_s = self._playing.left_s
         self._course.note = note_of(self._playing)
         course.show(context)
 
