@@ -88,6 +88,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Loads", _load_facts(scenario, model))
     if scenario.charges:
         yield from _section("Charges", _charge_facts(scenario))
+    if reason := scenario.pictures.why_not_without_window:
+        yield from _section("Pictures", iter([("none can be taken", reason)]))
 
 
 def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:

@@ -24,7 +24,7 @@ from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_pictures
 from ..scene.world import keep_played_frames
 from .display.film import FilmRendering, FilmSettings
-from .display.pictures import check_camera, show_charges, write_pictures
+from .display.pictures import check_camera, rendered_pictures, show_charges
 from .kept_run import keep_run, mark_run
 from .playback import Playing
 from .recording.recorder import Recording
@@ -139,7 +139,8 @@ def run_scenario(
             raise Interrupted(signals[0])
         if pictures:
             progress.stage("rendering pictures")
-            write_pictures(scene, lock.folder, scenario.pictures, summary["key_frame"]["frame"], scene.frame_end)
+            key_frame = summary["key_frame"]["frame"]
+            list(rendered_pictures(scene, lock.folder, scenario.pictures, key_frame, scene.frame_end))
             times["pictures"] = lap_s()
         if film:
             progress.stage("rendering the film")

@@ -1,14 +1,15 @@
-"""Buttons whose work takes some seconds: progress, time left, and Esc to stop."""
+"""Buttons whose work takes some seconds, beside Blender or as pictures that it renders: time left, and Esc to stop."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import bpy
 
 from ..core.errors import DemolitionError
 from . import course, messages
-from .operators import Action, refused
+from .operators import Action, Refusing, refused
 from .turns import Turns
 
 _TICK_S = 0.005
@@ -113,6 +114,77 @@ class LongAction(Action):
         if self._timer:
             context.window_manager.event_timer_remove(self._timer)
             self._timer = None
+        course.end(context)
+
+
+class RenderingAction(Refusing):
+    """Base of operators that render pictures, between which Blender draws its window; from a script in one go."""
+
+    _pictures: Iterator[Path]
+    _timer: bpy.types.Timer | None = None
+    _total = 0
+
+    def begin(self, context: bpy.types.Context) -> tuple[Iterator[Path], int]:
+        """Return the pictures, each rendered when it is asked for, and how many there are.
+
+        Raises
+        ------
+        DemolitionError
+            They cannot be rendered.
+        """
+        raise NotImplementedError
+
+    def finish(self) -> set[str]:
+        """Keep what was rendered, and say so."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            pictures, _ = self.begin(context)
+            for _ in pictures:
+                pass
+            return self.finish()
+        except (DemolitionError, OSError) as error:  # a full disk, for one
+            return refused(self, error)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        try:
+            self._pictures, self._total = self.begin(context)
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        manager = context.window_manager
+        self._course = course.begin(context, "Rendering", "pictures", self._total)
+        course.show(context)
+        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            done = round(self._course.share * self._total)
+            messages.tell(self, "WARNING", f"Stopped after {done} of {self._total} pictures")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            if next(self._pictures, None) is not None:
+                self._course.step()
+                course.show(context)
+                return {"RUNNING_MODAL"}
+            self._end(context)
+            return self.finish()
+        except (DemolitionError, OSError) as error:
+            self._end(context)
+            return refused(self, error)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender where it ends the work itself, as it does before another file is loaded."""
+        self._end(context)
+
+    def _end(self, context: bpy.types.Context) -> None:
+        self._pictures.close()
+        context.window_manager.event_timer_remove(self._timer)
         course.end(context)
 
 

@@ -15,7 +15,7 @@ from .ground import operator as ground_operator
 from .ground import ui as ground_ui
 from .preview import gizmos
 from .preview import operator as preview_operator
-from .recording import log_paths, run, session
+from .recording import log_paths, pictures, run, session
 from .recording import operator as recording_operator
 from .recording import ui as recording_ui
 from .results import operator as results_operator
@@ -36,7 +36,7 @@ from .study import ui as study_ui
 
 _OPERATORS = (
     *(scenario_operator, preset_menu, number_rows, messages, first_help, workspace, user_meshes, table_list),
-    *(recording_operator, run, log_paths, blast_operator, contour_operator, ground_operator),
+    *(recording_operator, run, pictures, log_paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, study_operator, search_operator, stages_operator, preview_operator, gizmos),
 )
 _PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui, study_ui, search_ui)

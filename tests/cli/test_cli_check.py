@@ -14,6 +14,7 @@ from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionBetween, ConnectionSettings, Geometry, Load
 from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.core.scenario.recording import PictureSettings
 from bridge_demolition_addon.core.structure.model import build_model
 
 
@@ -213,6 +214,13 @@ def test_loads_are_told_with_what_bears_them():
     deck = lines[lines.index("Members") + 1]  # by volume and density, as the member itself
     assert deck.startswith("deck") and lines[start + 1] == f"on 129 shards of deck, together {deck.split(' m³ ')[1]}"
     assert lines[start + 2] == "load 2 0 kN at 0.5 s, 90 kN at 2 s, towards (0, 1, 0)"
+
+
+def test_pictures_that_only_a_window_can_take_are_said():
+    scenario = read_scenario(SMALL)
+    told = facts(replace(scenario, pictures=PictureSettings(camera="own")))["none can be taken"]
+    assert "expected pictures.camera_m and pictures.look_at_m" in told
+    assert "none can be taken" not in facts(scenario)
 
 
 def test_checking_needs_no_blender():

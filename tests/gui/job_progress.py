@@ -21,6 +21,7 @@ def steps(person: Person) -> Steps:
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)
     yield from follow(person, "the run", 15)
+    yield from follow(person, "the pictures of the run", 1)
     yield from person.picture("run_is_over")
     kept = [each.text for each in module("ui.messages").messages_of(person.scene)]
     person.expect("where its results are stays in the panel", any("Results are in" in each for each in kept))
@@ -72,8 +73,8 @@ def going_on() -> object | None:
 
 def follow(person: Person, what: str, pictured_at: int) -> Steps:
     """Note what is said as it goes on, and compare when it is over."""
-    said, pictured, turns = [], False, 0
-    while course := going_on():
+    said, pictured, turns, first = [], False, 0, going_on()
+    while (course := going_on()) is first:
         if course.left_s is not None and FROM_SHARE <= course.share <= TO_SHARE:
             said.append((time.perf_counter(), course.left_s))
         turns += 1

@@ -327,8 +327,7 @@ def check_logs(person: Person) -> None:
 
 def scrub(person: Person) -> Steps:
     """Drag along the timeline: places and colours are those of each frame."""
-    timeline(person).spaces.active.show_markers = False  # which the mouse would take: here they cover all of the ruler
-    yield 0.5
+    marked = [(each.name, each.frame) for each in person.scene.timeline_markers]
     yield from drag_to_frame(person, 5, LAST_FRAME)
     person.expect("dragging in the timeline goes to the last frame", person.scene.frame_current, LAST_FRAME)
     graph = person.window.view_layer.depsgraph
@@ -343,6 +342,8 @@ def scrub(person: Person) -> Steps:
     yield from person.picture("scrubbed_to_the_end")
     yield from drag_to_frame(person, LAST_FRAME, 14)
     person.expect("and back", person.scene.frame_current, 14)
+    still = [(each.name, each.frame) for each in person.scene.timeline_markers]
+    person.expect("markers, which cover the ruler here, stay where they are", still, marked)
     yield from person.illustrate("scrubbed", person.view, timeline(person))
     person.expect("colours follow", bool((colours(person, shown=True) != late).any()))
 

@@ -74,7 +74,7 @@ def test_a_scene_just_built_renders_by_f12(extension, tmp_path, engine):
 
 
 def test_an_orbiting_camera_goes_round_and_one_of_the_users_own_stands_where_it_is_put(extension, tmp_path):
-    from bridge_demolition_addon.simulation.display.pictures import write_pictures
+    from bridge_demolition_addon.simulation.display.pictures import rendered_pictures
 
     scene = extension.context.scene
     scene.bda.scenario.fracture.shards = 20
@@ -89,7 +89,7 @@ def test_an_orbiting_camera_goes_round_and_one_of_the_users_own_stands_where_it_
     found = {}
     for name, settings in views.items():
         view = PictureSettings(width_px=160, height_px=90, camera=name, **settings)
-        write_pictures(scene, tmp_path / name, view, scene.frame_end // 2, scene.frame_end)
+        list(rendered_pictures(scene, tmp_path / name, view, scene.frame_end // 2, scene.frame_end))
         found[name] = pictures(tmp_path / name)
     for name, taken in found.items():
         moved = abs(taken["after"] - taken["before"]).mean()
@@ -101,7 +101,7 @@ def test_an_orbiting_camera_goes_round_and_one_of_the_users_own_stands_where_it_
     assert scene.camera == camera and set(scene.objects.keys()) == objects
     scene.camera = None
     with pytest.raises(OutputError, match="has no camera"):
-        write_pictures(scene, tmp_path / "none", PictureSettings(camera="own"), 1, 1)
+        next(rendered_pictures(scene, tmp_path / "none", PictureSettings(camera="own"), 1, 1))
 
 
 def test_an_orbit_keeps_the_bridge_in_view_all_the_way(blender):

@@ -63,6 +63,16 @@ class PictureSettings(Table):
         "What it looks at.", default=None, unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
     )
 
+    @property
+    def why_not_without_window(self) -> str:
+        """Why no pictures can be taken but in Blender's window; empty where they can."""
+        if self.camera != CameraKind.OWN or self.camera_m:
+            return ""
+        return (
+            'pictures.camera is "own": expected pictures.camera_m and pictures.look_at_m as well, as only a scene in '
+            "Blender's window has a camera of its own"
+        )
+
     def _check_together(self) -> None:
         if (self.camera_m is None) != (self.look_at_m is None):
             missing = "camera_m" if self.camera_m is None else "look_at_m"

@@ -11,10 +11,19 @@ from ...core.scenario.kept import values_from_text, values_text
 _OURS = "bda_markers"
 """Property of a scene: frames and names of the markers that were made here, as markers keep no properties."""
 
+_LOCKED = "bda_markers_locked"
+"""Property of a scene whose markers were locked here."""
+
 
 def mark_moments(scene: bpy.types.Scene, moments: Iterable[tuple[int, str]]) -> None:
-    """Mark frames by name, in place of those of the run before."""
+    """Mark frames by name, in place of those of the run before.
+
+    Where the user has no markers, they are locked: in a low timeline they cover the ruler, and whoever drags along it
+    would move one of them.
+    """
     clear_markers(scene)
+    if not scene.timeline_markers and not scene.tool_settings.lock_markers:
+        scene.tool_settings.lock_markers = scene[_LOCKED] = True
     made = [[frame, name] for frame, name in moments]
     for frame, name in made:
         scene.timeline_markers.new(name, frame=frame)
@@ -29,3 +38,6 @@ def clear_markers(scene: bpy.types.Scene) -> None:
             scene.timeline_markers.remove(marker)
     if _OURS in scene:
         del scene[_OURS]
+    if _LOCKED in scene:
+        scene.tool_settings.lock_markers = False
+        del scene[_LOCKED]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
@@ -10,7 +10,7 @@ import bpy
 from ...core.errors import OutputError, writing
 from ...core.results.files import PICTURE_FOLDER, PICTURES
 from ...core.scenario import Scenario
-from ...core.scenario.recording import CameraKind, PictureSettings
+from ...core.scenario.recording import PictureSettings
 from ...scene.blast.charges import charge_objects, show_never, show_until
 from ...scene.demolition import first_frame_after
 from ...scene.rendering.stills import prepared_for_pictures, render_picture
@@ -25,11 +25,8 @@ def check_camera(view: PictureSettings) -> None:
     OutputError
         They are to be taken by a camera that the scene will not have.
     """
-    if view.camera == CameraKind.OWN and not view.camera_m:
-        raise OutputError(
-            'pictures.camera is "own": expected pictures.camera_m and pictures.look_at_m as well, as only a scene in '
-            "Blender's window has a camera of its own"
-        )
+    if reason := view.why_not_without_window:
+        raise OutputError(reason)
 
 
 def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
@@ -43,10 +40,10 @@ def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
             show_never(empty)
 
 
-def write_pictures(
+def rendered_pictures(
     scene: bpy.types.Scene, folder: Path, view: PictureSettings, key_frame: int, last_frame: int
-) -> Sequence[Path]:
-    """Render the pictures of a run that was just played into its folder, and return their paths.
+) -> Iterator[Path]:
+    """Render the pictures of a run that was just played into its folder, one by one, and yield their paths.
 
     Raises
     ------
@@ -61,4 +58,4 @@ def write_pictures(
             render_picture(scene, frame, path)
             if not path.exists():
                 raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
-    return paths
+            yield path

@@ -1,10 +1,10 @@
 """Operators of contours, films and symbols."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 
-from ...core.errors import DemolitionError
 from ...core.results.arrays import load_results, results_in
 from ...core.results.files import FRAMES_FILE
 from ...core.scenario.recording import PictureSettings
@@ -13,12 +13,11 @@ from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...scene.world import start_over
 from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
-from .. import course, messages
-from ..operators import Action, Refusing, absolute, recording_runs, refused
+from .. import messages
+from ..long_action import RenderingAction
+from ..operators import Action, absolute, recording_runs
 from ..scenario.values import table_of
 from . import view as contour_view
-
-_TICK_S = 0.01
 
 
 class BDA_OT_load_results(Action, bpy.types.Operator):
@@ -62,16 +61,13 @@ class BDA_OT_forget_results(Action, bpy.types.Operator):
         contour_view.follow(scene)
 
 
-class BDA_OT_render_contours(Refusing, bpy.types.Operator):
+class BDA_OT_render_contours(RenderingAction, bpy.types.Operator):
     """Render the recorded frames with their contours, as a film or as pictures, to the folder; Esc stops"""
 
     bl_idname = "bda.render_contours"
     bl_label = "Render Contours"
 
     _rendering: FilmRendering
-    _pictures = None
-    _timer = None
-    _done = 0
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str | None:
@@ -83,62 +79,15 @@ class BDA_OT_render_contours(Refusing, bpy.types.Operator):
             return "Nothing was recorded in this scene: record it, or load its results"
         return None
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            self._begin(context.scene)
-            for _ in self._pictures:
-                pass
-            return self._finish()
-        except (DemolitionError, OSError) as error:  # a full disk, for one
-            return refused(self, error)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        try:
-            self._begin(context.scene)
-        except (DemolitionError, OSError) as error:
-            return refused(self, error)
-        manager = context.window_manager
-        self._course = course.begin(context, "Rendering", "pictures", self._rendering.picture_count)
-        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
-        manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type == "ESC":
-            self._end(context)
-            messages.tell(self, "WARNING", f"Stopped after {self._done} of {self._rendering.picture_count} pictures")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
-        try:
-            if next(self._pictures, None) is not None:
-                self._done += 1
-                self._course.step()
-                course.show(context)
-                return {"RUNNING_MODAL"}
-            self._end(context)
-            return self._finish()
-        except (DemolitionError, OSError) as error:
-            self._end(context)
-            return refused(self, error)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Called by Blender where it ends the film itself, as it does before another file is loaded."""
-        self._end(context)
-
-    def _begin(self, scene: bpy.types.Scene) -> None:
+    def begin(self, context: bpy.types.Context) -> tuple[Iterator[Path], int]:
         messages.clear(self)
+        scene = context.scene
         self._rendering = FilmRendering(
             scene, absolute(scene.bda.film_directory), contour_view.settings_of(scene), _film_settings(scene)
         )
-        self._pictures = self._rendering.pictures()
+        return self._rendering.pictures(), self._rendering.picture_count
 
-    def _end(self, context: bpy.types.Context) -> None:
-        self._pictures.close()
-        context.window_manager.event_timer_remove(self._timer)
-        course.end(context)
-
-    def _finish(self) -> set[str]:
+    def finish(self) -> set[str]:
         paths = self._rendering.finish()
         place: Path = paths[0] if len(paths) == 1 else paths[0].parent
         self.report({"INFO"}, f"{self._rendering.picture_count} pictures rendered: {place}")

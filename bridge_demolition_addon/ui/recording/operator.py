@@ -19,7 +19,7 @@ from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...scene.world import start_over
 from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
-from ...simulation.display.pictures import show_charges, write_pictures
+from ...simulation.display.pictures import show_charges
 from ...simulation.kept_run import keep_run, mark_run
 from ...simulation.recording.logs import LogFiles
 from ...simulation.recording.recordable import check_recordable
@@ -157,9 +157,7 @@ def _let_go_of(folder: Path, scene: bpy.types.Scene) -> None:
     contours_of(scene).forget()
 
 
-def end_with_results(
-    operator: bpy.types.Operator, recording: Recording, *, stopped: str = "", pictures: bool = False
-) -> set[str]:
+def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:
     """Write what a recording that has ended has, keep it for the panel of results, and report how it ended.
 
     Where nothing was recorded the folder is gone as well, if nothing else is in it: the next try finds it free.
@@ -172,8 +170,6 @@ def end_with_results(
         The recording.
     stopped
         In a sentence, that the user has stopped it before its time; empty where that is not so.
-    pictures
-        Whether pictures are rendered of it, if it went well.
     """
     messages.clear(operator)
     moved = not _locks[recording].in_place
@@ -197,11 +193,6 @@ def end_with_results(
         messages.tell(operator, "WARNING", f"Forces are estimated from motion: {recording.distrust}")
     elif recording.rigid_because:
         messages.tell(operator, "WARNING", f"Connections were rigid, not elastic: {recording.rigid_because}")
-    if pictures and not (recording.error or stopped):
-        try:
-            _write_pictures(recording, folder)
-        except (DemolitionError, OSError) as error:
-            messages.tell(operator, "WARNING", f"No pictures of the run: {error}")
     messages.tell(operator, "INFO", f"Results are in {folder}")
     return {"FINISHED"}
 
@@ -232,12 +223,11 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
     return lock.folder
 
 
-def _write_pictures(recording: Recording, folder: Path) -> None:
-    """Render the same pictures of a run as one without a window has."""
-    scene, context = recording.scene, _contexts[recording]
-    view = context.scenario.pictures if context.scenario else table_of(scene.bda.scenario.pictures, PictureSettings)
-    summary = session.last_recording().summary
-    write_pictures(scene, folder, view, summary["key_frame"]["frame"], recording.last_frame)
+def view_of(recording: Recording) -> PictureSettings:
+    """Return how the pictures of a recording are taken: as its scenario says, or else as the panels show."""
+    if scenario := _contexts[recording].scenario:
+        return scenario.pictures
+    return table_of(recording.scene.bda.scenario.pictures, PictureSettings)
 
 
 def rest_to_stop_at(recording: Recording) -> Rest | None:

@@ -43,6 +43,8 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         name="Pictures", description="Render the run's pictures when it has ended", options={"SKIP_SAVE"}
     )
 
+    _course: course.Course | None = None
+
     why_not = staticmethod(why_not_recorded)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -111,7 +113,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def _show(self, context: bpy.types.Context) -> None:
         self._course.share = self._playing.done / self._playing.total
         self._course.left_s = self._playing.left_s
-        self._course.note = note_of(self._playing)
+        self._course.note = note_of(self._playing, pictures=self.pictures)
         course.show(context)
 
     def _leave(self, context: bpy.types.Context) -> set[str]:
@@ -122,7 +124,17 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         playing = self._playing
         playing.end()
         stopped = "" if playing.finished else f"Stopped after {playing.done} of {playing.total} frames"
-        return end_with_results(self, playing.recording, stopped=stopped, pictures=self.pictures)
+        ended = end_with_results(self, playing.recording, stopped=stopped)
+        if self.pictures and ended == {"FINISHED"} and playing.finished and not playing.recording.error:
+            self._take_pictures()
+        return ended
+
+    def _take_pictures(self) -> None:
+        """Render pictures as their own button does, in the window picture by picture."""
+        try:
+            bpy.ops.bda.render_run("INVOKE_DEFAULT" if self._course else "EXEC_DEFAULT")
+        except RuntimeError as error:  # so a script learns of a refusal, which the panel has kept by now
+            self.report({"WARNING"}, f"No pictures of the run: {error}")
 
 
 class BDA_OT_bake(Action, bpy.types.Operator):
@@ -167,9 +179,11 @@ class BDA_OT_delete_bake(Action, bpy.types.Operator):
 CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
 
 
-def note_of(playing: Playing) -> str:
-    """Return what there is to say of a run besides how far it is."""
-    broken = f"{playing.recording.broken} connections broken"
-    if playing.longest_frame_s <= _SLOW_FRAME_S:
-        return broken
-    return f"{broken} | one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between"
+def note_of(playing: Playing, *, pictures: bool = False) -> str:
+    """Return what there is to say of a run besides how far it is; its pictures are no part of its time left."""
+    said = [f"{playing.recording.broken} connections broken"]
+    if playing.longest_frame_s > _SLOW_FRAME_S:
+        said.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
+    if pictures:
+        said.append("pictures follow")
+    return " | ".join(said)

@@ -196,6 +196,7 @@ def curves_of(body):
 def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, extension, tmp_path):
     from bridge_demolition_addon.core.results.arrays import load_results
 
+    assert ran.tool_settings.lock_markers  # nobody who drags along a ruler that they cover moves one
     ran.timeline_markers.new("mine", frame=7)
     frames = load_results(tmp_path / "run" / "results.npz").frames
     marked = {marker.name: marker.frame for marker in ran.timeline_markers}
@@ -206,5 +207,6 @@ def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, ex
     ran.bda.overwrite = True
     assert extension.ops.bda.run() == {"FINISHED"}
     assert {marker.name: marker.frame for marker in ran.timeline_markers} == marked
+    assert not ran.tool_settings.lock_markers  # the user has one to move
     assert extension.ops.bda.remove_demolition() == {"FINISHED"}
     assert [marker.name for marker in ran.timeline_markers] == ["mine"]
