@@ -75,9 +75,25 @@ def _remove_in_turn(scene: bpy.types.Scene, *groups: list[bpy.types.Object]) -> 
     """
     for group in groups:
         meshes = {each.data for each in group if each.type == "MESH"}
+        _take_out_of_world(scene, group)
         bpy.data.batch_remove(group)
         _restart(scene)
         bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
+
+
+def _take_out_of_world(scene: bpy.types.Scene, group: list[bpy.types.Object]) -> None:
+    """Have Blender free the bodies among some objects in the world of their scene, where there are other worlds.
+
+    Blender does not know the world of a body that it deletes. It takes the body out of the worlds of all scenes by its
+    place in one of them, so that another body goes in its stead, and crashes later.
+    """
+    others = [each.rigidbody_world for each in bpy.data.scenes if each.rigidbody_world and each != scene]
+    shared = {body for world in others if world.collection for body in world.collection.all_objects}
+    bodies = [each for each in group if each.rigid_body and each not in shared]
+    if others and bodies:
+        chosen = {"object": bodies[0], "active_object": bodies[0], "selected_objects": bodies}
+        with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], **chosen):
+            bpy.ops.rigidbody.objects_remove()
 
 
 def _restart(scene: bpy.types.Scene) -> None:

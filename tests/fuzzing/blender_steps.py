@@ -238,7 +238,9 @@ class BlenderPlayer(Player):
     def _do_without(self, button: str) -> str:
         """Do what is left of a button in bare Blender."""
         scene = bpy.context.scene
-        if button == "build_scenario" and not scene.rigidbody_world and bpy.context.mode == "OBJECT":
+        if button == "build_anew" and scene.rigidbody_world and not scene.rigidbody_world.point_cache.is_baked:
+            remove_demolition(scene)
+        if button in ("build_scenario", "build_anew") and not scene.rigidbody_world and bpy.context.mode == "OBJECT":
             scenario = read_scenario(self.scenario)
             build_demolition(scene, scenario, checked_model(scenario))
         elif button == "add_source_point":

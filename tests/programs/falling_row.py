@@ -12,6 +12,7 @@ import bpy
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
+from bridge_demolition_addon.scene.removal import remove_demolition
 from bridge_demolition_addon.scene.world import start_over
 from bridge_demolition_addon.simulation import blender_events
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
@@ -183,6 +184,13 @@ class FallingRow:
         )
         assert len(stop_recording().frames) == 10
 
+    def play_another_row_in_another_scene(self) -> None:
+        self.choose_another_scene()
+        another = FallingRow(self.folder)
+        for body in another.row:
+            body["bda_kind"] = "shard"
+        self.play(1, 11)
+
     def choose_another_scene(self) -> None:
         bpy.context.window.scene = bpy.data.scenes.new("Another")
 
@@ -234,6 +242,12 @@ class FallingRow:
         for each in bpy.data.objects:
             each.select_set(each in objects)
         bpy.ops.object.delete()
+
+    def remove_demolitions(self) -> None:
+        for scene in bpy.data.scenes:
+            bpy.context.window.scene = scene
+            assert remove_demolition(scene) == len(self.row)
+            self.play_all_scenes()
 
     # What becomes of it.
 
@@ -364,6 +378,9 @@ class FallingRow:
     def undo_and_play_all_scenes(self) -> None:
         bpy.ops.ed.undo_push(message="edited")
         assert bpy.ops.ed.undo() == {"FINISHED"}
+        self.play_all_scenes()
+
+    def play_all_scenes(self) -> None:
         for scene in bpy.data.scenes:
             for frame in (12, 13, 1, 2, 3):
                 scene.frame_set(frame)

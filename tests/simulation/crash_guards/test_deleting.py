@@ -226,6 +226,11 @@ def test_a_deleted_scene_that_undo_brings_back(tmp_path):
     do(tmp_path, "watch_from_an_undo_step_on", "delete_scene_and_undo", "play_on_from_the_start", "fall_from_the_start")
 
 
+def test_removing_a_demolition_after_two_scenes_were_played(tmp_path):
+    # Deleted with its bodies in their world, it crashed in each of 10 runs.
+    do(tmp_path, "watch", "play_another_row_in_another_scene", "remove_demolitions", "open_another_file")
+
+
 def test_undo_without_a_world_goes_as_ever(tmp_path):
     do(tmp_path, "undo_without_a_world")
 
