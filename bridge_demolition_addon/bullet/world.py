@@ -230,6 +230,23 @@ class BulletWorld:
         ):
             write_vectors(self._bound.bodies[bodies] + np.uint64(offset), vectors)
 
+    def put(self, bodies: np.ndarray, positions_m: np.ndarray) -> None:
+        """Put bodies (k,) at positions (k, 3)."""
+        write_vectors(self._bound.bodies[bodies] + np.uint64(self._layout.body.transform + 96), positions_m)
+
+    def lead(self, bodies: np.ndarray, positions_m: np.ndarray, velocity_m_s: np.ndarray) -> None:
+        """Put bodies (k,) that move as animation says at positions (k, 3), with one velocity (3,) for the coming sub-step.
+
+        To be called before a sub-step: Bullet has worked out by then how animation would move them.
+        """
+        self.put(bodies, positions_m)
+        resting = np.zeros((len(bodies), 3))
+        for offset, values in (
+            (self._layout.body.linear_velocity, resting + velocity_m_s),
+            (self._layout.body.angular_velocity, resting),
+        ):
+            write_vectors(self._bound.bodies[bodies] + np.uint64(offset), values)
+
     def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray | None = None) -> None:
         """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
 

@@ -28,6 +28,7 @@ from .structural_changes import keep_changes, keep_loads
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball, create_hits
 from .tools.cable import create_cable
+from .tools.ground_motion import keep_ground_motion, move_with_ground
 from .tools.jackhammer import create_jackhammer
 from .world import START_FRAME, create_world, off_scene, remove_world, settings_restored_on_failure
 
@@ -47,12 +48,20 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     ------
     GeometryError
         Nothing lies under the ball or under the beginning of a jackhammer's path; nothing was made.
+    ScenarioError
+        There is no record that the ground could move by; nothing was made.
     SimulationError
         Blender is not in object mode, which fields need; nothing is left of what was made.
     """
     surfaces = _surfaces(scenario, model)
+    record = scenario.ground_record
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
-        return _build(scene, scenario, model, *surfaces)
+        shards = _build(scene, scenario, model, *surfaces)
+        keep_ground_motion(scene, record, scenario.ground_motion.start_s if record else 0.0)
+        if record:
+            start_s = scenario.ground_motion.start_s
+            move_with_ground(scene, record, start_s, FIRST_STEP_FRAME - 1, scenario.timeline)
+        return shards
 
 
 def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
@@ -62,6 +71,8 @@ def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) 
     ------
     GeometryError
         As `build_demolition`.
+    ScenarioError
+        There is no record that the ground could move by.
     SimulationError
         The rigid-body world has bodies that were not built here, and would stay.
     """
@@ -71,6 +82,7 @@ def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) 
             "out of it, or build in a new scene"
         )
     _surfaces(scenario, model)
+    _ = scenario.ground_record
 
 
 def _surfaces(scenario: Scenario, model: Model) -> tuple[list[float], list[float]]:

@@ -49,7 +49,7 @@ def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple
     scene = bpy.context.scene
     build_demolition(scene, scenario, model)
     context = RunContext.of(scene, scenario.title, scenario)
-    rest = rest_watch(scenario) if scenario.time.stop_at_rest else None
+    rest = rest_watch(scenario, context.ground_motion) if scenario.time.stop_at_rest else None
     recording = Recording(scene, folder, every_substep=scenario.recording.every_substep, loads=False)
     try:
         play_alone(recording, stop_at=rest)

@@ -22,6 +22,7 @@ from ..core.structure.model import Model
 from ..scene.demolition import build_demolition
 from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_pictures
+from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
 from .display.film import FilmRendering, FilmSettings
 from .display.pictures import check_camera, rendered_pictures, show_charges
@@ -223,7 +224,7 @@ def _simulate(
 
     A scene that is stopped at rest ends with the frame in which it is.
     """
-    rest = rest_watch(scenario) if scenario.time.stop_at_rest else None
+    rest = rest_watch(scenario, ground_motion_of(scene)) if scenario.time.stop_at_rest else None
     recording = Recording(scene, folder, every_substep=scenario.recording.every_substep)
     playing = Playing(recording, stop_at=rest)
     try:

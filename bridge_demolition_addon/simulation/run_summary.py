@@ -18,6 +18,7 @@ from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
 from ..core.sequence.rest import Rest, last_event_s
 from ..core.sequence.undisturbed import fell_by_itself
+from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step
 from .recording.recorder import Recording
 
@@ -38,6 +39,8 @@ class RunContext:
         What the scene runs; None where it was not built from a scenario.
     made_by_hand : sequence of str
         What of that no scenario can say, in words.
+    ground_motion : GroundMotionOfScene or None
+        How the ground moves, where it does.
     """
 
     title: str
@@ -45,6 +48,7 @@ class RunContext:
     substep_s: float
     scenario: Scenario | None
     made_by_hand: Sequence[str] = ()
+    ground_motion: GroundMotionOfScene | None = None
 
     @classmethod
     def of(
@@ -52,7 +56,7 @@ class RunContext:
     ) -> RunContext:
         """Return the context of a scene as it is now."""
         gravity, substep_s = np.array(scene.gravity, float), scene_time_step(scene).substep_s
-        return cls(title, gravity, substep_s, scenario, made_by_hand)
+        return cls(title, gravity, substep_s, scenario, made_by_hand, ground_motion_of(scene))
 
 
 def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:
@@ -79,9 +83,10 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "elasticity": None if recording.elasticity is None else asdict(recording.elasticity),
         **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
+        "ground_motion": _ground_motion(context.ground_motion),
         "made_by_hand": list(context.made_by_hand),
     }
-    return summary if scenario is None else summary | _of_scenario(scenario, recording, results)
+    return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
 
 
 def _shortest_substep_s(results: Results) -> float | None:
@@ -115,14 +120,21 @@ def _processor() -> str:
     return platform.processor() or platform.machine()
 
 
-def rest_watch(scenario: Scenario) -> Rest:
-    """Watch for the rest that a scenario waits for."""
-    time = scenario.time
-    return Rest(time.rest_speed_m_s, time.rest_spin_rad_s, time.rest_hold_s, last_event_s(scenario))
+def rest_watch(scenario: Scenario, motion: GroundMotionOfScene | None) -> Rest:
+    """Watch for the rest that a scenario waits for, on ground that moves so."""
+    time, motion_end_s = scenario.time, motion.end_s if motion else 0.0
+    return Rest(time.rest_speed_m_s, time.rest_spin_rad_s, time.rest_hold_s, last_event_s(scenario, motion_end_s))
 
 
-def _of_scenario(scenario: Scenario, recording: Recording, results: Results) -> dict[str, Any]:
-    rest = rest_watch(scenario)
+def _ground_motion(motion: GroundMotionOfScene | None) -> dict[str, Any] | None:
+    """Largest acceleration, velocity and displacement of the ground along x, y and z, and when it moves."""
+    return motion and {"start_s": motion.start_s, "end_s": motion.end_s, **motion.record.peaks()}
+
+
+def _of_scenario(
+    scenario: Scenario, recording: Recording, results: Results, motion: GroundMotionOfScene | None
+) -> dict[str, Any]:
+    rest = rest_watch(scenario, motion)
     for motion in zip(
         results.frames.time_s, results.frames.positions_m, results.frames.rotations, results.frames.asleep, strict=True
     ):

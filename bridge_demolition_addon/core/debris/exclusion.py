@@ -16,6 +16,7 @@ from manifold3d import CrossSection, JoinType
 from ..arithmetic import cosine
 from ..geometry.plan_areas import distances_outside, outlines, united
 from ..results.arrays import Results
+from ..results.motion import relative_to_ground
 from ..scenario import Exclusion
 from .footprint import footprint, swept_footprint
 
@@ -58,6 +59,7 @@ class ExclusionZone:
 
 def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
     """Return the exclusion zone of a run."""
+    results = relative_to_ground(results)
     shards = results.inventory.of_kind("shard")
     plan = footprint(results, shards, 0)
     drop = widened(plan, settings.designed_drop_m)

@@ -12,7 +12,7 @@ from ..geometry.hulls import convex_hulls
 from ..geometry.plan_areas import distances_outside
 from ..geometry.vectors import dot, transformed
 from ..results.arrays import Results
-from ..results.motion import MOVED_M, throw, travel
+from ..results.motion import MOVED_M, relative_to_ground, throw, travel
 from .footprint import corners_at, footprint, straightened
 
 PERCENTS = (50, 75, 90, 95, 99, 100)
@@ -50,7 +50,8 @@ class Debris:
 
 
 def debris_of(results: Results) -> Debris:
-    """Return the debris at the last recorded step."""
+    """Return the debris at the last recorded step, by places on the ground."""
+    results = relative_to_ground(results)
     shards = results.inventory.of_kind("shard")
     first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
     bodies = shards[travel(first[shards], last[shards]) > MOVED_M]

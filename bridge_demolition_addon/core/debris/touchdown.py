@@ -20,6 +20,7 @@ import numpy as np
 from ..arithmetic import cube_root, power
 from ..geometry.vectors import distance
 from ..results.arrays import Results
+from ..results.motion import relative_to_ground
 from ..units import STANDARD_GRAVITY_M_S2
 
 TOGETHER_S = 0.2
@@ -100,7 +101,7 @@ def landings(results: Results) -> Landings:
     A frame lies between that moment and the one in which it is stopped, so that it may land with one frame of gravity
     more: this is counted as if it did.
     """
-    inventory, frames = results.inventory, results.frames
+    inventory, frames = results.inventory, relative_to_ground(results).frames
     bodies = np.concatenate((inventory.of_kind("shard"), inventory.of_kind("ball")))
     downwards = -frames.velocities_m_s[:, bodies, 2]
     fastest = downwards.argmax(axis=0)

@@ -16,6 +16,7 @@ from ..geometry.rotations import rotated, rotation_vectors
 from ..geometry.solids import hull
 from ..geometry.vectors import length, transformed
 from ..results.arrays import Results
+from ..results.motion import relative_to_ground
 from ..scenario import Zone
 from .footprint import corners_at
 
@@ -75,6 +76,7 @@ def watch_zone(results: Results, zone: Zone, bodies: Sequence[int]) -> ZoneWatch
     """
     prism = _Prism.of(zone)
     there_before, entries = [], []
+    results = relative_to_ground(results)
     bodies = _coming_near(results, prism, np.asarray(bodies, int))
     before, after = corners_at(results, 0, bodies), corners_at(results, -1, bodies)
     for row, body in enumerate(bodies):

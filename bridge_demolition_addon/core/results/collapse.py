@@ -9,6 +9,7 @@ import numpy as np
 
 from ..geometry.vectors import length
 from .arrays import Results
+from .motion import relative_to_ground
 
 REST_SPEED_M_S = 0.1
 """A shard that moves more slowly than this is at rest."""
@@ -53,6 +54,7 @@ def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Sp
         Lengths of the spans from x = 0 on. Shards beyond the first or last axis belong to the nearest span. Without
         them, or where no shard is of the deck, everything is one span.
     """
+    results = relative_to_ground(results)
     shards = results.inventory.of_kind("shard")
     deck = shards[results.inventory.body_member_kinds[shards] == _DECK]
     if not len(shards):
@@ -75,7 +77,7 @@ def collapse_progress(results: Results) -> np.ndarray:
     masses = results.inventory.masses_kg[shards]
     if not masses.sum() > 0.0:
         return np.zeros(len(results.frames.time_s))
-    heights = _mean_by_mass(results.frames.positions_m[:, shards, 2], masses)
+    heights = _mean_by_mass(relative_to_ground(results).frames.positions_m[:, shards, 2], masses)
     return 1.0 - heights / heights[0] if heights[0] > 0.0 else np.zeros(len(heights))
 
 
@@ -99,9 +101,9 @@ class ShardRest:
 
 
 def rest_of(results: Results) -> ShardRest:
-    """Return when the shards began to move and when they came to rest, by `REST_SPEED_M_S`."""
+    """Return when the shards began to move on the ground and when they came to rest on it, by `REST_SPEED_M_S`."""
     shards = results.inventory.of_kind("shard")
-    moving = length(results.frames.velocities_m_s[:, shards]) > REST_SPEED_M_S
+    moving = length(relative_to_ground(results).frames.velocities_m_s[:, shards]) > REST_SPEED_M_S
     at_times = np.flatnonzero(moving.any(axis=1))
     if not len(at_times):
         return ShardRest(None, None, 0)

@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..geometry.vectors import distance, length
+from .arrays import Results
 
 _HIT_SHARE = 0.5
 """A frame counts as a hit when velocity departs from free fall by more than this share of the frame's g·t."""
 
 MOVED_M = 0.1
 """A shard that ends farther than this from where it began is debris; the rest of the bridge still stands."""
+
+
+def relative_to_ground(results: Results) -> Results:
+    """Return a run as who stands on the ground sees it: the same where the ground rests, or is not there."""
+    frames = results.frames
+    for body in results.inventory.of_kind("ground"):
+        shifts = frames.positions_m[:, body] - frames.positions_m[0, body]
+        velocities = np.asarray(frames.velocities_m_s[:, body])
+        if shifts.any() or velocities.any():
+            seen = replace(
+                frames,
+                positions_m=frames.positions_m - shifts[:, None],
+                velocities_m_s=frames.velocities_m_s - velocities[:, None],
+            )
+            return replace(results, frames=seen)
+    return results
 
 
 def travel(first: np.ndarray, last: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from ..geometry.vectors import dot, length
 from ..mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
-from .motion import throw
+from .motion import relative_to_ground, throw
 from .removed_shards import without_removed
 from .solver_energy import energy_summary
 
@@ -46,7 +46,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "hits_of_the_ball": hits_of_balls(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
-        "largest_throw": _largest_throw(left),
+        "largest_throw": _largest_throw(relative_to_ground(left)),
         "energy": energy_summary(left),
         "blast": _blast(results),
     }
@@ -69,7 +69,7 @@ def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
     after = np.flatnonzero(results.frames.time_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
     if not warm_up_s or not len(after):
         return None
-    speeds = length(results.frames.velocities_m_s[after[0], results.inventory.of_kind("shard")])
+    speeds = length(relative_to_ground(results).frames.velocities_m_s[after[0], results.inventory.of_kind("shard")])
     return {"time_s": float(results.frames.time_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
 
 

@@ -8,6 +8,7 @@ tables.
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
 from ..loads.load import Load
+from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
 from ..mechanics.materials import Material
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
@@ -35,6 +36,7 @@ __all__ = [
     "ConnectionBetween",
     "ConnectionSettings",
     "Deck",
+    "DesignSpectrum",
     "Equipment",
     "Exclusion",
     "Finer",
@@ -44,6 +46,7 @@ __all__ = [
     "Girders",
     "Ground",
     "GroundSurface",
+    "GroundMotion",
     "Jackhammer",
     "Load",
     "Material",
@@ -59,6 +62,7 @@ __all__ = [
     "ShardSettings",
     "Site",
     "Support",
+    "Sweep",
     "TimeSettings",
     "Weakening",
     "Zone",

@@ -20,6 +20,7 @@ PATHS = (
     ("fracture", "painted_file"),
     ("ground", "file"),
     ("ground.surfaces", "file"),
+    ("ground_motion", "file"),
 )
 """Table and key of every path of another file."""
 

@@ -7,6 +7,9 @@ from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
 from ..loads.load import Load
+from ..ground_motion.record import GroundRecord
+from ..ground_motion.settings import GroundMotion
+from ..ground_motion.sources import ground_record
 from ..mechanics.joint import Joint
 from ..mechanics.materials import Material, check_materials
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
@@ -41,6 +44,7 @@ class Scenario(Table):
     bridge: Bridge | None = None
     geometry: tuple[Geometry, ...] = ()
     ground: Ground = field(default_factory=Ground)
+    ground_motion: GroundMotion | None = None
     fracture: FractureSettings
     materials: tuple[Material, ...] = ()
     connections: ConnectionSettings
@@ -87,6 +91,17 @@ class Scenario(Table):
         return named.get(self.connections.material)
 
     @property
+    def ground_record(self) -> GroundRecord | None:
+        """Return how the ground moves, None where it rests.
+
+        Raises
+        ------
+        ScenarioError
+            As `ground_record`, of a file.
+        """
+        return self.ground_motion and ground_record(self.ground_motion, self.seed)
+
+    @property
     def changes(self) -> tuple[Change, ...]:
         """Return all removals, saw cuts and weakenings."""
         return (*self.removals, *self.saw_cuts, *self.weakenings)
@@ -119,7 +134,21 @@ class Scenario(Table):
             if load.times_s[0] >= self.time.duration_s:
                 wanted = f"less than time.duration_s, {self.time.duration_s} (s)"
                 raise ScenarioError(f"loads.times_s[0] is {load.times_s[0]}: expected {wanted}")
+        self._check_ground_motion()
         check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
+
+    def _check_ground_motion(self) -> None:
+        motion = self.ground_motion
+        if motion is None:
+            return
+        for name, others in (("jackhammers", self.jackhammers), ("ball.cable", self.ball and self.ball.cable)):
+            if others:
+                raise ScenarioError(
+                    f"{name} is given together with ground_motion: expected one of them; tools that machines hold do not "
+                    "move with the ground"
+                )
+        if motion.start_s >= self.time.duration_s:
+            raise motion.unexpected("start_s", f"less than time.duration_s, {self.time.duration_s:g} (s)")
 
     def _check_charges(self) -> None:
         charges = named_charges(self.charges)

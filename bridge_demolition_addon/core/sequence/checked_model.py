@@ -38,6 +38,7 @@ def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -
     model = build_model(scenario, members)
     schedule(scenario.changes, model_structure(model))
     placed_on_model(scenario.loads, model)
+    _ = scenario.ground_record  # refuses a file that holds no accelerogram
     drops = [drop.target_m for drop in scenario.ball.drops] if scenario.ball else []
     heights = [surface_height(scenario, model.members, place) for place in drops]
     for hammer in scenario.jackhammers:

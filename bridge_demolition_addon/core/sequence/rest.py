@@ -64,9 +64,12 @@ class Rest:
         return self.since_s
 
 
-def last_event_s(scenario: Scenario) -> float:
-    """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest."""
-    times = [scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
+def last_event_s(scenario: Scenario, motion_end_s: float = 0.0) -> float:
+    """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest.
+
+    From `motion_end_s` on the ground does not move any more.
+    """
+    times = [motion_end_s, scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
     times += [load.times_s[-1] for load in scenario.loads]
     times += [hammer.end_time_s for hammer in scenario.jackhammers]
     if scenario.blast.explosion:

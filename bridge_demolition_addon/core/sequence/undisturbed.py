@@ -21,6 +21,8 @@ def first_event_s(scenario: Scenario) -> float:
     times = [change.time_s for change in scenario.changes]
     times += [load.begins_s for load in scenario.loads]
     times += [hammer.start_time_s for hammer in scenario.jackhammers]
+    if scenario.ground_motion:
+        times.append(scenario.ground_motion.start_s)
     if scenario.blast.explosion:
         times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges if charge.mass_kg > 0.0]
     if ball := scenario.ball:

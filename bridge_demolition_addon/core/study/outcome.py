@@ -115,7 +115,7 @@ def outcome_of(
     OutputError
         The bridge covers no area in plan, or a body is nowhere.
     """
-    left, _ = without_removed(results)
+    left = relative_to_ground(without_removed(results)[0])
     shards, balls = left.inventory.of_kind("shard"), left.inventory.of_kind("ball")
     plan = footprint(left, shards, 0)
     _check(left, plan)

@@ -1,1 +1,1 @@
-"""Ball, cable and jackhammer, with their keyframes."""
+"""What animation moves: ball, cable and jackhammer, and ground that shakes."""

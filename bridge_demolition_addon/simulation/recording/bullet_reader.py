@@ -19,10 +19,12 @@ from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
 from ...scene.structural_changes import events_of, placed_loads_of
 from ...scene.time_scale import time_step_at
+from ...scene.tools.ground_motion import ground_motion_of, rows_on_moving_ground
 from .blast import Blast
 from .elastic_connections import ElasticConnections
 from .events import AppliedEvent, Events
 from .loads import Loads
+from .ground_drive import GroundDrive
 from .substeps import Breaks, SubstepRecorder
 
 
@@ -92,6 +94,7 @@ class BulletReader:
             work,
             elastic,
             self._member_sections(connections) if elastic and breaking.strength else None,
+            self._ground_drive(bodies),
             every_substep=every_substep,
             loads=loads,
         )
@@ -118,6 +121,14 @@ class BulletReader:
         except LayoutError as error:
             self.rigid_because = error
             return None
+
+    def _ground_drive(self, bodies: Sequence[bpy.types.Object]) -> GroundDrive | None:
+        """Return what moves the ground, None where it rests."""
+        motion = ground_motion_of(self._scene)
+        if motion is None:
+            return None
+        moves = (self._inventory.body_kinds == "shard") & (self._inventory.masses_kg > 0.0)
+        return GroundDrive(self._world, rows_on_moving_ground(bodies), np.flatnonzero(moves), motion)
 
     def _member_sections(self, connections: Sequence[bpy.types.Object]) -> MemberSections:
         """Return the sections across members, as they were built, that connections are judged by."""

@@ -163,7 +163,8 @@ class ElasticConnections:
         self._motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
-        velocities = power(self._left_per_second, substep_s) * motion.velocities
+        left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
+        velocities = left * motion.velocities
         velocities += substep_s * self._accelerations(motion, motion.loads)
         self._structure.settle_cracks(motion.positions_m, motion.rotations)
         self._states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)

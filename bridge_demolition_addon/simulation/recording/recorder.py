@@ -30,6 +30,7 @@ from ...scene.start_motion import start_motion_of
 from ...scene.structural_changes import changes_of, loads_of, placed_loads_of
 from ...scene.time_scale import time_is_animated, time_step_at
 from ...scene.tools.ball import lift_from, lifts_of
+from ...scene.tools.ground_motion import ground_motion_of
 from ...scene.world import farthest_per_substep_of
 from .blast import Blast, check_blast, goes_off
 from .bullet_reader import BulletReader
@@ -324,6 +325,11 @@ class Recording:
                 f"loads need Blender's memory, which is not as expected ({self.distrust}): take them out of the "
                 "scenario, or run it in another Blender"
             )
+        if ground_motion_of(self.scene):
+            raise SimulationError(
+                "a ground that moves needs Blender's memory, which is not as expected "
+                f"({self.distrust}): take ground_motion out of the scenario, or run it in another Blender"
+            )
         if changes_of(self.scene):
             raise SimulationError(
                 "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
@@ -372,6 +378,7 @@ class Recording:
             blast_impulses_ns=self._blast.whole_impulses(places, rotations) if self._blast else np.zeros(0),
             **self._start_motion(),
             **self._loads(),
+            **self._ground_motion(),
             step=[step.frame_s, step.substep_s, *([] if farthest_m is None else [farthest_m])],
             **elastic,
         )
@@ -389,6 +396,14 @@ class Recording:
             course = np.array((*load.direction, *load.times_s, *load.forces_n, *(load.point_m or ())))
             parts |= {f"load {number}": course, f"load {number} bears": np.stack((each.bodies, each.shares))}
         return parts
+
+    def _ground_motion(self) -> dict[str, np.ndarray]:
+        """How the ground moves, where it does."""
+        motion = ground_motion_of(self.scene)
+        if motion is None:
+            return {}
+        times = motion.start_s + motion.record.times_s
+        return {"ground_motion": np.column_stack((times, motion.record.accelerations_m_s2))}
 
     def _set_time(self) -> None:
         """Hold time in the frame in which Blender makes its world, and have it go as it is animated in all others."""
@@ -455,6 +470,8 @@ class Recording:
         if self._reader:  # of an earlier world
             self._reader.close()
         self._set_moving(held)
+        if ground_motion_of(self.scene) and not held:
+            raise SimulationError("a ground that moves needs the timeline played from its start frame")
         self.inventory = take_inventory(self._bodies, self._connections)
         self._begin_blast(self.world)
         self._reader = BulletReader(

@@ -31,6 +31,7 @@ from .background import BackgroundWork
 from .blast import Blast
 from .elastic_connections import ElasticConnections
 from .events import Events
+from .ground_drive import GroundDrive
 from .load_reader import LoadReader
 from .loads import Loads
 from .reinforcement import Reinforcement
@@ -121,6 +122,8 @@ class SubstepRecorder:
         The connections, where they are elastic.
     member_sections : MemberSections or None
         Their sections, by which they are judged.
+    ground : GroundDrive or None
+        Moves the ground, where it moves.
     every_substep : bool
         Whether every sub-step is recorded: the work of a frame is known only then.
     loads : bool
@@ -148,6 +151,7 @@ class SubstepRecorder:
         work: WorkAccumulator,
         elastic: ElasticConnections | None = None,
         member_sections: MemberSections | None = None,
+        ground: GroundDrive | None = None,
         *,
         every_substep: bool,
         loads: bool,
@@ -156,7 +160,7 @@ class SubstepRecorder:
         self.seconds = 0.0
         self.error: Exception | None = None
         self._world, self._inventory, self._breaking = world, inventory, breaking
-        self._events, self._work, self._elastic = events, work, elastic
+        self._events, self._work, self._elastic, self._ground = events, work, elastic, ground
         self._blast, self._threshold_step_s = blast, threshold_step_s
         self._loads_on_bridge = loads_on_bridge
         self._reinforcement = None
@@ -212,6 +216,8 @@ class SubstepRecorder:
             if self._is_warming_up and self._breaking.warm_up_damping:
                 # As Bullet's own damping: a share of the velocity in a second, whatever the step.
                 self._world.slow_down(self._shards, float(power(1.0 - self._breaking.warm_up_damping, substep_s)))
+            if self._ground:
+                self._ground.before_substep(substep_s)
             self._events.before_substep(self.elapsed_s, substep_s)
             self._world.scale_thresholds(self._threshold_factor(substep_s))
             if self._reinforcement:
@@ -288,6 +294,8 @@ class SubstepRecorder:
                     f"a frame had {self._begun_substeps} sub-steps instead of {self._expected_substeps}: "
                     "do not animate sub-steps per frame, or record every sub-step"
                 )
+            if self._ground:
+                self._ground.after_substep()
             if self._unknown:
                 self._follow(substep_s)
             else:

@@ -232,8 +232,9 @@ def view_of(recording: Recording) -> PictureSettings:
 
 def rest_to_stop_at(recording: Recording) -> Rest | None:
     """Return the rest at which a recording is to end before its time, if it is; to be asked for before it runs."""
-    scenario = _contexts[recording].scenario
-    return rest_watch(scenario) if scenario and scenario.time.stop_at_rest else None
+    context = _contexts[recording]
+    scenario = context.scenario
+    return rest_watch(scenario, context.ground_motion) if scenario and scenario.time.stop_at_rest else None
 
 
 def _log_file(path: str, overwrite: bool) -> Path | None:

@@ -1,0 +1,119 @@
+"""A moving ground: kept with the scene until a recording moves it, and animated so that it is seen to move."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core.errors import SimulationError
+from ...core.ground_motion.record import GroundRecord, integrated
+from ...core.timing.timeline import Timeline
+from ..bodies import Kind, bodies_of, kind_of
+from ..custom_properties import edited, kept_number
+from .keyframes import key_values
+
+_TIMES = "bda_ground_motion_times_s"
+_ACCELERATIONS = "bda_ground_motion_m_s2"
+_START = "bda_ground_motion_start_s"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GroundMotionOfScene:
+    """How the ground of a scene moves.
+
+    Attributes
+    ----------
+    record : GroundRecord
+    start_s : float
+        Simulated time at which it begins.
+    """
+
+    record: GroundRecord
+    start_s: float
+
+    @property
+    def end_s(self) -> float:
+        """Simulated time from which on the ground rests."""
+        return self.start_s + self.record.duration_s
+
+
+def keep_ground_motion(scene: bpy.types.Scene, record: GroundRecord | None, start_s: float = 0.0) -> None:
+    """Keep a record in the scene, and so in its file; with None its ground rests."""
+    for name in (_TIMES, _ACCELERATIONS, _START):
+        if name in scene:
+            del scene[name]
+    if record is not None:
+        scene[_TIMES] = record.times_s.tolist()
+        scene[_ACCELERATIONS] = record.accelerations_m_s2.ravel().tolist()
+        scene[_START] = start_s
+
+
+def ground_motion_of(scene: bpy.types.Scene) -> GroundMotionOfScene | None:
+    """Return how the ground of a scene moves, None where it rests.
+
+    Raises
+    ------
+    SimulationError
+        What is kept was edited to no record.
+    """
+    if _TIMES not in scene:
+        return None
+    try:
+        times = np.array(scene[_TIMES], float)
+        accelerations = np.array(scene[_ACCELERATIONS], float).reshape(len(times), 3)
+    except (KeyError, TypeError, ValueError) as error:
+        raise edited(scene, _TIMES, "times and accelerations of a record") from error
+    if len(times) < 2 or not (np.diff(times) > 0.0).all() or not np.isfinite(accelerations).all():
+        raise edited(scene, _TIMES, "times and accelerations of a record")
+    return GroundMotionOfScene(integrated(times, accelerations), kept_number(scene, _START, 0.0))
+
+
+def move_with_ground(
+    scene: bpy.types.Scene, record: GroundRecord, start_s: float, frame: int, timeline: Timeline
+) -> None:
+    """Animate the ground and all bodies that are fixed to it.
+
+    Blender moves them in straight lines between two frames; a recording moves them in every sub-step.
+
+    Parameters
+    ----------
+    frame : int
+        Frame of the time 0, the last one before time passes.
+    timeline : Timeline
+        The frames from there on.
+    """
+    times = np.concatenate(([0.0], timeline.ends_s))
+    shifts = np.array([record.displacement_at(time_s - start_s) for time_s in times.tolist()])
+    first = None
+    for body in filter(_is_fixed, bodies_of(scene)):
+        body.rigid_body.kinematic = True
+        if first is None:
+            key_values(body, "delta_location", frame + np.arange(len(times)), shifts)
+            first = body.animation_data
+        else:  # one action moves them all
+            animation = body.animation_data_create()
+            animation.action = first.action
+            if hasattr(animation, "action_slot"):
+                animation.action_slot = first.action_slot
+
+
+def rows_on_moving_ground(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
+    """Return which of the bodies (r,) move with the ground.
+
+    Raises
+    ------
+    SimulationError
+        None does.
+    """
+    rows = [row for row, body in enumerate(bodies) if _is_fixed(body) and body.rigid_body.kinematic]
+    if not rows:
+        raise SimulationError("the ground is to move, and no body of it is left: build the scenario anew")
+    return np.array(rows)
+
+
+def _is_fixed(body: bpy.types.Object) -> bool:
+    """Return whether a body is the ground or a support."""
+    return body.rigid_body.type == "PASSIVE" and kind_of(body) in (Kind.GROUND, Kind.SHARD)
