@@ -235,7 +235,7 @@ class BulletWorld:
         write_vectors(self._bound.bodies[bodies] + np.uint64(self._layout.body.transform + 96), positions_m)
 
     def lead(self, bodies: np.ndarray, positions_m: np.ndarray, velocity_m_s: np.ndarray) -> None:
-        """Put bodies (k,) that move as animation says at positions (k, 3), with one velocity (3,) for the coming sub-step.
+        """Put bodies (k,) that are animated at positions (k, 3), with one velocity (3,) for the coming sub-step.
 
         To be called before a sub-step: Bullet has worked out by then how animation would move them.
         """

@@ -51,8 +51,8 @@ def accelerogram_from_file(path: Path, columns: int) -> tuple[np.ndarray, np.nda
 def _row(path: Path, number: int, row: list[str], columns: int) -> list[float]:
     if len(row) != columns + 1:
         raise ScenarioError(
-            f"{path}, row {number}: has {len(row)} columns: expected {columns + 1}, the time in s and an acceleration for "
-            "each of ground_motion.directions, with a point in decimals"
+            f"{path}, row {number}: has {len(row)} columns: expected {columns + 1}, the time in s and an acceleration "
+            "for each of ground_motion.directions, with a point in decimals"
         )
     try:
         numbers = [float(each) for each in row]

@@ -94,8 +94,8 @@ def corrected(times_s: np.ndarray, accelerations_m_s2: np.ndarray, baseline: str
     at_end, largest = abs(found.velocities_m_s[-1]).max(), abs(found.velocities_m_s).max()
     if at_end > _STILL * largest:
         raise ScenarioError(
-            f'ground_motion.baseline is "{baseline}", and the record ends with {at_end:.3g} m/s, {at_end / largest:.0%} '
-            "of its largest velocity: expected one that ends at rest; take linear or parabola"
+            f'ground_motion.baseline is "{baseline}", and the record ends with {at_end:.3g} m/s, '
+            f"{at_end / largest:.0%} of its largest velocity: expected one that ends at rest; take linear or parabola"
         )
     farthest = abs(found.displacements_m).max()
     if farthest > LARGEST_DISPLACEMENT_M:

@@ -37,8 +37,8 @@ class Sweep(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignSpectrum(Table):
-    """A record with the response spectrum of EN 1998-1:2004, 3.2.2.2, for 5 % damping: sines with random phases under an
-    envelope, as of D. A. Gasparini and E. H. Vanmarcke (1976). The scenario's seed draws the phases: another seed is
+    """A record with the response spectrum of EN 1998-1:2004, 3.2.2.2, for 5 % damping: sines with random phases under
+    an envelope, as of D. A. Gasparini and E. H. Vanmarcke (1976). The scenario's seed draws the phases: another seed is
     another earthquake with the same spectrum."""
 
     table: ClassVar[str] = "ground_motion.spectrum"
@@ -47,8 +47,8 @@ class DesignSpectrum(Table):
         "Design ground acceleration a_g on rock, with the factor of importance.", unit="m/s²", above=0, at_most=20
     )
     ground_type: str = key(
-        "Ground by EN 1998-1, table 3.1: `A` rock, `B` very dense, `C` dense or stiff, `D` loose or soft, `E` soft over "
-        "rock.",
+        "Ground by EN 1998-1, table 3.1: `A` rock, `B` very dense, `C` dense or stiff, `D` loose or soft, `E` soft "
+        "over rock.",
         choices=("A", "B", "C", "D", "E"),
     )
     type: int = key(
@@ -58,8 +58,8 @@ class DesignSpectrum(Table):
         at_most=2,
     )
     strong_s: float = key(
-        "How long it shakes most; 2 s of rise come before and 5 s of decay after it. EN 1998-1, 3.2.3.1.2 (3), asks for "
-        "10 s or more.",
+        "How long it shakes most; 2 s of rise come before and 5 s of decay after it. EN 1998-1, 3.2.3.1.2 (3), asks "
+        "for 10 s or more.",
         default=10.0,
         unit="s",
         at_least=1,
@@ -97,8 +97,8 @@ class GroundMotion(Table):
     )
     baseline: str = key(
         "What is taken off the accelerations, so that the ground ends at rest where it began: `linear` is the straight "
-        "line in time that does so; `parabola` is of all parabolas that do so the one that leaves the least mean square "
-        "velocity, as of G. V. Berg and G. W. Housner (1961); `none` takes nothing off, for a record that was "
+        "line in time that does so; `parabola` is of all parabolas that do so the one that leaves the least mean "
+        "square velocity, as of G. V. Berg and G. W. Housner (1961); `none` takes nothing off, for a record that was "
         "corrected before, and may end elsewhere, but at rest.",
         default="linear",
         choices=("linear", "parabola", "none"),

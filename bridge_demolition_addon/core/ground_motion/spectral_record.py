@@ -1,9 +1,9 @@
 """Records that have a given response spectrum, made of sines with random phases.
 
-D. A. Gasparini and E. H. Vanmarcke (1976), Simulated earthquake motions compatible with prescribed response spectra, MIT
-Research Report R76-4: sines under an envelope, whose amplitudes are corrected until the spectrum is that which is asked
-for. The envelope is that of P. C. Jennings, G. W. Housner and N. C. Tsai (1968), Simulated earthquake motions, Caltech: a
-parabola, a plateau, an exponential.
+D. A. Gasparini and E. H. Vanmarcke (1976), Simulated earthquake motions compatible with prescribed response spectra,
+MIT Research Report R76-4: sines under an envelope, whose amplitudes are corrected until the spectrum is that which is
+asked for. The envelope is that of P. C. Jennings, G. W. Housner and N. C. Tsai (1968), Simulated earthquake motions,
+Caltech: a parabola, a plateau, an exponential.
 """
 
 from __future__ import annotations

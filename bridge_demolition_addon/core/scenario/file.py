@@ -79,7 +79,7 @@ def files_of(scenario: Scenario) -> Iterator[Path]:
         tables: list[Any] = [scenario]
         for step in name.split("."):
             found = [getattr(each, step) for each in tables]
-            tables = [inner for each in found for inner in (each if isinstance(each, tuple) else [each])]
+            tables = [inner for each in found for inner in (each if isinstance(each, tuple) else [each]) if inner]
         yield from (Path(path) for each in tables if (path := getattr(each, key)))
 
 

@@ -144,8 +144,8 @@ class Scenario(Table):
         for name, others in (("jackhammers", self.jackhammers), ("ball.cable", self.ball and self.ball.cable)):
             if others:
                 raise ScenarioError(
-                    f"{name} is given together with ground_motion: expected one of them; tools that machines hold do not "
-                    "move with the ground"
+                    f"{name} is given together with ground_motion: expected one of them; tools that machines hold do "
+                    "not move with the ground"
                 )
         if motion.start_s >= self.time.duration_s:
             raise motion.unexpected("start_s", f"less than time.duration_s, {self.time.duration_s:g} (s)")

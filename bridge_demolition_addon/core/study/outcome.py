@@ -20,6 +20,7 @@ from ..errors import OutputError
 from ..geometry.plan_areas import outlines
 from ..results.arrays import Results
 from ..results.collapse import collapse_progress, spans_of
+from ..results.motion import relative_to_ground
 from ..results.removed_shards import without_removed
 from ..scenario import Scenario
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output

@@ -28,7 +28,7 @@ from bridge_demolition_addon.ui.scenario.prop import (
 KEYS = [(table, item) for table in all_tables() for item in key_fields(table)]
 NAMES = [f"{table.table}.{item.name}" for table, item in KEYS]
 NUMBERS = [(table, item) for table, item in KEYS if {float, int} & {value_type(item), *get_args(value_type(item))}]
-UNITS = {"m": "LENGTH", "kg": "MASS", "s": "TIME_ABSOLUTE", "m/s": "VELOCITY", "m³": "VOLUME"}
+UNITS = {"m": "LENGTH", "kg": "MASS", "s": "TIME_ABSOLUTE", "m/s": "VELOCITY", "m³": "VOLUME", "m/s²": "ACCELERATION"}
 SINGLE = 6e-8
 """Half of the last digit that single precision has."""
 
