@@ -7,8 +7,8 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
-from ..loads.load import Load
 from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
+from ..loads.load import Load
 from ..mechanics.materials import Material
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
@@ -45,8 +45,8 @@ __all__ = [
     "Geometry",
     "Girders",
     "Ground",
-    "GroundSurface",
     "GroundMotion",
+    "GroundSurface",
     "Jackhammer",
     "Load",
     "Material",

@@ -6,10 +6,10 @@ from typing import ClassVar
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
-from ..loads.load import Load
 from ..ground_motion.record import GroundRecord
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
+from ..loads.load import Load
 from ..mechanics.joint import Joint
 from ..mechanics.materials import Material, check_materials
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown

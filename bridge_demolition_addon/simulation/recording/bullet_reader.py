@@ -23,8 +23,8 @@ from ...scene.tools.ground_motion import ground_motion_of, rows_on_moving_ground
 from .blast import Blast
 from .elastic_connections import ElasticConnections
 from .events import AppliedEvent, Events
-from .loads import Loads
 from .ground_drive import GroundDrive
+from .loads import Loads
 from .substeps import Breaks, SubstepRecorder
 
 
