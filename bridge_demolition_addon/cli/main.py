@@ -20,6 +20,7 @@ from ..core.errors import (
 from ..core.signals import Interrupted, interrupt_by_system
 from . import charge, charts, check, optimise, report, run, search, stages, study
 from .console import StandardStream
+from .exchange import export
 from .process_end import end_process
 
 DONE = 0
@@ -28,7 +29,7 @@ WRONG_INPUT = 2
 SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
-COMMANDS = (check, run, stages, study, search, optimise, report, charge, charts)
+COMMANDS = (check, run, stages, study, search, optimise, report, export, charge, charts)
 
 
 class UsageError(DemolitionError):

@@ -1,6 +1,7 @@
 """Files that a kill, a full disk or somebody else at work may hit: written whole or not at all, or found to be gone."""
 
 import os
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,6 +22,30 @@ def whole_file(path: Path) -> Iterator[Path]:
     except BaseException as error:
         part.unlink(missing_ok=True)
         if isinstance(error, OSError) and error.errno and error.filename in (None, part, str(part)):
+            raise OSError(error.errno, error.strerror, str(path)) from error
+        raise
+
+
+@contextmanager
+def whole_folder(path: Path) -> Iterator[Path]:
+    """Give a new folder beside a path to write to, and have it take the place of the path once all is in it.
+
+    There must be nothing at the path. Where writing fails, nothing is left; an error of the system that does not say
+    more names the path.
+    """
+    part = part_of(path)
+    try:
+        part.mkdir()
+    except FileExistsError as error:
+        raise FileExistsError(
+            error.errno, "left by something that was killed while it wrote; delete it", str(part)
+        ) from error
+    try:
+        yield part
+        os.rename(part, path)
+    except BaseException as error:
+        shutil.rmtree(part, ignore_errors=True)
+        if isinstance(error, OSError) and error.errno and str(error.filename or part).startswith(str(part)):
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 

@@ -9,6 +9,7 @@ import numpy as np
 from ..geometry.vectors import dot, transformed_back
 from ..units import STANDARD_GRAVITY_M_S2
 from .arrays import Results
+from .frames import Frame
 
 _SPHERE = 0.4
 """Moment of inertia of a solid sphere by mass and radius squared."""
@@ -64,6 +65,13 @@ def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> 
         translation_j=0.5 * (dot(frames.velocities_m_s, frames.velocities_m_s) * masses).sum(axis=1),
         rotation_j=0.5 * (np.square(spins) * moments_of_inertia(results)).sum(axis=(1, 2)),
     )
+
+
+def kinetic_energies(frame: Frame, masses_kg: np.ndarray, moments_kg_m2: np.ndarray) -> np.ndarray:
+    """Return the kinetic energy (n,) of each body in a frame, J, with what `moments_of_inertia` gives."""
+    spins = transformed_back(frame.rotations, frame.angular_velocities_rad_s)
+    translation = dot(frame.velocities_m_s, frame.velocities_m_s) * masses_kg
+    return 0.5 * (translation + (np.square(spins) * moments_kg_m2).sum(axis=1))
 
 
 def moments_of_inertia(results: Results) -> np.ndarray:

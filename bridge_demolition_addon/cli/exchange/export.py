@@ -1,0 +1,43 @@
+"""``bda export``: write a run in the files of other programs."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from ...exports.formats import FORMATS
+from ..progress import progress_on
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser(
+        "export",
+        help="write a run for ParaView, spreadsheets, browsers or programs for films",
+        description="Write a run in the files of another program: all bodies in every frame.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("folder", metavar="RUN", type=Path, help="folder that bda run made")
+    parser.add_argument(
+        "--to",
+        required=True,
+        choices=list(FORMATS),
+        help="; ".join(f"{each.name}: {each.what}" for each in FORMATS.values()),
+    )
+    parser.add_argument(
+        "--output", required=True, metavar="PATH", type=Path, help="new file, or new folder where many are written"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.set_defaults(execute=export)
+
+
+def export(arguments: argparse.Namespace) -> None:
+    """Write the files and say where they are."""
+    from ...exports.write import export_run  # what a format needs is loaded only where it is written
+
+    progress = progress_on(sys.stdout, quiet=arguments.quiet)
+    try:
+        export_run(arguments.folder, FORMATS[arguments.to], arguments.output, progress)
+    finally:
+        progress.finish()
+    if not arguments.quiet:
+        print(arguments.output)

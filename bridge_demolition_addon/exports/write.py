@@ -1,0 +1,88 @@
+"""Write a run in one of the formats: whole or not at all, and nothing over what is there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..core.disk import whole_file, whole_folder
+from ..core.errors import OutputError, text_of
+from ..core.results.arrays import Results, load_results, results_in
+from .formats import GLTF, PARAVIEW, XLSX, Format
+from .gltf import write_gltf
+from .paraview import write_paraview
+from .progress import Progress
+from .sheets import check_sheets, write_sheets
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Writer:
+    """What writes a format, and what makes sure beforehand that it can."""
+
+    write: Callable[[Path, Results, Path, Progress], None]
+    check: Callable[[], None] = lambda: None
+
+
+_WRITERS = {
+    PARAVIEW: _Writer(lambda _, results, path, progress: write_paraview(results, path, progress)),
+    XLSX: _Writer(write_sheets, check_sheets),
+    GLTF: _Writer(lambda _, results, path, progress: write_gltf(results, path, progress)),
+}
+
+
+def export_run(folder: Path, form: Format, output: Path, progress: Progress) -> None:
+    """Write a run in a format.
+
+    Parameters
+    ----------
+    folder
+        Of the run.
+    form
+        The format.
+    output
+        File or folder to make.
+    progress
+        Shows stages and frames.
+
+    Raises
+    ------
+    MissingLibraryError
+        A library is not there that the format needs.
+    OutputError
+        There is no run in the folder, its results cannot be read, there is something at the output, its ending is not
+        that of the format, or it cannot be written.
+    """
+    _check_output(form, output)
+    writer = _WRITERS[form]
+    writer.check()
+    progress.stage("reading the results")
+    results = load_results(_results_file(folder))
+    try:
+        with _whole(form, output) as part:
+            writer.write(folder, results, part, progress)
+    except OSError as error:
+        raise OutputError(f"{output}: cannot be written ({text_of(error)})") from error
+
+
+def _check_output(form: Format, output: Path) -> None:
+    if form.ending and output.suffix != form.ending:
+        raise OutputError(f"{output}: expected a name that ends in {form.ending}, for the format {form.name}")
+    if output.exists() or output.is_symlink():
+        raise OutputError(f"{output}: is there already; choose another name, or delete it first")
+    if not output.parent.is_dir():
+        raise OutputError(f"{output}: cannot be written, as there is no folder {output.parent}")
+
+
+def _results_file(folder: Path) -> Path:
+    if not folder.is_dir():
+        raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
+    path = results_in(folder)
+    if not path.exists():
+        raise OutputError(f"{folder}: holds no frames of a run: expected {path.name} in it")
+    return path
+
+
+def _whole(form: Format, output: Path) -> AbstractContextManager[Path]:
+    return whole_file(output) if form.ending else whole_folder(output)
