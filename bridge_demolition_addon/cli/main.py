@@ -12,6 +12,7 @@ from ..core.errors import (
     ClusterError,
     DemolitionError,
     GeometryError,
+    IfcError,
     MissingLibraryError,
     OutputError,
     ScenarioError,
@@ -20,7 +21,7 @@ from ..core.errors import (
 from ..core.signals import Interrupted, interrupt_by_system
 from . import charge, charts, check, optimise, report, run, search, stages, study
 from .console import StandardStream
-from .exchange import export
+from .exchange import export, import_ifc
 from .process_end import end_process
 
 DONE = 0
@@ -29,7 +30,7 @@ WRONG_INPUT = 2
 SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
-COMMANDS = (check, run, stages, study, search, optimise, report, export, charge, charts)
+COMMANDS = (check, import_ifc, run, stages, study, search, optimise, report, export, charge, charts)
 
 
 class UsageError(DemolitionError):
@@ -67,6 +68,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         GeometryError,
         BlastError,
         ClusterError,
+        IfcError,
         MissingLibraryError,
         OutputError,
     ) as error:

@@ -29,6 +29,10 @@ class ClusterError(DemolitionError):
     """The cluster that a study is to run on is not there."""
 
 
+class IfcError(DemolitionError):
+    """An IFC file cannot be read, or says too little to make a scenario of it."""
+
+
 class MissingLibraryError(DemolitionError):
     """A library that is no part of the installation is needed for this; the text says how to install it."""
 

@@ -8,7 +8,7 @@ import json
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, TypeVar
@@ -81,9 +81,17 @@ def table_of_document(root: type[_Root], document: dict[str, Any]) -> _Root:
     return root(**_key_values(root, heading), **_subtables(root, root, document))
 
 
-def tables_text(root: Table) -> str:
-    """Write a table, and the tables that it is made of, as TOML; `table_of_document` gives an equal one back."""
-    return "\n".join(_table_lines(root))
+def tables_text(root: Table, *, defaults: bool = True) -> str:
+    """Write a table, and the tables that it is made of, as TOML; `table_of_document` gives an equal one back.
+
+    Parameters
+    ----------
+    root : Table
+        What is written.
+    defaults : bool
+        Whether keys and tables that are as they are without being given are written, too.
+    """
+    return "\n".join(_table_lines(root, defaults=defaults))
 
 
 def dotted(table: str, name: str) -> str:
@@ -158,18 +166,18 @@ def _full_names(table_class: type[Table]) -> Iterator[str]:
             yield from _full_names(inner)
 
 
-def _table_lines(table: Table, heading: str = "[{}]") -> Iterator[str]:
+def _table_lines(table: Table, heading: str = "[{}]", *, defaults: bool) -> Iterator[str]:
     """Return the lines of a table and of the tables in it; what is not given has no line."""
     yield heading.format(table.table)
     for item in key_fields(type(table)):
         value = getattr(table, item.name)
-        if value is not None:
+        if value is not None and (defaults or value != item.default):
             yield f"{item.name} = {toml_value(value)}"
     yield ""
     for item in subtable_fields(type(table)):
         inner = getattr(table, item.name)
         if holds_many(item):
             for each in inner:
-                yield from _table_lines(each, "[[{}]]")
-        elif inner:
-            yield from _table_lines(inner)
+                yield from _table_lines(each, "[[{}]]", defaults=defaults)
+        elif inner and (defaults or item.default_factory is MISSING or inner != item.default_factory()):
+            yield from _table_lines(inner, defaults=defaults)

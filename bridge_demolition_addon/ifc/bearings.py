@@ -1,0 +1,117 @@
+"""Bearings as connections: what each lies on, what lies on it, and which motions it leaves free."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..core.geometry.mesh import TriangleMesh
+from ..core.scenario import ConnectionBetween
+from .contacts import Contacts
+from .elements import Element
+from .library import library
+from .placement import Placement
+
+REACH_M = 0.002
+"""Gap up to which a bearing bears on its neighbours, and that they bear on it."""
+
+_ALL_TURNS = ("turn x", "turn y", "turn z")
+_FREE_OF_TYPE = {
+    "CYLINDRICAL": ("turn y",),
+    "DISK": _ALL_TURNS,
+    "ELASTOMERIC": ("turn x", "turn y"),
+    "GUIDE": ("move x", *_ALL_TURNS),
+    "POT": _ALL_TURNS,
+    "ROCKER": ("turn y",),
+    "ROLLER": ("move x", "turn y"),
+    "SPHERICAL": _ALL_TURNS,
+}
+"""What types of IfcBearing leave free, x along the road and y across it."""
+
+_FREE_OTHERWISE = ("turn y",)
+
+_PROPERTIES = {"move": "DisplacementAccommodated", "turn": "RotationAccommodated"}
+"""Of Pset_BearingCommon: three truths each, along the bearing's own x, y and z."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bearing:
+    """A bearing between members, given by their places in the list of members.
+
+    Attributes
+    ----------
+    below : int
+        What it lies on, and becomes part of.
+    above : tuple of int
+        What lies on it.
+    free : tuple of str
+        Motions that it leaves free.
+    source : str
+        Where these are from.
+    """
+
+    below: int
+    above: tuple[int, ...]
+    free: tuple[str, ...]
+    source: str
+
+
+def bearing_of(element: Element, solid: TriangleMesh, contacts: Contacts, placement: Placement) -> Bearing | str:
+    """Return what a bearing connects, or why it is left out."""
+    down, up = contacts.reached(solid, -REACH_M), contacts.reached(solid, REACH_M)
+    # One that it is sunk into, or that is sunk into it, lies on the side that it reaches further into.
+    below = sorted((each for each in down if down[each] > up.get(each, 0.0)), key=lambda each: -down[each])
+    above = sorted(each for each in up if up[each] > down.get(each, 0.0))
+    if not below or not above:
+        where = "under" if not below else "over"
+        return f"nothing lies {where} it within {1e3 * REACH_M:g} mm: connect these members by [[connections.between]]"
+    free, source = _free(element, placement)
+    return Bearing(below[0], tuple(above), free, source)
+
+
+def bearing_rules(bearings: Sequence[Bearing], names: Sequence[str]) -> tuple[list[ConnectionBetween], list[str]]:
+    """Return the connections that bearings are, one for each pair of members, and what they disagree in."""
+    rules: dict[tuple[str, str], tuple[str, ...]] = {}
+    notes = []
+    for bearing in bearings:
+        for above in bearing.above:
+            pair = (names[above], names[bearing.below])
+            if rules.setdefault(pair, bearing.free) != bearing.free:
+                notes.append(f"bearings between {pair[0]} and {pair[1]} differ: the first counts for all of them")
+    return [_rule(pair, free) for pair, free in rules.items()], notes
+
+
+def _rule(pair: tuple[str, str], free: tuple[str, ...]) -> ConnectionBetween:
+    if not free:
+        return ConnectionBetween(members=pair, type="FIXED")
+    return ConnectionBetween(members=pair, type="GENERIC", free=free)
+
+
+def _free(element: Element, placement: Placement) -> tuple[tuple[str, ...], str]:
+    psets = library("util.element").get_psets(element.entity)
+    given = psets.get("Pset_BearingCommon", {})
+    if told := {motion: given[name] for motion, name in _PROPERTIES.items() if _are_truths(given.get(name))}:
+        axes = _axes(element.entity, placement)
+        found = [f"{motion} {axes[number]}" for motion, truths in told.items() for number in np.flatnonzero(truths)]
+        return tuple(sorted(found)), "its free motions are those of Pset_BearingCommon"
+    if element.facts.predefined in _FREE_OF_TYPE:
+        free = _FREE_OF_TYPE[element.facts.predefined]
+        return free, f"free as {element.facts.predefined} bearings are: {', '.join(free)}"
+    return _FREE_OTHERWISE, f"the file does not say what it leaves free, taken for {', '.join(_FREE_OTHERWISE)}"
+
+
+def _are_truths(value: Any) -> bool:
+    return isinstance(value, list | tuple) and len(value) == 3 and all(isinstance(each, bool) for each in value)
+
+
+def _axes(entity: Any, placement: Placement) -> list[str]:
+    """Return which axis of the bridge is nearest to each axis of an element."""
+    matrix = np.eye(4)
+    if entity.ObjectPlacement:
+        matrix = np.array(library("util.placement").get_local_placement(entity.ObjectPlacement))
+    turn = np.eye(3)
+    turn[:2, :2] = placement.turn
+    return ["xyz"[number] for number in np.abs(turn @ matrix[:3, :3]).argmax(axis=0)]

@@ -1,0 +1,63 @@
+"""Which members touch each other, and what lies under and over them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from manifold3d import Manifold
+
+from ..core.geometry.mesh import TriangleMesh
+from ..core.geometry.solids import to_manifold
+
+TOUCHING_M = 1e-5
+"""Gap up to which two members touch: rounding of places far from the origin of a file."""
+
+NEAR_M = 0.5
+"""Gap up to which a neighbour is looked for."""
+
+
+class Contacts:
+    """Members, and what is near each of them.
+
+    Parameters
+    ----------
+    solids : sequence of TriangleMesh
+        One for each member.
+    """
+
+    def __init__(self, solids: Sequence[TriangleMesh]) -> None:
+        self._solids = tuple(solids)
+
+    def near(self, index: int) -> list[tuple[float, int]]:
+        """Return gaps in m to all members within `NEAR_M` of a member, and which they are, the nearest first."""
+        own = self._manifolds[index]
+        found = [(own.min_gap(self._manifolds[other], NEAR_M), other) for other in self._boxes_near(index)]
+        return sorted((gap, other) for gap, other in found if gap < NEAR_M)
+
+    def reached(self, solid: TriangleMesh, shift_m: float) -> dict[int, float]:
+        """Return which members a solid reaches into when it is moved up by so much, and the volume of each, m³."""
+        moved = to_manifold(solid).translate((0.0, 0.0, shift_m))
+        lowest, highest = solid.bounds + np.array((0.0, 0.0, shift_m))
+        may = np.flatnonzero(((self._lowest < highest) & (self._highest > lowest)).all(axis=1))
+        shared = {index: (moved ^ self._manifolds[index]).volume() for index in may.tolist()}
+        return {index: volume for index, volume in shared.items() if volume > 0.0}
+
+    def _boxes_near(self, index: int) -> list[int]:
+        lowest, highest = self._lowest[index] - NEAR_M, self._highest[index] + NEAR_M
+        near = ((self._lowest <= highest) & (self._highest >= lowest)).all(axis=1)
+        near[index] = False
+        return np.flatnonzero(near).tolist()
+
+    @cached_property
+    def _manifolds(self) -> list[Manifold]:
+        return [to_manifold(each) for each in self._solids]
+
+    @cached_property
+    def _lowest(self) -> np.ndarray:
+        return np.array([each.bounds[0] for each in self._solids])
+
+    @cached_property
+    def _highest(self) -> np.ndarray:
+        return np.array([each.bounds[1] for each in self._solids])

@@ -1,0 +1,163 @@
+"""The folder of an imported bridge: its scenario, a mesh for each element, and what became of all of them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..core.bridge.mesh_files import exported
+from ..core.bridge.preparation import prepared_members
+from ..core.disk import write_whole_text
+from ..core.errors import GeometryError, IfcError, OutputError, ScenarioError, writing
+from ..core.scenario.file import read_scenario
+from ..core.toml_tables import tables_text
+from .bridge import MESH_FOLDER, ImportedBridge, Outcome
+
+SCENARIO_FILE = "scenario.toml"
+ELEMENTS_FILE = "elements.csv"
+REPORT_FILE = "import.txt"
+
+_COLUMNS = ("element", "class", "global_id", "became", "name", "kind", "material", "density_kg_m3")
+_COLUMNS += ("volume_m3", "mass_kg", "why")
+
+
+def check_new(folder: Path) -> None:
+    """Make sure that a folder is not there, or is empty.
+
+    Raises
+    ------
+    OutputError
+        It has something in it, or is no folder.
+    """
+    if folder.is_dir() and not any(folder.iterdir()):
+        return
+    if folder.exists() or folder.is_symlink():
+        raise OutputError(f"{folder}: exists already; give another folder, or delete it")
+
+
+def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
+    """Write an imported bridge, whole or not at all, and return what there is to say of it, line by line.
+
+    Raises
+    ------
+    IfcError
+        Its members cannot be used as they are.
+    OutputError
+        The folder has something in it, or cannot be written.
+    """
+    check_new(folder)
+    with writing(folder), tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".bda-import-") as name:
+        # One folder deeper: that of `tempfile` is for its owner alone, and is deleted by it.
+        whole = Path(name) / "bridge"
+        (whole / MESH_FOLDER).mkdir(parents=True)
+        for file, mesh in bridge.meshes.items():
+            content = exported(mesh, ".obj")
+            (whole / file).write_bytes(content.encode() if isinstance(content, str) else content)
+        (whole / SCENARIO_FILE).write_text(tables_text(bridge.scenario, defaults=False), encoding="utf-8")
+        lines = list(_report(bridge, _cut_off(whole)))
+        write_whole_text(whole / ELEMENTS_FILE, _table(bridge), newline="")
+        write_whole_text(whole / REPORT_FILE, "\n".join(lines) + "\n")
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        if folder.is_dir():
+            folder.rmdir()  # Windows moves nothing onto a folder
+        os.replace(whole, folder)
+    return lines
+
+
+def _existing(folder: Path) -> Path:
+    return next(each for each in folder.absolute().parents if each.is_dir())
+
+
+def _cut_off(whole: Path) -> tuple[str, ...]:
+    """Return what is cut off where members overlap; refuses what `bda check` would refuse."""
+    try:
+        return prepared_members(read_scenario(whole / SCENARIO_FILE)).notes
+    except (GeometryError, ScenarioError) as error:
+        text = str(error).removeprefix(f"{whole / SCENARIO_FILE}: ")
+        raise IfcError(f"{text} Or leave it out by --without NAME") from error
+
+
+def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
+    members = [each.member for each in bridge.outcomes if each.member]
+    yield bridge.scenario.title
+    yield ""
+    yield "Members"
+    for kind in sorted({each.kind for each in members}):
+        found = [each for each in members if each.kind == kind]
+        count = len({each.name for each in found})
+        yield _row(f"{count} {kind}", sum(each.volume_m3 for each in found), sum(each.mass_kg for each in found))
+    yield _row("all", sum(each.volume_m3 for each in members), sum(each.mass_kg for each in members))
+    yield ""
+    yield "Held and connected"
+    connections = bridge.scenario.connections
+    yield f"  {'strength of':<24}{connections.material}"
+    for support in bridge.scenario.supports:
+        yield f"  {'held':<24}{support.member}{'' if support.face == 'all' else ', its underside'}"
+    for rule in connections.between:
+        free = f", free: {', '.join(rule.free)}" if rule.free else ""
+        what = f"strength of {rule.material}" if rule.material else f"bearing{free}"
+        yield f"  {'between':<24}{' and '.join(rule.members)}: {what}"
+    yield ""
+    yield "Place"
+    yield f"  {'ground':<24}at {bridge.ground_m:.3f} m in the file: {bridge.ground_source}"
+    yield f"  {'site':<24}{_where(bridge)}"
+    yield from _left_out(bridge.outcomes)
+    notes = dict.fromkeys((*bridge.notes, *_told(bridge.outcomes), *cut_off))
+    if notes:
+        yield ""
+        yield "To know"
+        yield from (f"  {each}" for each in notes)
+
+
+def _where(bridge: ImportedBridge) -> str:
+    site = bridge.scenario.site
+    if site is None:
+        return f"not known: {bridge.site_source}"
+    degrees = f"{site.latitude_deg:.6f}°, {site.longitude_deg:.6f}°"
+    return f"{degrees}, x axis {site.bearing_deg:.2f}° from north, {bridge.site_source}"
+
+
+def _row(name: str, volume_m3: float, mass_kg: float) -> str:
+    return f"  {name:<24}{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
+
+
+def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
+    found = Counter((each.element.facts.classes[0], each.why) for each in outcomes if each.became == "left out")
+    if found:
+        yield ""
+        yield "Left out"
+    for (name, why), count in found.items():
+        yield f"  {f'{count} {name}':<24}{why}"
+
+
+def _told(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
+    """Yield what there is to know of members, those of whom the same is said together."""
+    said: dict[str, list[str]] = {}
+    for each in outcomes:
+        what = each.why.rpartition("; ")[2] if each.became == "connection" else each.why
+        if each.became != "left out" and what:
+            said.setdefault(what, []).append(each.element.facts.name)
+    for why, names in said.items():
+        more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+        yield f"{', '.join(names[:3])}{more}: {why}"
+
+
+def _table(bridge: ImportedBridge) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for each in bridge.outcomes:
+        facts, member = each.element.facts, each.member
+        row = [facts.name, facts.classes[0], facts.global_id, each.became]
+        if member is None:
+            row += ["", "", "", "", "", ""]
+        else:
+            row += [member.name, member.kind, each.substance.name, f"{member.density_kg_m3:.6g}"]
+            row += [f"{member.volume_m3:.6g}", f"{member.mass_kg:.6g}"]
+        writer.writerow([*row, each.why])
+    return text.getvalue()

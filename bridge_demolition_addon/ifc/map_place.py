@@ -1,0 +1,114 @@
+"""Where on earth a bridge lies: by the map conversion of its file, or else by the place of its site."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from pymap3d import enu2geodetic, geodetic2enu
+
+from ..core.map_grids import grid_of_epsg
+from ..core.scenario import Site
+from .library import library
+from .placement import Placement
+from .source import IfcSource
+
+_STEP_M = 10.0
+"""Distance along the road over which its bearing is measured."""
+
+_HALF_ZONE_M, _POLE_M = 400_000.0, 10_000_000.0
+"""How far a UTM zone reaches from its middle, and to the north, with room to spare."""
+
+
+def site_of(source: IfcSource, placement: Placement) -> tuple[Site | None, str]:
+    """Return the site of a bridge where the file tells it, and in words where that is from, or why there is none."""
+    by_map, why = _by_map(source, placement)
+    if by_map:
+        return by_map, why
+    by_site = _by_site(source, placement)
+    if by_site:
+        return by_site, f"{why}; by latitude and longitude of its site, which many programs fill in by themselves"
+    return None, f"{why}, and no latitude and longitude of its site"
+
+
+def _by_map(source: IfcSource, placement: Placement) -> tuple[Site | None, str]:
+    location = library("util.geolocation")
+    conversion = location.get_helmert_transformation_parameters(source.model)
+    if conversion is None:
+        return None, "the file has no map conversion"
+    name = _reference_system(source.model)
+    grid = grid_of_epsg(name)
+    if grid is None:
+        return None, f"its map conversion is to {name or 'no reference system'}, of which only UTM zones are known"
+    map_unit_m = _map_unit(source)
+    turn = math.atan2(conversion.xao, conversion.xaa)
+    # The scale goes from the file's unit to that of the map: 0.001 from mm to m. What is left of 1 is the grid's own.
+    factor = conversion.scale * map_unit_m / source.unit_m
+    along = np.array((math.cos(placement.angle_rad), math.sin(placement.angle_rad)))
+    places = []
+    for distance_m in (0.0, _STEP_M):
+        x, y = (placement.origin_m[:2] + distance_m * along) * factor
+        easting_m = conversion.e * map_unit_m + math.cos(turn) * x - math.sin(turn) * y
+        northing_m = conversion.n * map_unit_m + math.sin(turn) * x + math.cos(turn) * y
+        if not (abs(easting_m - 500_000.0) <= _HALF_ZONE_M and 0.0 <= northing_m <= _POLE_M):
+            return (
+                None,
+                f"its map conversion leads out of {name}, to {easting_m:.0f} m, {northing_m:.0f} m",
+            )
+        places.append(grid.place_on_earth(easting_m, northing_m))
+    (latitude, longitude), (next_latitude, next_longitude) = places
+    east, north, _ = geodetic2enu(next_latitude, next_longitude, 0.0, latitude, longitude, 0.0)
+    return _site(latitude, longitude, math.degrees(math.atan2(east, north))), f"by its map conversion to {name}"
+
+
+def _reference_system(model: Any) -> str:
+    if model.schema != "IFC2X3":
+        found = model.by_type("IfcCoordinateReferenceSystem")
+        return (found[0].Name or "") if found else ""
+    psets = library("util.element").get_psets(model.by_type("IfcProject")[0])
+    return str(psets.get("ePSet_ProjectedCRS", {}).get("Name") or "")
+
+
+def _map_unit(source: IfcSource) -> float:
+    """Return the metres in the map's unit; that of the file where the map gives none."""
+    if source.model.schema != "IFC2X3":
+        for system in source.model.by_type("IfcProjectedCRS"):
+            if system.MapUnit:
+                return float(library("util.unit").get_unit_scale(system.MapUnit))
+    return source.unit_m
+
+
+def _by_site(source: IfcSource, placement: Placement) -> Site | None:
+    """Return the site by `IfcSite`, whose degrees are of the origin of its own placement."""
+    for site in source.model.by_type("IfcSite"):
+        if not site.RefLatitude or not site.RefLongitude:
+            continue
+        latitude, longitude = (_degrees(each) for each in (site.RefLatitude, site.RefLongitude))
+        if not (abs(latitude) <= 89.0 and abs(longitude) <= 180.0 and (latitude or longitude)):
+            continue
+        north_rad = math.radians(library("util.geolocation").get_true_north(source.model))
+        of_site = np.zeros(3)
+        if site.ObjectPlacement:
+            matrix = library("util.placement").get_local_placement(site.ObjectPlacement)
+            of_site = np.array(matrix)[:3, 3] * source.unit_m
+        x, y = (placement.origin_m - of_site)[:2]
+        # True north is turned anticlockwise by north_rad from the file's y axis.
+        east = math.cos(north_rad) * x + math.sin(north_rad) * y
+        north = -math.sin(north_rad) * x + math.cos(north_rad) * y
+        latitude, longitude, _ = enu2geodetic(east, north, 0.0, latitude, longitude, 0.0)
+        bearing = 90.0 - math.degrees(placement.angle_rad - north_rad)
+        return _site(float(latitude), float(longitude), bearing)
+    return None
+
+
+def _degrees(parts: tuple[int, ...]) -> float:
+    """Return an angle of degrees, minutes, seconds and millionths of a second, all of which have its sign."""
+    degrees, minutes, seconds, millionths = (*parts, 0)[:4]
+    return degrees + minutes / 60.0 + (seconds + millionths * 1e-6) / 3600.0
+
+
+def _site(latitude: float, longitude: float, bearing: float) -> Site:
+    return Site(
+        latitude_deg=round(latitude, 8), longitude_deg=round(longitude, 8), bearing_deg=round(bearing % 360.0, 6)
+    )

@@ -1,0 +1,105 @@
+"""Density and strength of materials by their names: a table that the user can change."""
+
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import ClassVar
+
+from ..core.disk import whole_file
+from ..core.errors import IfcError, OutputError, ScenarioError, writing
+from ..core.mechanics.materials import MODULUS, Material
+from ..core.mechanics.strength import MATERIALS
+from ..core.schema import Table, key
+from ..core.toml_tables import document_of_file, table_of_document, toml_document
+from .settings import matches
+
+_FILE = "materials.toml"
+_STRENGTH = {"unit": "N/mm²", "above": 0}
+_OWN = ("compression_n_mm2", "tension_n_mm2", "shear_n_mm2", "torsion_n_mm2", "bending_n_mm2")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MaterialRow(Table):
+    """A material of an IFC file."""
+
+    table: ClassVar[str] = "materials"
+
+    name: str = key("Name in the IFC file; * stands for anything.")
+    density_kg_m3: float = key("Density, where the IFC file gives none.", unit="kg/m³", above=0)
+    strength: str | None = key("Material of the add-on with its strength.", default=None, choices=tuple(MATERIALS))
+    compression_n_mm2: float | None = key("Strength in compression.", default=None, **_STRENGTH)
+    tension_n_mm2: float | None = key("Strength in tension.", default=None, **_STRENGTH)
+    shear_n_mm2: float | None = key("Strength in shear.", default=None, **_STRENGTH)
+    torsion_n_mm2: float | None = key("Strength in torsion.", default=None, **_STRENGTH)
+    bending_n_mm2: float | None = key("Strength in bending.", default=None, **_STRENGTH)
+    elastic_modulus_n_mm2: float | None = key("Modulus of elasticity.", default=None, **MODULUS)
+
+    @property
+    def own(self) -> Material | None:
+        """Return the material with the strengths that the row gives, called as the row; None without them."""
+        if self.strength is not None:
+            return None
+        given = {name: getattr(self, name) for name in (*_OWN, "elastic_modulus_n_mm2")}
+        return Material(name=self.name.replace("*", "").strip() or "as told", **given)
+
+    @property
+    def strength_name(self) -> str:
+        """Return the material that its connections break by, as a scenario calls it."""
+        return self.strength or self.own.name
+
+    def _check_together(self) -> None:
+        given = [name for name in (*_OWN, "elastic_modulus_n_mm2") if getattr(self, name) is not None]
+        missing = [name for name in _OWN if getattr(self, name) is None]
+        if self.strength is None and missing:
+            raise ScenarioError(
+                f'materials for "{self.name}": {missing[0]} is missing: expected strength, or all of {", ".join(_OWN)}'
+            )
+        if self.strength is not None and given:
+            raise ScenarioError(f'materials for "{self.name}": strength and {given[0]} are given: expected one of them')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MaterialTable(Table):
+    """Materials by name: the first whose name is meant counts."""
+
+    table: ClassVar[str] = "material_table"
+
+    materials: tuple[MaterialRow, ...] = ()
+
+    def row(self, name: str) -> MaterialRow | None:
+        """Return the row of a material; None where the table has none."""
+        return next((each for each in self.materials if matches(each.name, (name,))), None)
+
+
+def material_table(path: Path | None = None) -> MaterialTable:
+    """Return the user's table of materials, or that of the add-on.
+
+    Raises
+    ------
+    IfcError
+        It cannot be read, or a value in it is wrong.
+    """
+    try:
+        if path is None:
+            return table_of_document(MaterialTable, toml_document(_text()))
+        return table_of_document(MaterialTable, document_of_file(path, "a table of materials"))
+    except ScenarioError as error:
+        raise IfcError(f"{path}: {error}") from error
+
+
+def write_material_table(path: Path) -> None:
+    """Write the add-on's table of materials, for the user to change.
+
+    Raises
+    ------
+    OutputError
+        There is a file already, or it cannot be written.
+    """
+    if path.exists():
+        raise OutputError(f"{path}: exists already; give another name, or delete it")
+    with writing(path), whole_file(path) as part:
+        part.write_text(_text(), encoding="utf-8")
+
+
+def _text() -> str:
+    return files(__package__).joinpath(_FILE).read_text(encoding="utf-8")

@@ -1,0 +1,74 @@
+"""Bodies of elements as closed meshes, in metres and in the axes of the IFC file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..core.errors import GeometryError, IfcError
+from ..core.geometry.mesh import TriangleMesh
+from ..core.geometry.repair import Repaired, repaired_solid
+from .elements import Element
+from .library import library
+from .source import IfcSource
+
+CHORD_M = 0.001
+"""How far the middle of a chord may lie off the curve that it stands for."""
+
+_LISTED = 5
+
+
+def element_solids(source: IfcSource, elements: Sequence[Element]) -> tuple[list[Repaired], np.ndarray]:
+    """Return the bodies of elements as solids, and a point (3,) in m near them that they are given from.
+
+    A file may lie thousands of kilometres from its origin, where single steps of numbers get coarse.
+
+    Raises
+    ------
+    IfcError
+        Geometry fails, or makes no solid.
+    """
+    found = _meshes(source, elements)
+    missing = [each.title for each in elements if each.entity.id() not in found]
+    if missing:
+        more = f" and {len(missing) - _LISTED} more" if len(missing) > _LISTED else ""
+        raise IfcError(
+            f"{source.path}: the geometry of {', '.join(missing[:_LISTED])}{more} cannot be worked out; put it right in "
+            "the program that it was made with, or leave such elements out by --without NAME"
+        )
+    origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in found.values()], axis=0))
+    solids, wrong = [], []
+    for element in elements:
+        mesh = found[element.entity.id()]
+        try:
+            solids.append(repaired_solid(replace(mesh, vertices=mesh.vertices - origin), element.facts.name))
+        except GeometryError as error:
+            wrong.append(f"{element.title}: {str(error).removeprefix(element.facts.name + ': ')}")
+    if wrong:
+        more = f" And so for {len(wrong) - _LISTED} more." if len(wrong) > _LISTED else ""
+        raise IfcError(f"{source.path}: {' '.join(wrong[:_LISTED])}{more} Or leave it out by --without NAME")
+    return solids, origin
+
+
+def _meshes(source: IfcSource, elements: Sequence[Element]) -> dict[int, TriangleMesh]:
+    """Return the triangles of elements by the number that the file gives them."""
+    geometry = library("geom")
+    settings = geometry.settings()
+    settings.set("use-world-coords", True)
+    settings.set("weld-vertices", True)
+    settings.set("mesher-linear-deflection", CHORD_M)
+    iterator = geometry.iterator(settings, source.model, 1, include=[each.entity for each in elements])
+    return {number: mesh for number, mesh in _shapes(iterator, source.scale) if len(mesh.triangles)}
+
+
+def _shapes(iterator: object, scale: float) -> Iterator[tuple[int, TriangleMesh]]:
+    if not iterator.initialize():
+        return
+    while True:
+        shape = iterator.get()
+        vertices = np.array(shape.geometry.verts, dtype=float).reshape(-1, 3) * scale
+        yield shape.id, TriangleMesh(vertices, np.array(shape.geometry.faces, dtype=np.int64).reshape(-1, 3))
+        if not iterator.next():
+            return

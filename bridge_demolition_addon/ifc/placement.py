@@ -1,0 +1,88 @@
+"""Where the bridge stands in a scenario: x along the road from its beginning, y across it from its middle, z up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ..core.geometry.mesh import TriangleMesh
+from ..core.geometry.rotations import turn_in_plane
+from ..core.geometry.vectors import transformed
+
+_ON_AXIS_RAD = 1e-7
+"""Angle below which a bridge runs along an axis of its file, and its places are kept to the last digit."""
+
+_QUARTERS = {0: ((1.0, 0.0), (0.0, 1.0)), 1: ((0.0, 1.0), (-1.0, 0.0)), -1: ((0.0, -1.0), (1.0, 0.0))}
+"""Turns back by a quarter, to the last digit."""
+
+_ALIKE = 1.0 - 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """How places in a file become places in the scenario.
+
+    Attributes
+    ----------
+    angle_rad : float
+        Direction of the road in the file's plan, anticlockwise from its x axis, from -π/2 to π/2.
+    origin_m : (3,) float
+        What becomes the origin of the scenario.
+    """
+
+    angle_rad: float
+    origin_m: np.ndarray
+
+    @property
+    def turn(self) -> np.ndarray:
+        """Matrix (2, 2) that turns plan vectors of the file into those of the scenario."""
+        quarters = round(self.angle_rad / (math.pi / 2.0))
+        if abs(self.angle_rad - quarters * math.pi / 2.0) < _ON_AXIS_RAD:
+            return np.array(_QUARTERS[quarters])
+        return turn_in_plane(-self.angle_rad)
+
+    def placed(self, solid: TriangleMesh) -> TriangleMesh:
+        """Return a solid of the file in its place in the scenario."""
+        vertices = solid.vertices - self.origin_m
+        vertices[:, :2] = transformed(self.turn, vertices[:, :2])
+        return TriangleMesh(vertices, solid.triangles)
+
+
+def placement_of(along_road: Sequence[TriangleMesh], ground_m: float) -> Placement:
+    """Return where a bridge stands.
+
+    Parameters
+    ----------
+    along_road : sequence of TriangleMesh
+        What carries the road. It runs along the longer side of the smallest rectangle around its plan.
+    ground_m : float
+        Height of the ground in the file, m.
+    """
+    points = np.concatenate([solid.vertices[:, :2] for solid in along_road])
+    angle = _longer_side(points)
+    unmoved = Placement(angle, np.zeros(3))
+    turned = transformed(unmoved.turn, points)
+    lowest, highest = turned.min(axis=0), turned.max(axis=0)
+    beginning = np.array((lowest[0], (lowest[1] + highest[1]) / 2.0))
+    return Placement(angle, np.append(transformed(unmoved.turn.T, beginning), ground_m))
+
+
+def _longer_side(points: np.ndarray) -> float:
+    """Return the direction of the longer side of the smallest rectangle around points (n, 2), in rad.
+
+    A side of it lies along a side of the hull: H. Freeman, R. Shapira (1975), Communications of the ACM 18, 409-413.
+    """
+    middle = points.mean(axis=0)
+    (corners,) = CrossSection.hull_points(points - middle).to_polygons()
+    sides = np.roll(corners, -1, axis=0) - corners
+    best_area, best_angle = math.inf, 0.0
+    for angle in np.arctan2(sides[:, 1], sides[:, 0]):
+        length, width = np.ptp(transformed(turn_in_plane(-float(angle)), corners), axis=0)
+        if length * width < best_area * _ALIKE:
+            along = float(angle) if length >= width * _ALIKE else float(angle) + math.pi / 2.0
+            best_area, best_angle = length * width, along
+    return -(((math.pi / 2.0 - best_angle) % math.pi) - math.pi / 2.0)

@@ -1,0 +1,128 @@
+"""An IFC file, opened: that it is one, is whole, and how long its unit of length is."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import IfcError, UnreadableError
+from ..core.reading import MEGABYTE, check_file
+from .library import library
+from .settings import UNITS, ImportSettings
+
+MOST_BYTES = 2000 * MEGABYTE
+"""Size up to which a file is read, all of it in memory."""
+
+SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3")
+
+_BEGINNING, _END = b"ISO-10303-21;", b"END-ISO-10303-21;"
+_HEAD = 100_000
+"""Bytes in which the header of a file ends."""
+
+_SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'", flags=re.IGNORECASE)
+_AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*\)\s*;)", flags=re.IGNORECASE)
+"""A unit as some programs spell it; the standard's metre is METRE."""
+
+
+@dataclass(frozen=True, slots=True)
+class IfcSource:
+    """An IFC file.
+
+    Attributes
+    ----------
+    path : Path
+        Where it is.
+    model : ifcopenshell.file
+        What is in it.
+    scale : float
+        Factor on what IfcOpenShell takes for metres.
+    unit_m : float
+        Metres in the unit of length of what is in the file.
+    notes : tuple of str
+        What was put right in it.
+    """
+
+    path: Path
+    model: Any
+    scale: float
+    unit_m: float
+    notes: tuple[str, ...] = ()
+
+
+def open_source(path: Path, settings: ImportSettings) -> IfcSource:
+    """Open an IFC file.
+
+    Raises
+    ------
+    IfcError
+        It is none, is cut short, is of a schema that is not known, or has no project or unit of length.
+    MissingLibraryError
+        IfcOpenShell is not installed.
+    """
+    openshell = library()
+    content = _content(path)
+    mended, count = _AMERICAN.subn(rb"\1METRE\2", content)
+    try:
+        # By its text, as what is opened by its path is not closed before the interpreter ends.
+        model = openshell.file.from_string(_text(mended))
+    except (RuntimeError, ValueError, openshell.Error) as error:
+        raise IfcError(f"{path}: cannot be read as IFC ({error}); export it again") from error
+    if not model.by_type("IfcProject"):
+        raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
+    notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
+    own_m = _unit_of_file(model)
+    if settings.unit is None and own_m is None:
+        raise IfcError(
+            f"{path}: has no unit of length that is known; say which it is, one of {', '.join(UNITS)}, by --unit"
+        )
+    unit_m = own_m if settings.unit is None else UNITS[settings.unit]
+    if own_m is not None and unit_m != own_m:
+        notes = (*notes, f"lengths are taken for {settings.unit}, though the file says that its unit is {own_m:g} m")
+    taken_m = library("util.unit").calculate_unit_scale(model)
+    return IfcSource(path, model, unit_m / taken_m, unit_m, notes)
+
+
+def _content(path: Path) -> bytes:
+    try:
+        check_file(path, MOST_BYTES)
+        content = path.read_bytes()
+    except UnreadableError as error:
+        raise IfcError(f"{path}: {error}") from error
+    except OSError as error:
+        raise IfcError(f"{path}: cannot be read: {error.strerror}") from error
+    beginning = content[:_HEAD].removeprefix(b"\xef\xbb\xbf").lstrip()
+    if beginning.startswith(b"PK"):
+        raise IfcError(f"{path}: is packed; unpack it, and import the .ifc file in it")
+    if beginning.startswith(b"<"):
+        raise IfcError(f"{path}: is XML; save it as a STEP file, .ifc")
+    if not beginning.startswith(_BEGINNING):
+        raise IfcError(f"{path}: is no IFC file, which begins with {_BEGINNING.decode()}")
+    if _END not in content[-_HEAD:]:
+        raise IfcError(f"{path}: is cut short, as {_END.decode()} is missing at its end; copy or export it again")
+    schema = _SCHEMA.search(beginning)
+    if not schema or schema.group(1).decode("latin-1").upper().split("_")[0] not in SCHEMAS:
+        found = f"of the schema {schema.group(1).decode('latin-1')}" if schema else "of no schema"
+        raise IfcError(f"{path}: is {found}: expected one of {', '.join(SCHEMAS)}; export it as one of them")
+    return content
+
+
+def _text(content: bytes) -> str:
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:  # against the standard, but what programs of some countries write
+        return content.decode("latin-1")
+
+
+def _unit_of_file(model: Any) -> float | None:
+    """Return the metres in the unit of length that the file gives; None for none, or one that is misspelt."""
+    units = model.by_type("IfcProject")[0].UnitsInContext
+    for unit in units.Units if units else ():
+        if getattr(unit, "UnitType", None) != "LENGTHUNIT":
+            continue
+        if unit.is_a("IfcSIUnit") and unit.Name is None:
+            return None
+        scale = library("util.unit").get_unit_scale(unit)
+        return float(scale) if scale and scale > 0.0 else None
+    return None
