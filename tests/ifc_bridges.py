@@ -118,7 +118,9 @@ class IfcBridge:
     def solid(self, size_m, place_m):
         """An upright box: its size, and the middle of its underside."""
         make = self.file.create_entity
-        profile = make("IfcRectangleProfileDef", "AREA", None, self._flat(), size_m[0] / self.metre, size_m[1] / self.metre)
+        profile = make(
+            "IfcRectangleProfileDef", "AREA", None, self._flat(), size_m[0] / self.metre, size_m[1] / self.metre
+        )
         at = make("IfcAxis2Placement3D", self.point(*place_m), self.direction(0, 0, 1), self.direction(1, 0, 0))
         return make("IfcExtrudedAreaSolid", profile, at, self.direction(0, 0, 1), size_m[2] / self.metre)
 

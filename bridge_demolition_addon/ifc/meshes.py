@@ -35,7 +35,7 @@ def element_solids(source: IfcSource, elements: Sequence[Element]) -> tuple[list
     if missing:
         more = f" and {len(missing) - _LISTED} more" if len(missing) > _LISTED else ""
         raise IfcError(
-            f"{source.path}: the geometry of {', '.join(missing[:_LISTED])}{more} cannot be worked out; put it right in "
+            f"{source.path}: the geometry of {', '.join(missing[:_LISTED])}{more} cannot be worked out; mend it in "
             "the program that it was made with, or leave such elements out by --without NAME"
         )
     origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in found.values()], axis=0))

@@ -13,6 +13,7 @@ from .contours import operator as contour_operator
 from .contours import ui as contour_ui
 from .ground import operator as ground_operator
 from .ground import ui as ground_ui
+from .ifc import operator as ifc_operator
 from .preview import gizmos
 from .preview import operator as preview_operator
 from .recording import log_paths, pictures, run, session
@@ -35,7 +36,8 @@ from .study import session as study_session
 from .study import ui as study_ui
 
 _OPERATORS = (
-    *(scenario_operator, preset_menu, number_rows, messages, first_help, workspace, user_meshes, table_list),
+    *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, first_help, workspace),
+    *(user_meshes, table_list),
     *(recording_operator, run, pictures, log_paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, study_operator, search_operator, stages_operator, preview_operator, gizmos),
 )

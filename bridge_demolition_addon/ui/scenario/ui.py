@@ -102,6 +102,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         row.operator("bda.load_scenario", text="Load")
         row.operator("bda.save_scenario", text="Save")
         row.operator("bda.new_scenario", text="New")
+        layout.operator("bda.import_ifc", icon="IMPORT")
         draw_keys(layout, context, settings.scenario, Scenario, built_values(settings))
         column = layout.column(align=True)
         column.operator("bda.build_anew")

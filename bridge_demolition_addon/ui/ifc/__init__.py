@@ -1,0 +1,1 @@
+"""Importing a bridge from an IFC file."""

@@ -1,0 +1,127 @@
+"""The button that makes a scenario of a bridge in an IFC file."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ...core.errors import IfcError
+from ...core.scenario.file import read_scenario
+from ...ifc.bridge import ImportedBridge, read_bridge
+from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
+from ...ifc.library import why_not
+from ...ifc.settings import UNITS, ImportSettings
+from ..operators import Action, absolute
+from ..scenario.values import show_scenario
+from ..sidebar import path_property
+
+_UNIT_OF_FILE = "FILE"
+_UNIT_NAMES = {"m": "Metres", "cm": "Centimetres", "mm": "Millimetres", "ft": "Feet", "in": "Inches"}
+
+
+class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
+    """Make a scenario of a bridge in an IFC file, with a mesh for each element, and show it in the panels"""
+
+    bl_idname = "bda.import_ifc"
+    bl_label = "Import IFC"
+    bl_options = {"REGISTER", "UNDO"}
+    changes_objects = True
+
+    filename_ext = ".ifc"
+    filter_glob: StringProperty(default="*.ifc", options={"HIDDEN"})
+    filepath: path_property("File", "IFC file of a bridge")
+    material: StringProperty(
+        name="Material",
+        description="Material of elements without one, or with one that the table does not know; none refuses them",
+        default="concrete",
+    )
+    materials: path_property("Materials", "Table of materials by name, as bda import --write-materials writes it")
+    unit: EnumProperty(
+        name="Unit",
+        description="Unit of length of the file",
+        items=(
+            (_UNIT_OF_FILE, "As in the File", "That the file gives"),
+            *((unit, _UNIT_NAMES[unit], "In place of that of the file") for unit in UNITS),
+        ),
+    )
+    own_ground: BoolProperty(
+        name="Own Ground", description="Tell the height of the ground; otherwise it is that of the lowest underside"
+    )
+    ground_m: FloatProperty(name="Ground", description="Height of the ground in the file", unit="LENGTH", precision=3)
+    shards: IntProperty(name="Shards", description="Into how many shards the bridge is cut", default=300, min=1)
+    without: StringProperty(
+        name="Without", description="Elements to leave out, by name, class or kind, with * for anything and ; between"
+    )
+    kinds: StringProperty(
+        name="Kinds", description="What elements are, as in Proxy*=deck;IfcPlate=girder, where the file does not say it"
+    )
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return why_not()
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw the choices beside the files."""
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("material", "materials", "unit", "own_ground"):
+            layout.prop(self, name)
+        row = layout.row()
+        row.enabled = self.own_ground
+        row.prop(self, "ground_m")
+        for name in ("shards", "without", "kinds"):
+            layout.prop(self, name)
+
+    def act(self, context: bpy.types.Context) -> str:
+        if not self.filepath:
+            raise IfcError("no IFC file was given: choose one")
+        path = absolute(self.filepath)
+        bridge, folder = read_bridge(path, self._settings()), _new_folder(path)
+        write_bridge(bridge, folder)
+        settings = context.scene.bda
+        show_scenario(settings, read_scenario(folder / SCENARIO_FILE))
+        settings.scenario_path = settings.loaded_path = str(folder / SCENARIO_FILE)
+        return _done(bridge, folder)
+
+    def _settings(self) -> ImportSettings:
+        return ImportSettings(
+            materials=absolute(self.materials) if self.materials else None,
+            material=self.material.strip() or None,
+            unit=None if self.unit == _UNIT_OF_FILE else self.unit,
+            ground_m=self.ground_m if self.own_ground else None,
+            shards=self.shards,
+            without=_parts(self.without),
+            kinds=tuple(_kind(each) for each in _parts(self.kinds)),
+        )
+
+
+CLASSES = (BDA_OT_import_ifc,)
+
+
+def _parts(text: str) -> tuple[str, ...]:
+    return tuple(each.strip() for each in text.split(";") if each.strip())
+
+
+def _kind(text: str) -> tuple[str, str]:
+    name, equals, kind = text.rpartition("=")
+    if not equals:
+        raise IfcError(f'kinds has "{text}": expected NAME=KIND')
+    return name.strip(), kind.strip()
+
+
+def _new_folder(path: Path) -> Path:
+    """Return a folder beside the IFC file that is not there yet."""
+    folder, number = path.with_name(f"{path.stem}_scenario"), 1
+    while folder.exists():
+        number += 1
+        folder = path.with_name(f"{path.stem}_scenario_{number}")
+    return folder
+
+
+def _done(bridge: ImportedBridge, folder: Path) -> str:
+    became = [each.became for each in bridge.outcomes]
+    return (
+        f"Imported {bridge.scenario.title}: {became.count('member')} members, {became.count('connection')} bearings, "
+        f"{became.count('left out')} elements left out; {folder / REPORT_FILE} says why"
+    )

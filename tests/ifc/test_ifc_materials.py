@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What elements are made of: by the table, the user's own table, and the file."""
+
+import pytest
+from ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
+
+from bridge_demolition_addon.core.errors import IfcError, OutputError
+from bridge_demolition_addon.ifc.bridge import read_bridge
+from bridge_demolition_addon.ifc.materials import material_table, write_material_table
+from bridge_demolition_addon.ifc.settings import ImportSettings
+
+
+def read(made, tmp_path, **settings):
+    return read_bridge(made.written(tmp_path / "bridge.ifc"), ImportSettings(**settings))
+
+
+@pytest.mark.parametrize(
+    "name, density, strength",
+    [
+        ("Concrete, Cast-in-Place gray", 2550.0, "reinforced concrete slab"),
+        ("Stahlbeton C35/45", 2550.0, "reinforced concrete slab"),
+        ("C50/60", 2550.0, "reinforced concrete slab"),
+        ("Mass concrete", 2450.0, "concrete"),
+        ("STRUCTURAL STEEL", 7850.0, "steel"),
+        ("S355J2+N", 7850.0, "steel"),
+        ("Brick, common", 1850.0, "masonry"),
+    ],
+)
+def test_the_table(name, density, strength):
+    row = material_table().row(name)
+    assert (row.density_kg_m3, row.strength_name) == (density, strength)
+
+
+@pytest.mark.parametrize("name", ["Timber", "Glass200", ""])
+def test_the_table_does_not_guess(name):
+    assert material_table().row(name) is None
+
+
+def test_the_table_is_written_to_be_changed(tmp_path):
+    path = tmp_path / "mine.toml"
+    write_material_table(path)
+    assert material_table(path) == material_table()
+    with pytest.raises(OutputError, match=r"mine\.toml: exists already"):
+        write_material_table(path)
+
+
+OWN = """
+[[materials]]
+name = "C30/*"
+density_kg_m3 = 2300.0
+compression_n_mm2 = 38.0
+tension_n_mm2 = 2.9
+shear_n_mm2 = 0.5
+torsion_n_mm2 = 2.9
+bending_n_mm2 = 2.9
+elastic_modulus_n_mm2 = 33000.0
+
+[[materials]]
+name = "*"
+density_kg_m3 = 2000.0
+strength = "masonry"
+"""
+
+
+def test_a_table_of_the_users_own(tmp_path):
+    (tmp_path / "own.toml").write_text(OWN)
+    bridge = read(whole_bridge(), tmp_path, materials=tmp_path / "own.toml")
+    masses = {}
+    for each in bridge.outcomes:
+        if each.member:
+            masses[each.member.kind] = masses.get(each.member.kind, 0.0) + each.member.mass_kg
+    assert masses["pier"] == pytest.approx(VOLUMES_M3["pier"] * 2300.0, rel=1e-6)
+    assert masses["girder"] == pytest.approx(VOLUMES_M3["girder"] * 2000.0, rel=1e-6)
+    scenario = bridge.scenario
+    assert [(each.name, each.compression_n_mm2) for each in scenario.materials] == [("C30/", 38.0)]
+    assert scenario.connections.material == "C30/"
+    assert {(each.members, each.material) for each in scenario.connections.between if each.material} == {
+        (("girder", "girder"), "masonry"),
+        (("deck", "deck"), "masonry"),
+    }
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ('[[materials]]\nname = "A"\ndensity_kg_m3 = -1.0\nstrength = "steel"', "density_kg_m3 is -1.0"),
+        ('[[materials]]\nname = "A"\ndensity_kg_m3 = 1.0', 'materials for "A": compression_n_mm2 is missing'),
+        ('[[materials]]\nname = "A"\ndensity_kg_m3 = 1.0\nstrength = "jelly"', 'strength is "jelly"'),
+        (OWN.replace("bending_n_mm2 = 2.9", 'strength = "steel"'), "strength and compression_n_mm2 are given"),
+        ("density", "not a TOML file"),
+    ],
+)
+def test_a_wrong_table_is_refused_by_its_name(text, message, tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(text)
+    with pytest.raises(IfcError) as refused:
+        material_table(path)
+    assert str(refused.value).startswith(f"{path}: ")
+    assert message in str(refused.value)
+
+
+def test_elements_without_a_material_are_refused_until_the_user_says_which(tmp_path):
+    made = whole_bridge(has_materials=False)
+    with pytest.raises(IfcError, match=r"no material: Footing 1, .* and 5 more\. Say by --material"):
+        read(made, tmp_path)
+    bridge = read(made, tmp_path, material="concrete")
+    assert {each.member.density_kg_m3 for each in bridge.outcomes if each.member} == {2550.0}
+
+
+def test_a_material_that_the_table_does_not_know(tmp_path):
+    made = IfcBridge().superstructure().substructure()
+    made.box("IfcBeam", "Stringer", (1, 1, 1), (10.0, 0.0, 8.0), "DECK", material=made.material("Oak"))
+    with pytest.raises(IfcError, match="does not know the materials of Oak: Stringer"):
+        read(made, tmp_path)
+    with pytest.raises(IfcError, match='material is "oak", which the table of materials does not know'):
+        read(made, tmp_path, material="oak")
+
+
+def test_layers_weigh_by_their_thickness(tmp_path):
+    """15 cm of concrete and 5 cm of steel: (0.15 × 2550 + 0.05 × 7850) / 0.2 = 3875 kg/m³."""
+    made = IfcBridge().substructure().superstructure()
+    make = made.file.create_entity
+    layers = [
+        make("IfcMaterialLayer", made.material(name), thickness, None)
+        for name, thickness in (("Steel", 0.05), ("Concrete", 0.15))
+    ]
+    (slab,) = made.file.by_type("IfcSlab")
+    slab.HasAssociations[0].RelatingMaterial = make("IfcMaterialLayerSet", layers)
+    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    assert deck.member.density_kg_m3 == pytest.approx(3875.0)
+    assert deck.substance.row.strength == "reinforced concrete slab"
+
+
+def test_of_materials_without_shares_the_first_that_is_known_counts(tmp_path):
+    made = IfcBridge().substructure().superstructure()
+    (slab,) = made.file.by_type("IfcSlab")
+    slab.HasAssociations[0].RelatingMaterial = made.file.create_entity(
+        "IfcMaterialList", [made.material(name) for name in ("Paint", "Concrete", "Steel")]
+    )
+    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    assert deck.member.density_kg_m3 == 2550.0
+    assert "made of 3 materials, of which Concrete counts" in deck.why
+
+
+def test_a_density_in_another_unit(tmp_path):
+    """Tonnes by cubic metre, as a derived unit: 2.4 of them are 2400 kg/m³."""
+    made = IfcBridge().substructure().superstructure()
+    make = made.file.create_entity
+    tonne = make("IfcSIUnit", None, "MASSUNIT", "MEGA", "GRAM")
+    metre = make("IfcSIUnit", None, "LENGTHUNIT", None, "METRE")
+    elements = [make("IfcDerivedUnitElement", tonne, 1), make("IfcDerivedUnitElement", metre, -3)]
+    units = made.project.UnitsInContext
+    units.Units = [*units.Units, make("IfcDerivedUnit", elements, "MASSDENSITYUNIT", None)]
+    (slab,) = made.file.by_type("IfcSlab")
+    slab.HasAssociations[0].RelatingMaterial = made.material("Concrete", 2.4)
+    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    assert deck.member.density_kg_m3 == pytest.approx(2400.0)
+
+
+def test_a_density_that_no_material_has_does_not_count(tmp_path):
+    made = IfcBridge().substructure().superstructure()
+    (slab,) = made.file.by_type("IfcSlab")
+    slab.HasAssociations[0].RelatingMaterial = made.material("Concrete", 2.4)
+    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    assert deck.member.density_kg_m3 == 2550.0
+    assert "the file gives 2.4 kg/m³ for Concrete" in deck.why

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""*Import IFC*: from the file to a bridge that is built and stands."""
+
+import sys
+
+import pytest
+from ifc_bridges import MASS_KG, whole_bridge
+
+from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.ui.scenario.prop import default_scenario
+from bridge_demolition_addon.ui.scenario.values import scenario_of
+
+_SINGLE = 1e-6
+"""Blender keeps masses in single precision, which holds seven digits."""
+
+
+def test_an_imported_bridge_is_shown_built_and_stands(extension, settings, tmp_path):
+    """No connection breaks and nothing moves: footings are held, and 277 t are within what the members bear."""
+    from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
+
+    path = whole_bridge().written(tmp_path / "two_spans.ifc")
+    assert extension.ops.bda.import_ifc(filepath=str(path), shards=20) == {"FINISHED"}
+    folder = tmp_path / "two_spans_scenario"
+    assert settings.scenario_path == str(folder / "scenario.toml")
+    assert scenario_of(settings) == read_scenario(folder / "scenario.toml")
+    settings.scenario.shards.start_deactivated = False
+    assert extension.ops.bda.build_scenario() == {"FINISHED"}
+    scene = extension.context.scene
+    shards = [each for each in bodies_of(scene) if kind_of(each) == Kind.SHARD]
+    assert sum(each.rigid_body.mass for each in shards) == pytest.approx(MASS_KG, rel=_SINGLE)
+    start = {each.name: each.matrix_world.translation.copy() for each in shards}
+    for frame in range(1, 7):
+        scene.frame_set(frame)
+    moved = [(each.matrix_world.translation - start[each.name]).length for each in shards]
+    assert max(moved) < 0.01  # 5 frames of free fall are 0.21 m
+
+
+def test_importing_again_takes_another_folder(extension, settings, tmp_path):
+    path = whole_bridge().written(tmp_path / "bridge.ifc")
+    for folder in ("bridge_scenario", "bridge_scenario_2"):
+        extension.ops.bda.import_ifc(filepath=str(path), kinds="IfcWall=pier", without="IfcTendon; Deck*;Carriageway")
+        assert settings.scenario_path == str(tmp_path / folder / "scenario.toml")
+
+
+@pytest.mark.parametrize(
+    "choices, message",
+    [
+        ({"filepath": ""}, "no IFC file was given"),
+        ({"filepath": "//bridge.ifc"}, "save it or give a full path"),
+        ({"kinds": "deck"}, 'kinds has "deck": expected NAME=KIND'),
+        ({"kinds": "IfcWall=dock"}, 'kind of "IfcWall" is "dock"'),
+        ({"material": ""}, "no material: Footing 1"),
+        ({"own_ground": True, "ground_m": 50.0}, "would cover the bridge"),
+    ],
+)
+def test_what_cannot_be_imported_changes_nothing(choices, message, extension, settings, tmp_path):
+    path = whole_bridge(has_materials=False).written(tmp_path / "bridge.ifc")
+    with pytest.raises(RuntimeError, match=message):
+        extension.ops.bda.import_ifc(**{"filepath": str(path), **choices})
+    assert scenario_of(settings) == default_scenario()
+    assert [each.name for each in tmp_path.iterdir()] == ["bridge.ifc"]
+
+
+def test_the_button_is_greyed_with_the_reason_where_nothing_reads_ifc(extension, monkeypatch):
+    """Without the folder that IfcOpenShell is in: as where neither the extra nor Bonsai is installed."""
+    import ifcopenshell
+
+    from bridge_demolition_addon.core.errors import MissingLibraryError
+    from bridge_demolition_addon.ifc.library import library
+
+    assert extension.ops.bda.import_ifc.poll()
+    home = ifcopenshell.__path__[0].rpartition("ifcopenshell")[0].rstrip("/\\")
+    monkeypatch.setattr(sys, "path", [each for each in sys.path if each.rstrip("/\\") != home])
+    monkeypatch.delitem(sys.modules, "ifcopenshell")
+    assert not extension.ops.bda.import_ifc.poll()
+    with pytest.raises(RuntimeError, match=r"IFC is read by IfcOpenShell: install it with pip install .*\[ifc\]"):
+        extension.ops.bda.import_ifc(filepath="bridge.ifc")
+    with pytest.raises(MissingLibraryError, match="Blender has it where its extension Bonsai is installed"):
+        library()
