@@ -92,9 +92,12 @@ def changes(settings: bpy.types.PropertyGroup) -> list[Change]:
 
 def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: Kept) -> Iterator[Change]:
     """Return the values of a table, and of those in it, that are not as they were when the scene was built."""
-    for item in _built_keys(table_class):
-        if change := change_of(group, table_class, item, kept):
-            yield change
+    if kept is not None:
+        for item, is_used, is_vector in _readings(table_class):  # for each redraw: nothing is looked up that is alike
+            now = None if is_used and not getattr(group, is_used) else getattr(group, item.name)
+            same = list(now) if is_vector and now is not None else now
+            if same != kept.get(item.name) and (change := change_of(group, table_class, item, kept)):
+                yield change
     for item in _built_tables(table_class):
         yield from changes_of_table(group, item, kept)
 
@@ -103,21 +106,30 @@ def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) ->
     """Return what has changed in the table, or the tables, of one field of a group."""
     if not counts_in_building(item):
         return
-    inner_class, then = subtable_class(item), (kept or {}).get(item.name)
-    now = getattr(group, item.name)
+    inner_class, now, then = subtable_class(item), getattr(group, item.name), (kept or {}).get(item.name)
+    change = change_of_use(group, item, kept)
+    if change:
+        yield change
     if holds_many(item):
-        then = then or []
-        if len(now) != len(then):
-            yield Change(inner_class.table, f"a list of {len(now)}", f"with {len(then)} of them")
-        for number, (each, values) in enumerate(zip(now, then, strict=False), start=1):
+        for number, (each, values) in enumerate(zip(now, then or [], strict=False), start=1):
             for change in changes_in(each, inner_class, values):
                 yield replace(change, key=f"{change.key} (number {number})")
-        return
-    is_used = not is_optional(item) or getattr(group, USE + item.name)
-    if is_used != (then is not None):
-        yield Change(inner_class.table, *(("used", "without") if is_used else ("not used", "with it")))
-    elif is_used:
+    elif then is not None and not change:
         yield from changes_in(now, inner_class, then)
+
+
+def change_of_use(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Change | None:
+    """Return whether a table is used where it was not, or the other way round, or how many more or less there are."""
+    if not counts_in_building(item):
+        return None
+    table, then = subtable_class(item).table, (kept or {}).get(item.name)
+    if holds_many(item):
+        now = len(getattr(group, item.name))
+        return None if now == len(then or []) else Change(table, f"a list of {now}", f"with {len(then or [])} of them")
+    is_used = not is_optional(item) or getattr(group, USE + item.name)
+    if is_used == (then is not None):
+        return None
+    return Change(table, *(("used", "without") if is_used else ("not used", "with it")))
 
 
 def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, kept: Kept) -> Change | None:
@@ -227,6 +239,11 @@ def _value(group: bpy.types.PropertyGroup, item: Field) -> Any:
         return None
     value = getattr(group, item.name)
     return list(value) if is_vector else value
+
+
+@cache
+def _readings(table_class: type[Table]) -> tuple[tuple[Field, str, bool], ...]:
+    return tuple((item, *_reading(item)) for item in _built_keys(table_class))
 
 
 @cache

@@ -16,7 +16,7 @@ from ..first_help import draw_first_help
 from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from .breaking_note import breaking_note
-from .built import Change, Kept, built_values, change_of, changes, changes_of_table
+from .built import Change, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .next_step import next_step
 from .number_rows import draw_rows, numbers_in_row
 from .prop import INDEX, USE, label_of, shown_tables, vector_length
@@ -212,8 +212,7 @@ def draw_change_of_table(
     kept: Kept,
 ) -> None:
     """Draw whether a table, or another number of tables, was used when the scene was built."""
-    change = None if kept is None else next(changes_of_table(group, item, kept), None)
-    if change and change.key == subtable_class(item).table:
+    if kept is not None and (change := change_of_use(group, item, kept)):
         draw_sentence(layout, context, f"built {change.built}", icon=CHANGED)
 
 
