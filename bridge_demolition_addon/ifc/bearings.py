@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..core.geometry.mesh import TriangleMesh
+from ..core.geometry.vectors import transformed
 from ..core.scenario import ConnectionBetween
 from .contacts import Contacts
 from .elements import Element
@@ -68,7 +69,7 @@ def bearing_of(element: Element, solid: TriangleMesh, contacts: Contacts, placem
     if not below or not above:
         where = "under" if not below else "over"
         return f"nothing lies {where} it within {1e3 * REACH_M:g} mm: connect these members by [[connections.between]]"
-    free, source = _free(element, placement)
+    free, source = free_motions(element, placement)
     return Bearing(below[0], tuple(above), free, source)
 
 
@@ -90,28 +91,37 @@ def _rule(pair: tuple[str, str], free: tuple[str, ...]) -> ConnectionBetween:
     return ConnectionBetween(members=pair, type="GENERIC", free=free)
 
 
-def _free(element: Element, placement: Placement) -> tuple[tuple[str, ...], str]:
-    psets = library("util.element").get_psets(element.entity)
-    given = psets.get("Pset_BearingCommon", {})
-    if told := {motion: given[name] for motion, name in _PROPERTIES.items() if _are_truths(given.get(name))}:
-        axes = _axes(element.entity, placement)
+def free_motions(element: Element, placement: Placement) -> tuple[tuple[str, ...], str]:
+    """Return the motions that a bearing leaves free, along and about the bridge's axes, and where they are from."""
+    given = library("util.element").get_psets(element.entity).get("Pset_BearingCommon", {})
+    told = {motion: given[name] for motion, name in _PROPERTIES.items() if _are_truths(given.get(name))}
+    turn = _turn_of(element.entity.ObjectPlacement)
+    if told and turn is not None:
+        axes = _axes(turn, placement)
         found = [f"{motion} {axes[number]}" for motion, truths in told.items() for number in np.flatnonzero(truths)]
         return tuple(sorted(found)), "its free motions are those of Pset_BearingCommon"
+    lost = "its own axes follow an alignment, so that its Pset_BearingCommon does not count; " if told else ""
     if element.facts.predefined in _FREE_OF_TYPE:
         free = _FREE_OF_TYPE[element.facts.predefined]
-        return free, f"free as {element.facts.predefined} bearings are: {', '.join(free)}"
-    return _FREE_OTHERWISE, f"the file does not say what it leaves free, taken for {', '.join(_FREE_OTHERWISE)}"
+        return free, f"{lost}free as {element.facts.predefined} bearings are: {', '.join(free)}"
+    return _FREE_OTHERWISE, f"{lost}the file does not say what it leaves free, taken for {', '.join(_FREE_OTHERWISE)}"
+
+
+def _turn_of(placed: Any) -> np.ndarray | None:
+    """Return the matrix (3, 3) of a placement, whose columns are its own axes; None where it follows an alignment."""
+    each = placed
+    while each is not None:
+        if not each.is_a("IfcLocalPlacement"):
+            return None
+        each = each.PlacementRelTo
+    return np.array(library("util.placement").get_local_placement(placed))[:3, :3]
 
 
 def _are_truths(value: Any) -> bool:
     return isinstance(value, list | tuple) and len(value) == 3 and all(isinstance(each, bool) for each in value)
 
 
-def _axes(entity: Any, placement: Placement) -> list[str]:
-    """Return which axis of the bridge is nearest to each axis of an element."""
-    matrix = np.eye(4)
-    if entity.ObjectPlacement:
-        matrix = np.array(library("util.placement").get_local_placement(entity.ObjectPlacement))
-    turn = np.eye(3)
-    turn[:2, :2] = placement.turn
-    return ["xyz"[number] for number in np.abs(turn @ matrix[:3, :3]).argmax(axis=0)]
+def _axes(turn: np.ndarray, placement: Placement) -> list[str]:
+    """Return which axis of the bridge is nearest to each axis (3, 3) of an element."""
+    in_plan = transformed(placement.turn, turn[:2].T).T
+    return ["xyz"[number] for number in np.abs(np.vstack((in_plan, turn[2:]))).argmax(axis=0)]

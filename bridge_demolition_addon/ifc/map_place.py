@@ -89,7 +89,7 @@ def _by_site(source: IfcSource, placement: Placement) -> Site | None:
             continue
         north_rad = math.radians(library("util.geolocation").get_true_north(source.model))
         of_site = np.zeros(3)
-        if site.ObjectPlacement:
+        if site.ObjectPlacement and site.ObjectPlacement.is_a("IfcLocalPlacement"):
             matrix = library("util.placement").get_local_placement(site.ObjectPlacement)
             of_site = np.array(matrix)[:3, 3] * source.unit_m
         x, y = (placement.origin_m - of_site)[:2]

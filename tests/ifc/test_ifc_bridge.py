@@ -8,7 +8,11 @@ import pytest
 from ifc_bridges import DECK_KG_M3, MASS_KG, SCHEMAS, STEEL_KG_M3, VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.core.errors import IfcError
+from bridge_demolition_addon.ifc.bearings import free_motions
 from bridge_demolition_addon.ifc.bridge import read_bridge
+from bridge_demolition_addon.ifc.elements import Element
+from bridge_demolition_addon.ifc.kinds import ElementFacts
+from bridge_demolition_addon.ifc.placement import Placement
 from bridge_demolition_addon.ifc.settings import ImportSettings
 
 EXACT = 1e-6
@@ -176,6 +180,20 @@ def test_motions_that_a_bearing_gives_itself(tmp_path):
     bridge = read(made, tmp_path)
     (rule,) = (each for each in bridge.scenario.connections.between if each.members == ("Girder left", "Abutment 1"))
     assert rule.free == ("move y", "turn x")
+
+
+def test_a_bearing_along_an_alignment_is_free_as_its_type_is():
+    made = IfcBridge()
+    value = made.file.create_entity("IfcBoolean", True)
+    given = made.file.create_entity("IfcPropertyListValue", "RotationAccommodated", None, [value] * 3, None)
+    pset = made.root("IfcPropertySet", "Pset_BearingCommon", HasProperties=[given])
+    at = made.file.create_entity("IfcLinearPlacement")
+    bearing = made.root("IfcBearing", "B", PredefinedType="ROLLER", ObjectPlacement=at)
+    made.root("IfcRelDefinesByProperties", None, RelatedObjects=[bearing], RelatingPropertyDefinition=pset)
+    facts = ElementFacts(name="B", global_id="0", classes=("IfcBearing",), predefined="ROLLER")
+    free, source = free_motions(Element(bearing, facts, "bearing"), Placement(0.0, np.zeros(3)))
+    assert free == ("move x", "turn y")
+    assert "its own axes follow an alignment" in source
 
 
 def test_names_that_are_alike_or_mean_a_kind_get_numbers(tmp_path):
