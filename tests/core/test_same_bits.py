@@ -11,7 +11,7 @@ from processes import run_program
 CORE = ROOT / "bridge_demolition_addon" / "core"
 ROOMS = (
     *("blast", "bridge", "debris", "fracture", "geometry", "mechanics"),
-    *("results", "scenario", "sequence", "statistics", "structure", "study", "timing"),
+    *("results", "scenario", "sequence", "statistics", "structure", "study", "terrain", "timing"),
 )
 PACKAGE = CORE.parent
 SCENE, SIMULATION = PACKAGE / "scene", PACKAGE / "simulation"

@@ -38,7 +38,13 @@ def ground_half_size(members: Sequence[Member], clear_height_m: float) -> float:
     lower, upper = extent(members)
     farthest = float(length(np.maximum(abs(lower[:2]), abs(upper[:2]))))
     across = float(length((upper - lower)[:2]))
-    return max(across, farthest) + _DEBRIS_ROOM * (float(upper[2]) + clear_height_m)
+    height = float(upper[2]) - min(float(lower[2]), 0.0)
+    return max(across, farthest) + _DEBRIS_ROOM * (height + clear_height_m)
+
+
+def room_around(scenario: Scenario, members: Sequence[Member]) -> float:
+    """How far the ground of a scenario with these members reaches from the origin to every side, m."""
+    return ground_half_size(members, scenario.ball.largest_height_m(0.0) if scenario.ball else 0.0)
 
 
 def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple[float, float]) -> float:

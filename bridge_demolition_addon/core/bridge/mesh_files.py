@@ -11,18 +11,14 @@ import numpy as np
 
 from ..errors import GeometryError, ScenarioError, UnreadableError
 from ..geometry.mesh import TriangleMesh
+from ..geometry.mesh_reading import MESH_FILES, from_y_up, read_mesh
 from ..geometry.repair import repaired_solid
 from ..geometry.rotations import turn_in_plane
 from ..geometry.solids import union
 from ..geometry.vectors import transformed
-from ..reading import MEGABYTE, check_file
 from ..scenario import Geometry
-from ..scenario.geometry import MESH_FILES
 from ..schema import FARTHEST_M, SHORTEST_LENGTH_M
 from .member import Member
-
-MOST_BYTES = 1000 * MEGABYTE
-"""Size up to which a mesh is read: tens of millions of triangles."""
 
 _BELOW_GROUND_M = 1e-3
 """How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
@@ -30,12 +26,16 @@ _BELOW_GROUND_M = 1e-3
 _PLANES = ([1, 2], [2, 0], [0, 1])
 """Axes of the planes in which turns about x, y and z are, each from the first to the second."""
 
-_FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""Turns coordinates with y up and z towards the viewer into ours, with z up."""
 
-
-def geometry_members(tables: Sequence[Geometry]) -> tuple[tuple[Member, ...], tuple[str, ...]]:
+def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tuple[tuple[Member, ...], tuple[str, ...]]:
     """Members from files, those of the same name united, and sentences on what was repaired.
+
+    Parameters
+    ----------
+    tables : sequence of Geometry
+        Which files, and how they are placed.
+    is_flat : bool
+        Whether the ground is flat, so that nothing may reach below it; elsewhere it is dug away.
 
     Raises
     ------
@@ -53,7 +53,8 @@ def geometry_members(tables: Sequence[Geometry]) -> tuple[tuple[Member, ...], tu
             mesh = placed_mesh(table)
             _check_extent(mesh, name)
             done = repaired_solid(mesh, name)
-            _check_above_ground(done.solid, name)
+            if is_flat:
+                _check_above_ground(done.solid, name)
             solids.append(done.solid)
             notes += [f"{name}: {repair}" for repair in done.repairs]
         members.append(_member(same_name, solids))
@@ -75,7 +76,7 @@ def placed_mesh(table: Geometry) -> TriangleMesh:
     vertices = mesh.vertices * table.scale
     up = table.up or ("y" if path.suffix.lower() == ".glb" else "z")
     if up == "y":
-        vertices = transformed(_FROM_Y_UP, vertices)
+        vertices = from_y_up(vertices)
     turns_deg = (*table.tilt_deg, table.rotation_deg)
     for plane, angle_deg in zip(_PLANES, turns_deg, strict=True):
         if angle_deg:
@@ -94,22 +95,9 @@ def _file_mesh(path: Path) -> TriangleMesh:
     if path.suffix.lower() not in MESH_FILES:
         raise ScenarioError(f'geometry.file is "{path}": expected a file that ends in one of {", ".join(MESH_FILES)}')
     try:
-        check_file(path, MOST_BYTES)
+        return read_mesh(path)
     except UnreadableError as error:
         raise ScenarioError(f'geometry.file is "{path}": {error}') from error
-    import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
-
-    try:
-        mesh = trimesh.load(path, force="mesh", process=False)
-    except Exception as error:  # each reader has its own for a file that is not what its name says
-        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
-    if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
-        raise GeometryError(f"{path}: has no faces; export a closed surface.")
-    vertices = np.asarray(mesh.vertices, dtype=float)
-    if path.suffix.lower() == ".glb":
-        # Of single precision in the file; trimesh has placed them by products whose last bits differ by processor.
-        vertices = vertices.astype(np.float32).astype(float)
-    return TriangleMesh(vertices, np.asarray(mesh.faces, dtype=np.int64))
 
 
 def _check_extent(mesh: TriangleMesh, name: str) -> None:

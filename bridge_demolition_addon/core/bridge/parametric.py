@@ -13,22 +13,24 @@ from ..geometry.solids import union
 from ..scenario import Bridge
 from .layout import deck_top, deck_underside, slab_underside
 from .member import Member
-from .substructure import substructure
+from .substructure import GroundHeight, level_ground, substructure
 from .superstructure import superstructure
 
 _SAME_LEVEL_M = 1e-9
 """Heights of two faces that lie on each other differ by rounding, which the boolean engine would take for a gap."""
 
 
-def bridge_members(bridge: Bridge) -> tuple[Member, ...]:
+def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple[Member, ...]:
     """Solids of all members, touching without overlap: decks and girders, abutments, each pier's cap and columns.
 
     Raises
     ------
     ScenarioError
         Members with a density of their own weigh as much as the whole bridge, or more.
+    GeometryError
+        The ground is too high for what stands on it.
     """
-    members = [*superstructure(bridge), *substructure(bridge)]
+    members = [*superstructure(bridge), *substructure(bridge, ground)]
     if bridge.merge:
         convex = tuple(part for each in members for part in each.parts or (each.solid,))
         members = [Member("bridge", "bridge", _merged(bridge, [each.solid for each in members]), parts=convex)]

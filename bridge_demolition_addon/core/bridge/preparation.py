@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ..errors import ScenarioError
+import numpy as np
+
+from ..errors import GeometryError, ScenarioError
 from ..geometry.overlap import separated
 from ..scenario import Scenario
+from ..terrain.built import check_under
+from ..terrain.placed import Terrain, terrain_of
 from . import bridge_members
 from .extent import surface_height
 from .member import Member
@@ -30,16 +34,37 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
     ScenarioError
         Two members have the same name, or a file is not there.
     GeometryError
-        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball.
+        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball; the terrain misses
+        the bridge, has no data under a pier or is too high there.
     """
-    of_bridge = bridge_members(scenario.weighed_bridge) if scenario.bridge else ()
+    terrain = terrain_of(scenario)
+    of_bridge = _bridge_on(terrain, scenario) if scenario.bridge else ()
     if not scenario.geometry:
         return PreparedMembers(of_bridge, ())
-    from_files, repairs = geometry_members(scenario.geometry)
+    from_files, repairs = geometry_members(scenario.geometry, is_flat=terrain is None)
     prepared = without_overlap([*of_bridge, *from_files])
     for drop in scenario.ball.drops if scenario.ball else ():
         surface_height(scenario, prepared.members, drop.target_m)  # refuses a ball that nothing lies under
     return PreparedMembers(prepared.members, repairs + prepared.notes)
+
+
+def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...]:
+    bridge = scenario.weighed_bridge
+    if terrain is None:
+        return bridge_members(bridge)
+    check_under(terrain, [(each.name, each.solid) for each in bridge_members(bridge)])
+
+    def height(name: str, x_m: float, y_m: float) -> float:
+        found = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])
+        if not np.isfinite(found):
+            where = terrain.told_place(np.array([x_m, y_m]))
+            raise GeometryError(
+                f"{terrain.name}: the terrain has no data under {name}, at {where}; give it heights there, or move the "
+                "bridge by ground.origin."
+            )
+        return found
+
+    return bridge_members(bridge, height)
 
 
 def without_overlap(members: Sequence[Member]) -> PreparedMembers:

@@ -5,8 +5,6 @@ from typing import ClassVar
 
 from ..schema import Table, check_exactly_one, key
 
-MESH_FILES = (".stl", ".obj", ".ply", ".glb")
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Geometry(Table):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -139,9 +139,19 @@ def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shar
     return pairs[kept]
 
 
-def foundations(shards: Sequence[TriangleMesh]) -> Connections:
-    """Connections to the ground of all shards that stand on it, in the middle of the face they stand on."""
-    standing = [(index, *_standing_face(shard)) for index, shard in enumerate(shards)]
+def foundations(
+    shards: Sequence[TriangleMesh], heights_at: Callable[[np.ndarray], np.ndarray] | None = None
+) -> Connections:
+    """Connections to the ground of all shards that stand on it, in the middle of the face they stand on.
+
+    Parameters
+    ----------
+    shards : sequence of TriangleMesh
+        Before gaps are made.
+    heights_at : callable, optional
+        Heights (k,) of the ground at places (k, 2), nan beyond it; flat at 0 unless given.
+    """
+    standing = [(index, *_standing_face(shard, heights_at)) for index, shard in enumerate(shards)]
     standing = [(index, area, centre) for index, area, centre in standing if area > 0.0]
     count = len(standing)
     return Connections(
@@ -157,10 +167,19 @@ def joined(parts: Sequence[Connections]) -> Connections:
     return Connections(*(np.concatenate([getattr(part, item.name) for part in parts]) for item in fields(Connections)))
 
 
-def _standing_face(shard: TriangleMesh) -> tuple[float, np.ndarray]:
+def _standing_face(
+    shard: TriangleMesh, heights_at: Callable[[np.ndarray], np.ndarray] | None
+) -> tuple[float, np.ndarray]:
     """Area and centre of what of a shard lies flat on the ground."""
     corners = shard.corners
-    flat = corners[(abs(corners[:, :, 2]) <= _LEVEL_TOLERANCE_M).all(axis=1)]
+    if heights_at is None:
+        level = 0.0
+    else:
+        level = corners[:, :, 2].min()
+        corners = corners[(corners[:, :, 2] <= level + _LEVEL_TOLERANCE_M).all(axis=1)]
+        on_ground = heights_at(corners[..., :2].reshape(-1, 2)).reshape(-1, 3)
+        corners = corners[(np.abs(on_ground - corners[:, :, 2]) <= _LEVEL_TOLERANCE_M).all(axis=1)]
+    flat = corners[(abs(corners[:, :, 2] - level) <= _LEVEL_TOLERANCE_M).all(axis=1)]
     areas, _ = triangle_areas_and_normals(flat)
     total = float(areas.sum())
     centre = (areas[:, None] * flat.mean(axis=1)).sum(axis=0) / total if total > 0.0 else np.zeros(3)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
+from ..bridge.extent import room_around
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..elasticity.section_stiffness import SectionStiffness
@@ -15,6 +16,7 @@ from ..fracture.members import fractured_members, shards_with_gaps
 from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh
 from ..scenario import ConnectionSettings, Scenario
+from ..terrain.built import BuiltGround, built_ground
 from . import connections as connecting
 from .connection_rules import rules_of_pairs
 from .connections import Connections
@@ -49,6 +51,8 @@ class Model:
         Whether each shard never moves, as supports hold it; no connection lies between two of these.
     stiffness : SectionStiffness or None
         Of the connections; None where they are rigid.
+    ground : BuiltGround
+        What it stands on.
     """
 
     members: tuple[Member, ...]
@@ -61,6 +65,7 @@ class Model:
     second_moments_m4: np.ndarray
     fixed: np.ndarray
     stiffness: SectionStiffness | None = None
+    ground: BuiltGround = field(default_factory=BuiltGround)
 
     def thicknesses_m(self) -> np.ndarray:
         """Thickness (m,) of the thinner of the members that each connection is between."""
@@ -90,12 +95,17 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         The bridge cannot be cut into that many shards.
     """
     members = prepared_members(scenario).members if members is None else tuple(members)
+    solids = [(member.name, member.solid) for member in members]
+    ground = built_ground(scenario, solids, room_around(scenario, members))
     fractured = fractured_members(scenario, members)
     shards, centres, faces = fractured.shards, fractured.centres_m, fractured.faces
     rules = scenario.connections.between
     rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
-    connections = _connections(scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)])
+    heights_at = None if ground.terrain is None else ground.terrain.heights_at
+    connections = _connections(
+        scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)], heights_at
+    )
     fixed = fixed_shards(scenario.supports, members, shards, fractured.member_of_shard)
     # The ground, at index -1, is fixed as well.
     moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
@@ -128,6 +138,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         second_moments_m4=moments,
         fixed=fixed,
         stiffness=stiffness,
+        ground=ground,
     )
 
 
@@ -137,8 +148,9 @@ def _connections(
     centres: np.ndarray,
     faces: SharedFaces,
     allowed: Callable[[np.ndarray], np.ndarray],
+    heights_at: Callable[[np.ndarray], np.ndarray] | None,
 ) -> Connections:
-    """Connections between shards and to the ground, of those pairs (k, 2) that are allowed (k,)."""
+    """Connections between shards and to the ground, flat or of such heights; of pairs (k, 2) that are allowed (k,)."""
     match settings.method:
         case "face":
             pairs, distances = connecting.neighbours_by_face(faces)
@@ -152,5 +164,5 @@ def _connections(
     between = connecting.connect(centres, faces, pairs[kept], distances[kept], settings.limit_per_shard)
     if not settings.foundation:
         return between
-    standing = connecting.foundations(shards)
+    standing = connecting.foundations(shards, heights_at)
     return connecting.joined([between, standing.only(allowed(standing.pairs))])
