@@ -23,7 +23,7 @@ from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.mechanics.joint import Joint
 from bridge_demolition_addon.core.scenario import Ground, ShardSettings, TimeSettings
 from bridge_demolition_addon.core.structure.connections import Connections
-from bridge_demolition_addon.scene.bodies import create_ground, create_shards
+from bridge_demolition_addon.scene.bodies import create_flat_ground, create_shards
 from bridge_demolition_addon.scene.connections.constraints import create_connections
 from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.world import create_world, off_scene
@@ -86,7 +86,7 @@ def _seconds(way: Callable, shards: list[TriangleMesh], connections: Connections
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     create_world(scene, TIME, 100)
-    ground = create_ground(scene.rigidbody_world, 100.0, Ground())
+    ground = create_flat_ground(scene.rigidbody_world, 100.0, Ground())
     began = time.perf_counter()
     way(scene, ground, shards, connections)
     built = time.perf_counter()

@@ -27,6 +27,9 @@ from ..core.sequence.loads import placed_on_model
 from ..core.stages.made_elastic import made_elastic
 from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
 from ..core.structure.model import Model
+from ..core.terrain.built import BuiltGround, told
+from ..core.terrain.recorded import NamedSurface
+from ..core.terrain.surface import Surface
 from .arguments import naming
 
 MOST_FIELDS = 300
@@ -67,12 +70,14 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield scenario.title
     prepared = prepared_members(scenario)
     if scenario.bridge:
-        yield from _section("Bridge", _bridge_facts(scenario.bridge))
+        yield from _section("Bridge", _bridge_facts(scenario.bridge, is_flat=scenario.ground.file is None))
     yield from _section("Members", _member_facts(prepared.members))
     if prepared.notes:
         yield from _section("Repaired", (note.split(": ", 1) for note in prepared.notes))
     yield from _section("Time", _time_facts(scenario))
     model = checked_model(scenario, prepared.members)
+    if not model.ground.is_plain:
+        yield from _section("Ground", _ground_facts(model.ground))
     yield from _section("Shards and connections", _connection_facts(scenario, model))
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
@@ -99,10 +104,19 @@ def _section(heading: str, facts: Iterator[tuple[str, str]]) -> Iterator[str]:
         yield f"  {name:<24}{value}"
 
 
-def _bridge_facts(bridge: Bridge) -> Iterator[tuple[str, str]]:
+def _bridge_facts(bridge: Bridge, *, is_flat: bool) -> Iterator[tuple[str, str]]:
     yield "length", f"{bridge.length_m:.2f} m"
     yield "spans", " + ".join(f"{span:.2f}" for span in bridge.span_lengths_m) + " m"
-    yield "deck top above ground", f"{deck_top(bridge):.2f} m"
+    yield "deck top above ground" if is_flat else "height of deck top", f"{deck_top(bridge):.2f} m"
+
+
+def _ground_facts(ground: BuiltGround) -> Iterator[tuple[str, str]]:
+    """Yield what the terrain became, and what lies on it."""
+    if ground.facts:
+        yield from told(ground.facts)
+    for each in ground.surfaces:
+        area = NamedSurface(each.settings.name, each.settings.kind, Surface(each.mesh)).plan().area()
+        yield each.settings.name, f"{each.settings.kind}, {area:.1f} m² in plan"
 
 
 def _member_facts(members: Sequence[Member]) -> Iterator[tuple[str, str]]:

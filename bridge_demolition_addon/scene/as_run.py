@@ -14,11 +14,11 @@ import bpy
 import numpy as np
 
 from ..core.errors import ScenarioError
-from ..core.scenario import Scenario
+from ..core.scenario import Ground, Scenario
 from ..core.schema import Table
 from ..core.single_precision import as_given
 from ..core.timing.time_step import TimeStep
-from .bodies import Kind, bodies_of, is_marked, kind_of
+from .bodies import Kind, bodies_of, is_marked, kind_of, member_of
 from .demolition import FIRST_STEP_FRAME
 from .time_scale import time_is_animated, time_step_at
 from .world import START_FRAME, farthest_per_substep_of
@@ -96,12 +96,24 @@ def _with_bodies(scene: bpy.types.Scene, scenario: Scenario) -> Scenario:
     if not shards.get("use_deactivation", True):
         shards["start_deactivated"] = False  # which Blender ignores there
     scenario = replace(scenario, shards=_replaced(scenario.shards, shards))
-    ground = _common(of_kind[Kind.GROUND], _GROUND.items(), scenario.ground)
-    scenario = replace(scenario, ground=_replaced(scenario.ground, ground))
+    scenario = replace(scenario, ground=_ground_as_run(bodies, scenario.ground))
     if scenario.ball is None:
         return scenario
     ball = _common(of_kind[Kind.BALL], _BALL.items(), scenario.ball)
     return replace(scenario, ball=_replaced(scenario.ball, ball))
+
+
+def _ground_as_run(bodies: Sequence[bpy.types.Object], ground: Ground) -> Ground:
+    """Take over the surface of the ground, and of each surface on it."""
+    named: dict[str, list[bpy.types.RigidBodyObject]] = {}
+    for body in bodies:
+        if kind_of(body) == Kind.GROUND:
+            named.setdefault(member_of(body)[0], []).append(body.rigid_body)
+    surfaces = tuple(
+        _replaced(each, _common(named.get(each.name, ()), _GROUND.items(), each)) for each in ground.surfaces
+    )
+    ground = _replaced(ground, _common(named.get("", ()), _GROUND.items(), ground))
+    return ground if surfaces == ground.surfaces else replace(ground, surfaces=surfaces)
 
 
 def _with_time_step(scene: bpy.types.Scene, scenario: Scenario) -> Scenario:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.geometry.mesh import TriangleMesh
 from ..core.geometry.solids import box
-from ..core.scenario import Ground, ShardSettings
+from ..core.scenario import Ground, GroundSurface, ShardSettings
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
@@ -20,6 +20,11 @@ _GROUND_THICKNESS_M = 2.0
 
 _CONCRETE = (0.80, 0.78, 0.73)
 SOIL = (0.45, 0.39, 0.26, 1.0)
+_SURFACE_COLOURS = {
+    "water": (0.16, 0.30, 0.38, 1.0),
+    "carriageway": (0.12, 0.12, 0.13, 1.0),
+    "railway": (0.25, 0.22, 0.20, 1.0),
+}
 _SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
 
 
@@ -132,15 +137,35 @@ def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> Non
     rigid.deactivate_angular_velocity = settings.deactivation_angular_velocity_rad_s
 
 
-def create_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
+def create_flat_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
     """Make a passive block with its top at height 0, `half_size_m` to every side of the origin."""
     solid = box((2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M), (0.0, 0.0, 0.0))
-    ground = create_body(world, mesh_of("Ground", solid), Kind.GROUND, "BOX")
+    ground = _create_passive(world, mesh_of("Ground", solid), "BOX", settings)
     ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
-    ground.color = SOIL
-    ground.rigid_body.type = "PASSIVE"
-    set_surface(ground.rigid_body, settings.friction, settings.restitution, 0.0)
     return ground
+
+
+def create_terrain(world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: Ground) -> bpy.types.Object:
+    """Make passive ground of triangles, which bodies meet as they are and not as their convex hull."""
+    return _create_passive(world, mesh_of("Ground", mesh), "MESH", settings)
+
+
+def create_surface(world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: GroundSurface) -> bpy.types.Object:
+    """Make a passive surface on the ground, such as water; its name and kind are marked as those of a member."""
+    surface = _create_passive(world, mesh_of(settings.name, mesh), "MESH", settings)
+    surface.color = _SURFACE_COLOURS.get(settings.kind, SOIL)
+    mark_member(surface, settings.name, settings.kind)
+    return surface
+
+
+def _create_passive(
+    world: bpy.types.RigidBodyWorld, mesh: bpy.types.Mesh, collision_shape: str, settings: Ground | GroundSurface
+) -> bpy.types.Object:
+    body = create_body(world, mesh, Kind.GROUND, collision_shape)
+    body.color = SOIL
+    body.rigid_body.type = "PASSIVE"
+    set_surface(body.rigid_body, settings.friction, settings.restitution, 0.0)
+    return body
 
 
 def create_body(

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import bpy
 
 from ..core.blast.settings import Apply
-from ..core.bridge.extent import ground_half_size, surface_height
+from ..core.bridge.extent import room_around, surface_height
 from ..core.elasticity.section_stiffness import DAMPING_RATIO
 from ..core.errors import SimulationError
 from ..core.mechanics.strength import Ductility, Strength
@@ -18,7 +18,15 @@ from ..core.structure.start_motion import start_motions
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
 from .blast.settings import keep_blast
-from .bodies import bodies_of, create_ground, create_shards, is_marked, mark_member
+from .bodies import (
+    bodies_of,
+    create_flat_ground,
+    create_shards,
+    create_surface,
+    create_terrain,
+    is_marked,
+    mark_member,
+)
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
@@ -98,8 +106,7 @@ def _build(
     """Build on surfaces at these heights, m, under the targets of the ball and where jackhammers begin."""
     settings = scenario.ball
     world = create_world(scene, scenario.time, last_frame(scenario))
-    clear_m = settings.largest_height_m(0.0) if settings else 0.0
-    ground = create_ground(world, ground_half_size(model.members, clear_m), scenario.ground)
+    ground = _create_ground(world, scenario, model)
     if settings:
         ball = create_ball(world, settings, surfaces[0] if surfaces else 0.0, START_FRAME, release_frame(scenario))
         if settings.cable:
@@ -133,6 +140,17 @@ def _build(
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
     return shards
+
+
+def _create_ground(world: bpy.types.RigidBodyWorld, scenario: Scenario, model: Model) -> bpy.types.Object:
+    """Make the ground and the surfaces on it, and return the ground."""
+    if model.ground.terrain is None:
+        ground = create_flat_ground(world, room_around(scenario, model.members), scenario.ground)
+    else:
+        ground = create_terrain(world, model.ground.terrain.mesh, scenario.ground)
+    for surface in model.ground.surfaces:
+        create_surface(world, surface.mesh, surface.settings)
+    return ground
 
 
 @contextmanager

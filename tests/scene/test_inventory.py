@@ -1,11 +1,10 @@
 """What a run knows of a scene before it begins, read from scenes built by the add-on and by hand."""
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.core.results.arrays import named_arrays
 from bridge_demolition_addon.core.structure.connections import GROUND, Connections
 
 # Blender keeps places, scales and masses in single precision: 24 binary digits, and a few roundings on the way.
@@ -91,12 +90,12 @@ def test_masses_and_volumes_of_what_moves_and_of_what_does_not(blocks):
 
 def test_names_and_kinds(blocks):
     from bridge_demolition_addon.core.scenario import Ball, Ground
-    from bridge_demolition_addon.scene.bodies import create_ground
+    from bridge_demolition_addon.scene.bodies import create_flat_ground
     from bridge_demolition_addon.scene.tools.ball import create_ball
 
     blocks.block((0, 0, 0)).name = "Pier, left"
     blocks.block((0, 0, 2), 10.0).name = "Brücke"
-    create_ground(blocks.world, 10.0, Ground())
+    create_flat_ground(blocks.world, 10.0, Ground())
     create_ball(blocks.world, Ball(mass_kg=500.0, diameter_m=1.0, target_m=(0.0, 0.0), drop_height_m=2.0), 5.0, 1, 3)
     inventory = inventory_of(blocks.scene)
     assert inventory.body_names.tolist() == ["Pier, left", "Brücke", "Ground", "Wrecking ball"]
@@ -237,7 +236,7 @@ def test_members_are_known_where_they_are_marked(blocks):
 def test_without_connections(blocks):
     blocks.block((0, 0, 0), 1.0)
     inventory = inventory_of(blocks.scene)
-    shapes = {item.name: getattr(inventory, item.name).shape for item in fields(inventory)}
+    shapes = {name: values.shape for name, values in named_arrays(inventory)}
     assert shapes == {
         "body_names": (1,),
         "body_kinds": (1,),
@@ -259,4 +258,4 @@ def test_without_connections(blocks):
 
 def test_an_empty_world(blocks):
     inventory = inventory_of(blocks.scene)
-    assert {len(getattr(inventory, item.name)) for item in fields(inventory)} == {0}
+    assert {len(values) for _, values in named_arrays(inventory)} == {0}

@@ -60,7 +60,7 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
             where = terrain.told_place(np.array([x_m, y_m]))
             raise GeometryError(
                 f"{terrain.name}: the terrain has no data under {name}, at {where}; give it heights there, or move the "
-                "bridge by ground.origin."
+                "bridge by ground.origin; ground.scale is metres in a unit of the file."
             )
         return found
 

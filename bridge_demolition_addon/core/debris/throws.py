@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from manifold3d import CrossSection
@@ -13,6 +13,7 @@ from ..geometry.plan_areas import distances_outside
 from ..geometry.vectors import dot, transformed
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, relative_to_ground, throw, travel
+from ..terrain.recorded import RecordedGround
 from .footprint import corners_at, footprint, straightened
 
 PERCENTS = (50, 75, 90, 95, 99, 100)
@@ -37,7 +38,9 @@ class Debris:
     outline
         What all shards covered at first.
     highest_m
-        Largest height of any of them, above the ground at 0; nan without debris.
+        Largest height of any of them above the ground below; nan without debris.
+    ground
+        What they lie on.
     """
 
     bodies: np.ndarray
@@ -47,6 +50,7 @@ class Debris:
     area: CrossSection
     outline: CrossSection
     highest_m: float
+    ground: RecordedGround = field(default_factory=RecordedGround)
 
 
 def debris_of(results: Results) -> Debris:
@@ -56,7 +60,7 @@ def debris_of(results: Results) -> Debris:
     first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
     bodies = shards[travel(first[shards], last[shards]) > MOVED_M]
     outline = footprint(results, shards, 0)
-    corners = corners_at(results, -1, bodies)
+    corners, ground = corners_at(results, -1, bodies), results.ground()
     return Debris(
         bodies=bodies,
         throws_m=throw(first[bodies], last[bodies]),
@@ -64,8 +68,15 @@ def debris_of(results: Results) -> Debris:
         masses_kg=results.inventory.masses_kg[bodies],
         area=footprint(results, bodies, -1),
         outline=outline,
-        highest_m=max((float(each[:, 2].max()) for each in corners), default=float("nan")),
+        highest_m=max((float(each.max()) for each in _above(ground, corners)), default=float("nan")),
+        ground=ground,
     )
+
+
+def _above(ground: RecordedGround, corners: Sequence[np.ndarray]) -> Iterator[np.ndarray]:
+    """Give the heights (v,) of corners, d times (v, 3), above the ground below each."""
+    for each in corners:
+        yield each[:, 2] if ground.is_flat else each[:, 2] - ground.heights_at(each[:, :2])
 
 
 def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray:
@@ -97,7 +108,7 @@ class HeightMap:
     xs_m, ys_m : (i,) and (j,) float
         Middles of the cells.
     heights_m : (j, i) float
-        Height of the highest surface over the middle of each cell; nan where there is none.
+        Height of the highest surface over the middle of each cell, above the ground there; nan where there is none.
     """
 
     xs_m: np.ndarray
@@ -138,6 +149,9 @@ def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> Height
         rows = slice(*np.searchsorted(ys, [corners[:, 1].min(), corners[:, 1].max()]))
         upper = _upper_side(normals, offsets, xs[columns], ys[rows])
         heights[rows, columns] = np.fmax(heights[rows, columns], upper)
+    ground = results.ground()
+    if not ground.is_flat:
+        heights -= ground.heights_at(np.stack(np.meshgrid(xs, ys), -1))
     return HeightMap(xs, ys, heights)
 
 

@@ -14,9 +14,13 @@ import numpy as np
 from ..array_files.archive import read_archive, write_archive
 from ..array_files.table import stored_rows
 from ..errors import OutputError, UnreadableError
+from ..geometry.mesh import TriangleMesh
+from ..geometry.vectors import transformed
 from ..mechanics.frame_loads import FrameLoads
 from ..mechanics.work import FrameWork
 from ..reading import check_file
+from ..terrain.recorded import NamedSurface, RecordedGround
+from ..terrain.surface import Surface
 from .checks import check_arrays
 from .files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
 from .frames import BallHistory, Frame, FrameSeries
@@ -100,6 +104,21 @@ class Results:
         """All arrays by their names in the file."""
         return dict(named_arrays(self))
 
+    def ground(self) -> RecordedGround:
+        """The ground that the run was on, as it lay at first."""
+        inventory, terrain, surfaces = self.inventory, None, []
+        for body in inventory.of_kind("ground"):
+            triangles = inventory.triangles_of(body)
+            if not len(triangles):
+                continue
+            turned = transformed(self.frames.rotations[0, body], inventory.vertices_of(body))
+            surface = Surface(TriangleMesh(turned + self.frames.positions_m[0, body], triangles))
+            if name := str(inventory.body_members[body]):
+                surfaces.append(NamedSurface(name, str(inventory.body_member_kinds[body]), surface))
+            else:
+                terrain = surface
+        return RecordedGround(terrain, tuple(surfaces))
+
     def save(self, path: Path) -> None:
         """Write all arrays into one file that `numpy.load` and `load_results` read."""
         arrays = self.arrays()
@@ -142,12 +161,12 @@ def results_in(folder: Path) -> Path:
 
 
 def named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """Give the arrays of a dataclass and of those in it, by their names in the files."""
+    """Give the arrays of a dataclass and of those in it, by their names in the files; what is None is left out."""
     for each in fields(part):
         value = getattr(part, each.name)
         if is_dataclass(value):
             yield from named_arrays(value)
-        else:
+        elif value is not None:
             yield _stored_name(type(part), each.name), value
 
 
@@ -182,8 +201,11 @@ def _left_arrays(path: Path) -> dict[str, np.ndarray]:
 
 
 def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> _Part:
-    """A part of the results, with the fields that are known already."""
-    names = [each.name for each in fields(kind) if each.name not in known]
+    """A part of the results, with the fields that are known already; arrays that may be None need not be there."""
+    missing = {
+        each.name for each in fields(kind) if each.default is None and _stored_name(kind, each.name) not in arrays
+    }
+    names = [each.name for each in fields(kind) if each.name not in known.keys() | missing]
     return kind(**{name: arrays[_stored_name(kind, name)] for name in names}, **known)
 
 

@@ -45,6 +45,8 @@ _SHAPES = {
     "areas_m2": ("f", "m"),
     "normals": ("f", "m3"),
     "second_moments_m4": ("f", "m22"),
+    "triangles": ("i", "t3"),
+    "triangle_counts": ("i", "n"),
     "body_forces_n": ("f", "kn3"),
     "body_peaks_n": ("f", "kn"),
     "body_sums_n": ("f", "kn"),
@@ -73,7 +75,7 @@ _SHAPES = {
     "ball_velocities_m_s": ("f", "sb3"),
 }
 """Kind and shape of every array by its name in the file, with the letters of `Results`' parts: n bodies, m connections,
-k frames, v vertices, b balls, s sub-steps."""
+k frames, v vertices, t triangles, b balls, s sub-steps."""
 
 _KINDS = {"U": ("texts", "U"), "i": ("whole numbers", "iu"), "f": ("fractions", "f"), "b": ("true or false", "b")}
 
@@ -117,6 +119,7 @@ def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
     total = int(arrays["vertex_counts"].sum())
     if total != len(arrays["vertices_m"]):
         raise OutputError(f"vertex_counts: add up to {total}, expected {len(arrays['vertices_m'])}, as in vertices_m")
+    _check_triangles(arrays)
 
 
 def checked_summary(summary: Any) -> dict[str, Any]:
@@ -136,6 +139,22 @@ def checked_summary(summary: Any) -> dict[str, Any]:
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
+
+
+def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
+    """See that triangles, which only runs on ground that is not flat have, are of vertices of their own bodies."""
+    if "triangles" not in arrays and "triangle_counts" not in arrays:
+        return
+    for name in ("triangles", "triangle_counts"):
+        if name not in arrays:
+            raise OutputError(f"{name}: is missing")
+    triangles, counts = arrays["triangles"], arrays["triangle_counts"]
+    _expect("triangle_counts", counts, lambda each: each >= 0, "no negative numbers")
+    if (total := int(counts.sum())) != len(triangles):
+        raise OutputError(f"triangle_counts: add up to {total}, expected {len(triangles)}, as in triangles")
+    most = np.repeat(arrays["vertex_counts"], counts)[:, None]
+    if not ((triangles >= 0) & (triangles < most)).all():
+        raise OutputError("triangles: expected rows of the vertices of their bodies")
 
 
 def _check_kind(name: str, array: np.ndarray, kind: str) -> None:

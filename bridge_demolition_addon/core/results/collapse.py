@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry.vectors import length
+from ..terrain.recorded import RecordedGround
 from .arrays import Results
 from .motion import relative_to_ground
 
@@ -29,18 +30,21 @@ class Span:
     bodies : (b,) int
         Indices of its shards.
     heights_m, lowest_m : (k,) float
-        Height of its centre of mass, and of the lowest centre of its shards.
+        Height of its shards above the ground below each, the mean by mass and the least, between centres of mass.
+    levels_m : (k,) float
+        Height of its centre of mass above the scenario's origin.
     """
 
     name: str
     bodies: np.ndarray
     heights_m: np.ndarray
     lowest_m: np.ndarray
+    levels_m: np.ndarray
 
     @property
     def drop_m(self) -> float:
         """Height by which its centre of mass came down."""
-        return float(self.heights_m[0] - self.heights_m[-1])
+        return float(self.levels_m[0] - self.levels_m[-1])
 
 
 def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Span, ...]:
@@ -55,29 +59,31 @@ def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Sp
         them, or where no shard is of the deck, everything is one span.
     """
     results = relative_to_ground(results)
-    shards = results.inventory.of_kind("shard")
+    shards, ground = results.inventory.of_kind("shard"), results.ground()
     deck = shards[results.inventory.body_member_kinds[shards] == _DECK]
     if not len(shards):
         return ()
     if not len(deck):
-        return (_span(results, _WHOLE, shards),)
+        return (_span(results, ground, _WHOLE, shards),)
     inner_axes = np.cumsum(span_lengths_m)[:-1] if len(span_lengths_m) else np.zeros(0)
     numbers = np.searchsorted(inner_axes, results.frames.positions_m[0, deck, 0], side="right")
     names = ["deck"] if not len(inner_axes) else [f"span {number + 1}" for number in range(len(inner_axes) + 1)]
-    return tuple(_span(results, name, deck[numbers == row]) for row, name in enumerate(names) if (numbers == row).any())
+    parts = ((name, deck[numbers == row]) for row, name in enumerate(names))
+    return tuple(_span(results, ground, name, bodies) for name, bodies in parts if len(bodies))
 
 
 def collapse_progress(results: Results) -> np.ndarray:
     """Return how far the collapse is at each recorded step, (k,) from 0 to 1, a little below 0 where shards rise.
 
-    The part of the height of the shards' centre of mass above the ground that is lost: 0 stands as it did, 1 would be
-    all of it flat on the ground.
+    The part of the height of the shards' masses above the ground under each that is lost: 0 stands as it did, 1 would
+    be all of it flat on the ground.
     """
     shards = results.inventory.of_kind("shard")
     masses = results.inventory.masses_kg[shards]
     if not masses.sum() > 0.0:
         return np.zeros(len(results.frames.time_s))
-    heights = _mean_by_mass(relative_to_ground(results).frames.positions_m[:, shards, 2], masses)
+    results = relative_to_ground(results)
+    heights = _mean_by_mass(_above(results.ground(), results.frames.positions_m[:, shards]), masses)
     return 1.0 - heights / heights[0] if heights[0] > 0.0 else np.zeros(len(heights))
 
 
@@ -112,9 +118,24 @@ def rest_of(results: Results) -> ShardRest:
     return ShardRest(float(results.frames.time_s[at_times[0]]), at_rest, at_end)
 
 
-def _span(results: Results, name: str, bodies: np.ndarray) -> Span:
-    heights, masses = results.frames.positions_m[:, bodies, 2], results.inventory.masses_kg[bodies]
-    return Span(name, bodies, _mean_by_mass(heights, masses), heights.min(axis=1))
+def _span(results: Results, ground: RecordedGround, name: str, bodies: np.ndarray) -> Span:
+    places, masses = results.frames.positions_m[:, bodies], results.inventory.masses_kg[bodies]
+    above = _above(ground, places)
+    levels = _mean_by_mass(places[..., 2], masses)
+    return Span(name, bodies, _mean_by_mass(above, masses), above.min(axis=1), levels)
+
+
+def _above(ground: RecordedGround, places: np.ndarray) -> np.ndarray:
+    """Heights (k, b) of places (k, b, 3) above the ground below each; looked up anew only where a body has moved."""
+    if ground.is_flat:
+        return places[..., 2]
+    moved = np.ones(places.shape[:2], bool)
+    moved[1:] = (places[1:, :, :2] != places[:-1, :, :2]).any(axis=-1)
+    step, body = np.nonzero(moved)
+    heights = np.zeros(places.shape[:2])
+    heights[step, body] = ground.heights_at(places[step, body, :2])
+    latest = np.maximum.accumulate(np.where(moved, np.arange(len(places))[:, None], 0), axis=0)
+    return places[..., 2] - np.take_along_axis(heights, latest, axis=0)
 
 
 def _mean_by_mass(heights: np.ndarray, masses: np.ndarray) -> np.ndarray:

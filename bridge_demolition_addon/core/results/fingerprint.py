@@ -45,7 +45,8 @@ def digest(parts: Mapping[str, Any]) -> str:
 
 def built_digest(inventory: Inventory, **more: Any) -> str:
     """Return the digest of bodies and connections, and of all else that decides what will happen, by names."""
-    return digest({each.name: getattr(inventory, each.name) for each in fields(inventory)} | more)
+    known = {each.name: getattr(inventory, each.name) for each in fields(inventory)}
+    return digest({name: values for name, values in known.items() if values is not None} | more)
 
 
 def motion_digest(results: Results) -> str:

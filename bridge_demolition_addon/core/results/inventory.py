@@ -34,6 +34,11 @@ class Inventory:
         Unit normals from the first body to the second.
     second_moments_m4 : (m, 2, 2) float
         Second moments of these areas about the sections' y and z axes.
+    triangles : (t, 3) int, optional
+        Triangles of ground that is not flat and of surfaces on it, one body after the other, each in rows of the body's
+        own vertices; all other bodies are convex. None where all are.
+    triangle_counts : (n,) int, optional
+        How many of them each body has.
     """
 
     body_names: np.ndarray
@@ -50,6 +55,8 @@ class Inventory:
     areas_m2: np.ndarray
     normals: np.ndarray
     second_moments_m4: np.ndarray
+    triangles: np.ndarray | None = None
+    triangle_counts: np.ndarray | None = None
 
     @property
     def moves(self) -> np.ndarray:
@@ -71,3 +78,10 @@ class Inventory:
             return np.zeros((1, 3))
         first = int(self.vertex_counts[:body].sum())
         return self.vertices_m[first : first + self.vertex_counts[body]]
+
+    def triangles_of(self, body: int) -> np.ndarray:
+        """Triangles (t, 3) of a body, in rows of its vertices; none of one that is its convex hull."""
+        if self.triangle_counts is None:
+            return np.zeros((0, 3), int)
+        first = int(self.triangle_counts[:body].sum())
+        return self.triangles[first : first + self.triangle_counts[body]]

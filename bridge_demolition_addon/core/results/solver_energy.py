@@ -21,7 +21,8 @@ FARTHEST = 10
 """Shards whose energies the summary names."""
 
 LARGEST_THROW_PER_HEIGHT = 2.0
-"""A body that falls by h has at most v² = 2 g h, and over flat ground that carries it at most v² / g = 2 h."""
+"""A body that falls by h has at most v² = 2 g h, and that carries it at most v² / g = 2 h over ground that is flat, or
+where it lies as low as it fell."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,7 +68,10 @@ def throws_of(results: Results) -> Throws:
     first, last = frames.positions_m[0, shards], frames.positions_m[-1, shards]
     throws = throw(first, last)
     order = np.argsort(-throws, kind="stable")
-    shards, throws, heights = shards[order], throws[order], first[order, 2]
+    ground = results.ground()
+    # To the ground below, or to where it lies, down a slope, if that is lower.
+    lowest = 0.0 if ground.is_flat else np.minimum(ground.heights_at(first[:, :2]), last[:, 2])
+    shards, throws, heights = shards[order], throws[order], (first[:, 2] - lowest)[order]
     made = np.nansum(frames.work.made_j[:, shards], axis=0)
     speeds = dot(frames.velocities_m_s[:, shards], frames.velocities_m_s[:, shards])
     kinetic = 0.5 * results.inventory.masses_kg[shards] * speeds.max(axis=0)

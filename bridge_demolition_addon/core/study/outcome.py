@@ -19,7 +19,7 @@ from ..debris.zones import watch_zone
 from ..errors import OutputError
 from ..geometry.plan_areas import outlines
 from ..results.arrays import Results
-from ..results.collapse import collapse_progress, spans_of
+from ..results.collapse import Span, collapse_progress, spans_of
 from ..results.motion import relative_to_ground
 from ..results.removed_shards import without_removed
 from ..scenario import Scenario
@@ -164,14 +164,14 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
     lengths = scenario.bridge.span_lengths_m if scenario.bridge else ()
     for span in spans_of(results, lengths):
         number = int(span.name.removeprefix("span ")) if span.name.startswith("span ") else 1
-        found |= _span(number, span.heights_m)
+        found |= _span(number, span)
     return found
 
 
-def _span(number: int, heights_m: np.ndarray) -> dict[str, Any]:
-    lost_m, height_m = heights_m[0] - heights_m, float(heights_m[0])
+def _span(number: int, span: Span) -> dict[str, Any]:
+    lost_m, height_m = span.heights_m[0] - span.heights_m, float(span.heights_m[0])
     return {
-        span_output(number, "drop_m"): float(lost_m[-1]),
+        span_output(number, "drop_m"): span.drop_m,
         span_output(number, "lost_share"): float(lost_m[-1]) / height_m if height_m > 0.0 else None,
         span_output(number, "most_lost_share"): float(lost_m.max()) / height_m if height_m > 0.0 else None,
     }

@@ -87,6 +87,11 @@ class BuiltGround:
     facts: TerrainFacts | None = None
     surfaces: tuple[BuiltSurface, ...] = ()
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is flat, with nothing on it."""
+        return self.terrain is None and not self.surfaces
+
     def heights_at(self, places_m: np.ndarray) -> np.ndarray:
         """Heights (n,) of the ground at places (n, 2), m; nan beyond its edge."""
         return np.zeros(len(places_m)) if self.terrain is None else self.terrain.heights_at(places_m)

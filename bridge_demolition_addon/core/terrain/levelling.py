@@ -70,10 +70,11 @@ def levelled(
         The terrain has no data under the foot of a member.
     """
     before, heights = grid.heights, grid.heights.copy()
-    lows, kept = [], np.zeros(before.shape, bool)
+    lows, touched, kept = [], [], np.zeros(before.shape, bool)
     for name, solid in members:
         samples = _lower_side(solid, grid.step_m / _SAMPLES_PER_STEP)
         lows.append(_nodes_below(grid, samples))
+        touched.append(lows[-1] < before)
         if (foot_m := _foot(solid)) is None:
             continue
         level = foot_m[2]
@@ -87,11 +88,12 @@ def levelled(
         foot = np.isfinite(_nodes_below(grid, under))
         heights[foot] = np.maximum(heights[foot], level)
         kept |= foot
+        touched[-1] = touched[-1] | foot
     for low in lows:
         heights = np.minimum(heights, _beside(low))
     done = []
-    for (name, _), low in zip(members, lows, strict=True):
-        change = (heights - before)[np.isfinite(low)]
+    for (name, _), nodes in zip(members, touched, strict=True):
+        change = (heights - before)[nodes]
         dug, filled = -float(change.min(initial=0.0)), float(change.max(initial=0.0))
         if max(dug, filled) > _TOLD_M:
             done.append(Levelled(name, dug, filled))

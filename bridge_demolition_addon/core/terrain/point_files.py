@@ -20,8 +20,8 @@ MOST_SCATTERED = 1_000_000
 _OFF_GRID = 1e-3
 """How far a point may lie off a grid, as a part of its step: decimals that were cut off."""
 
-_CELLS_PER_POINT = 4
-"""Cells of a grid for each point on it, at most: what is left out of it has no data."""
+_CELLS_PER_POINT = 3
+"""Cells of a grid for each point on it, fewer than that: what is left out of it has no data."""
 
 
 def read_points(path: Path, no_data: float | None) -> Raster | Surface:
@@ -49,7 +49,7 @@ def on_grid(points: np.ndarray) -> Raster | None:
         return None
     (columns, first_x, dx), (rows, first_y, dy) = axes
     shape = int(rows.max()) + 1, int(columns.max()) + 1
-    if min(shape) < 2 or shape[0] * shape[1] > _CELLS_PER_POINT * len(points):
+    if min(shape) < 2 or shape[0] * shape[1] >= _CELLS_PER_POINT * len(points):
         return None
     heights = np.full(shape, np.nan)
     heights[rows, columns] = points[:, 2]
