@@ -20,11 +20,17 @@ _NO_TRIANGLES = np.zeros((0, 3), np.int64)
 def body_meshes(inventory: Inventory) -> list[TriangleMesh]:
     """Return the surface of every body in its own axes, from its origin.
 
-    It is the convex hull, which is what Bullet lets collide. A body that never moves, and has one height above each
-    place, is that surface, as ground is. A body of which neither can be had has no triangles.
+    It is the convex hull, which is what Bullet lets collide, or the triangles of ground that is not flat. Any other
+    body that never moves, and has one height above each place, is that surface. A body of which none of these can be
+    had has no triangles.
     """
-    pairs = zip(inventory.vertices_by_body(), inventory.moves, strict=True)
-    return [_hull(vertices) if moves or not _is_surface(vertices) else _surface(vertices) for vertices, moves in pairs]
+    found = []
+    for body, (vertices, moves) in enumerate(zip(inventory.vertices_by_body(), inventory.moves, strict=True)):
+        if len(triangles := inventory.triangles_of(body)):
+            found.append(TriangleMesh(vertices, triangles.astype(np.int64)))
+        else:
+            found.append(_hull(vertices) if moves or not _is_surface(vertices) else _surface(vertices))
+    return found
 
 
 def _hull(vertices: np.ndarray) -> TriangleMesh:
