@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -38,10 +38,10 @@ _OTHER_COLOUR = (0.4, 0.4, 0.4)
 def write_gltf(results: Results, path: Path, progress: Progress) -> None:
     """Write a run, with every frame of it."""
     progress.stage(f"writing {len(results.inventory.body_names)} animated bodies")
-    path.write_bytes(animated_glb(results, progress))
+    path.write_bytes(animated_glb(results, lambda done, total: progress.part(done, total, "bodies written")))
 
 
-def animated_glb(results: Results, progress: Progress) -> bytes:
+def animated_glb(results: Results, finished: Callable[[int, int], None] = lambda *_: None) -> bytes:
     """Return a run as the content of a GLB file.
 
     Numbers are in single precision, as glTF has no other. Times begin at 0. Of frames in
@@ -51,8 +51,8 @@ def animated_glb(results: Results, progress: Progress) -> bytes:
     ----------
     results
         The run.
-    progress
-        Shown body by body.
+    finished
+        Told after each body how many are in it, and how many there are.
     """
     contents = _Contents()
     meshes = body_meshes(results.inventory)
@@ -63,7 +63,7 @@ def animated_glb(results: Results, progress: Progress) -> bytes:
         nodes[0]["children"].append(len(nodes))
         nodes.append({"name": name, **contents.shape(name, mesh, materials[kinds[body]])})
         nodes[-1] |= contents.motion(results, body, len(nodes) - 1)
-        progress.part(body + 1, len(meshes), "bodies written")
+        finished(body + 1, len(meshes))
     return contents.packed(nodes, [_material(kind) for kind in materials])
 
 

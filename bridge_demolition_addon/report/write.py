@@ -36,6 +36,7 @@ from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, zone_of
 from .sections.forces import force_section, logged_section
+from .sections.model import model_section
 from .sections.search import search_section
 from .sections.stages import has_stages, stages_section
 from .sections.touchdown import touchdown_section
@@ -207,6 +208,7 @@ def document_of(
     debris = None if run.results is None else debris_of(run.results)
     sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
     if run.results is not None and len(run.results.inventory.of_kind("shard")):
+        sections.append(model_section(run.results))
         sections.append(debris_section(run, debris, trajectories=trajectories))
         sections.append(exclusion_section(zone, run, plans))
         sections.append(force_section(run))

@@ -121,7 +121,7 @@ def test_limits_of_places_and_times_are_stated_as_the_specification_wants(writte
 
 def test_a_run_in_which_nothing_moves_has_no_animation(tmp_path):
     results = turning_run(frames=1)
-    (tmp_path / "run.glb").write_bytes(animated_glb(results, Silence()))
+    (tmp_path / "run.glb").write_bytes(animated_glb(results))
     assert "animations" not in read(tmp_path / "run.glb")[0]
     assert len(trimesh.load_scene(tmp_path / "run.glb").geometry) == len(results.inventory.body_names)
 

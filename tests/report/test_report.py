@@ -99,7 +99,7 @@ def table(folder, name):
 
 def test_everything_is_in_the_page(whole):
     _, page, _ = whole
-    assert page.fetched == [] and "script" not in page.tags
+    assert page.fetched == [] and page.tags.count("script") == 1
     assert len(page.pictures) == page.tags.count("img") >= 12
     for picture in page.pictures:
         kind, content = picture.split(";base64,")
@@ -352,7 +352,7 @@ def test_a_recording_without_forces_is_reported_without_them(tmp_path):
     }
     report = told(keep_run(tmp_path / "run", changed(results, **unknown), I235))
     assert any("Forces were not recorded" in text for text in report.notices)
-    assert report.titles[5] == "Collapse"
+    assert report.titles[6] == "Collapse"
 
 
 @pytest.mark.parametrize("what", ["nothing", "a file", "an empty folder", "another folder"])
@@ -463,7 +463,8 @@ def broken_pictures(tmp_path, html):
     path = tmp_path / "counted.html"
     path.write_text(html.replace("</body>", COUNT_PICTURES), encoding="utf-8")
     shown = opened(tmp_path, "--dump-dom", path.as_uri())
-    return int(re.search(r'data-broken="(\d+)"', shown.stdout)[1]), shown.stderr
+    said = [line for line in shown.stderr.splitlines() if "CONSOLE" in line and "WebGL" not in line]
+    return int(re.search(r'data-broken="(\d+)"', shown.stdout)[1]), said
 
 
 @needs_chromium
@@ -471,7 +472,7 @@ def test_a_browser_shows_it_without_a_complaint(whole, tmp_path):
     _, _, written = whole
     broken, complaints = broken_pictures(tmp_path, written[0].read_text(encoding="utf-8"))
     assert broken == 0
-    assert "CONSOLE" not in complaints
+    assert complaints == []  # but that WebGL has no graphics card here
     spoilt = written[0].read_text(encoding="utf-8").replace("base64,PD94", "base64,AAAA", 1)
     assert broken_pictures(tmp_path, spoilt)[0] == 1  # the count can tell
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import csv
+import gzip
 import math
+from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from matplotlib.figure import FigureBase
 
@@ -108,7 +110,28 @@ class Photo:
     title: str
 
 
-Block = Paragraph | Listing | DataTable | Picture | Photo
+@dataclass(frozen=True, slots=True)
+class Model:
+    """An animated model, which a page shows and paper does not.
+
+    Attributes
+    ----------
+    packed
+        A GLB file, packed by gzip, in base64.
+    title
+        Caption.
+    """
+
+    packed: str
+    title: str
+
+    @classmethod
+    def of(cls, content: bytes, title: str) -> Self:
+        """Pack the content of a GLB file; the same content gives the same text."""
+        return cls(b64encode(gzip.compress(content, mtime=0)).decode("ascii"), title)
+
+
+Block = Paragraph | Listing | DataTable | Picture | Photo | Model
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,7 @@
-"""Write a report as one page for a browser, with everything in it: no script, no network, no other file."""
+"""Write a report as one page for a browser, with everything in it: no network, no other file.
+
+There is a script only where there is a model to show. The page forbids browsers to load anything.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,15 @@ from html import escape
 from pathlib import Path
 
 from ...core.disk import write_whole_text
-from .blocks import Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
+from .blocks import Block, DataTable, Document, Listing, Model, Paragraph, Photo, Picture, Section
 from .drawings import Drawings, svg
+
+_ALLOWED = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
+"""What a page may use: only what is in it."""
+
+_VIEWER = Path(__file__).with_name("viewer.js")
+
+_SPEEDS = {1: "real time", 5: "5 times slower", 20: "20 times slower"}
 
 _SHORT_TABLE_ROWS = 16
 """Tables of no more rows are not broken over pages."""
@@ -36,7 +46,10 @@ table.short { break-inside: avoid; }
 pre { font: 0.75em/1.35 "DejaVu Sans Mono", "Liberation Mono", monospace; white-space: pre-wrap; }
 ol.contents { columns: 2; }
 ol.contents a { color: inherit; }
-@media print { body { max-width: none; padding: 0; } }
+figure.model canvas { width: 100%; aspect-ratio: 16 / 9; display: block; touch-action: none; }
+figure.model div { display: flex; gap: 0.8em; align-items: center; margin-top: 0.4em; }
+figure.model input { flex: 1; }
+@media print { body { max-width: none; padding: 0; } figure.model { display: none; } }
 """
 
 
@@ -49,6 +62,7 @@ def _lines(document: Document, drawings: Drawings) -> Iterator[str]:
     title = escape(document.title)
     yield f'<!doctype html>\n<html lang="en-GB">\n<head>\n<meta charset="utf-8">\n<title>{title}</title>'
     yield '<link rel="icon" href="data:,">'  # or a browser asks for one
+    yield f'<meta http-equiv="Content-Security-Policy" content="{_ALLOWED}">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
     yield f"<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>"
     yield f'<p class="subtitle">{escape(document.subtitle)}</p>'
@@ -58,6 +72,8 @@ def _lines(document: Document, drawings: Drawings) -> Iterator[str]:
     yield "</ol>"
     for number, section in enumerate(document.sections, start=1):
         yield from _section(number, section, drawings)
+    if any(isinstance(block, Model) for block in document.blocks()):
+        yield f"<script>\n{_VIEWER.read_text(encoding='utf-8')}</script>"
     yield "</body>\n</html>"
 
 
@@ -81,12 +97,25 @@ def _block(block: Block, drawings: Drawings) -> str:
             return _figure("image/svg+xml", svg(drawings[block]), block.title)
         case Photo():
             return _figure("image/png", block.path.read_bytes(), block.title)
+        case Model():
+            return _model(block)
 
 
 def _figure(kind: str, content: bytes, title: str) -> str:
     source = f"data:{kind};base64,{b64encode(content).decode('ascii')}"
     caption = escape(title)
     return f'<figure>\n<img alt="{caption}" src="{source}">\n<figcaption>{caption}</figcaption>\n</figure>'
+
+
+def _model(model: Model) -> str:
+    speeds = "".join(f'<option value="{slower}">{text}</option>' for slower, text in _SPEEDS.items())
+    return (
+        f'<figure class="model" data-model="{model.packed}">\n<canvas aria-label="{escape(model.title)}"></canvas>\n'
+        '<div><button type="button">Play</button>'
+        '<input type="range" min="0" max="0" step="any" value="0" aria-label="time">'
+        f'<select aria-label="speed">{speeds}</select><output></output></div>\n'
+        f"<figcaption>{escape(model.title)}</figcaption>\n</figure>"
+    )
 
 
 def _table(table: DataTable) -> str:

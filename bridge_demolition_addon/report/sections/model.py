@@ -1,0 +1,30 @@
+"""Section with the run as a model that can be turned and played."""
+
+from __future__ import annotations
+
+from ...core.results.arrays import Results
+from ...exports.gltf import animated_glb
+from ..document.blocks import Block, Model, Paragraph, Section
+
+MOST_BYTES = 20_000_000
+"""Of a model as it stands in a page: beyond that, browsers take seconds to open it."""
+
+
+def model_section(results: Results) -> Section:
+    """Return the section."""
+    model = Model.of(animated_glb(results), "The run: drag to turn, drag with Shift to move, wheel to come closer.")
+    megabytes = len(model.packed) / 1e6
+    how = "bda export --to gltf writes it as a file for other programs."
+    blocks: tuple[Block, ...]
+    if len(model.packed) > MOST_BYTES:
+        blocks = (
+            Paragraph(f"As a model the run would take {megabytes:.0f} MB of this page, so it is left out. {how}"),
+        )
+    else:
+        text = (
+            f"The page report.html has the run here as a model that can be turned and played. It takes "
+            f"{megabytes:.2g} MB of that page, and loads nothing from elsewhere. Bodies have the shapes that collide, "
+            f"their hulls. {how}"
+        )
+        blocks = (Paragraph(text), model)
+    return Section("The run as a model", blocks)
