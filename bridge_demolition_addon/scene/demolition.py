@@ -31,6 +31,7 @@ from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
+from .connections.soil import keep_soil
 from .start_motion import keep_start_motion
 from .structural_changes import keep_changes, keep_loads
 from .time_scale import animate_time_scale, stop_animation
@@ -127,6 +128,8 @@ def _build(
         keep_start_motion(shards, *start_motions(scenario.geometry, model))
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
         set_joints(made, joints, model.joint_of_connection, scenario.time.step)
+        if model.soil:
+            keep_soil(made, model.soil)
         if model.stiffness is None:
             forget_elasticity(scene)
         else:

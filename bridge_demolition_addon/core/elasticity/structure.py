@@ -12,13 +12,15 @@ cloth simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .cracks import Cracks, CrackStep
+from .cracks import Cracks
 from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places, matrix_products, transposed
 from .sparse_system import BlockSystem
 
@@ -82,6 +84,44 @@ class ElasticStep:
     of_bodies: np.ndarray
 
 
+class UnevenStep(Protocol):
+    """What does not bear in proportion to how it gives way, in a sub-step: cracks, and footings on soil."""
+
+    rows: np.ndarray
+
+    def changed(self) -> np.ndarray:
+        """Which of `rows` (c,) have other tangents than their equations."""
+
+    def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return what some (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
+
+    def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the impulses (6, c) on the first and second bodies, with velocities (6, n) then."""
+
+    def agrees(self, velocities: np.ndarray) -> bool:
+        """Whether the forces are those that follow from velocities (6, n); if not, guess anew."""
+
+    def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+        """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
+
+
+class Beds(Protocol):
+    """Connections that are beds of springs on the ground; they bear nothing of the stiffness of the others."""
+
+    rows: np.ndarray
+
+    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        """Take over, before a sub-step, what has given way for good, at positions (3, n) and rotations (3, 3, n)."""
+
+    def in_substep(
+        self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
+    ) -> UnevenStep:
+        """Return what some of them (c,) do in a sub-step of a length in s."""
+
+    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Return the energy (f,) that they would give back."""
+
+
 class _Part:
     """Bodies that hang together by connections, and their equations."""
 
@@ -140,6 +180,8 @@ class ElasticStructure:
         Where nothing is deformed: what rounding leaves of the frames there counts as none.
     cracks : Cracks or None
         Reinforcement in place of connections that broke, if there is any.
+    beds : Beds or None
+        Footings on soil, if there are any.
 
     Attributes
     ----------
@@ -157,8 +199,10 @@ class ElasticStructure:
         positions_m: np.ndarray,
         rotations: np.ndarray,
         cracks: Cracks | None = None,
+        beds: Beds | None = None,
     ):
-        self._frames, self._stiffness = frames, stiffness
+        self._frames, self._beds = frames, beds
+        self._stiffness = stiffness if beds is None else without(stiffness, beds.rows)
         self._masses, self._inertias, self._damping_s = masses_kg, inertias_kg_m2, damping_s
         self._count = len(masses_kg)
         places = joint_places(frames, positions_m, rotations)
@@ -183,8 +227,9 @@ class ElasticStructure:
         acting = self._acting(awake)
         frames = self._frames.only(acting)
         places, deformations = self._deformed(acting, states.positions_m, states.rotations)
-        cracks = self._acting_cracks(states, awake)
-        self._refresh(states, awake, acting, places, cracks)
+        cracks, beds = self._acting_cracks(states, awake), self._acting_beds(states, awake)
+        uneven = [each for each in (cracks, beds) if each is not None]
+        self._refresh(states, awake, acting, places, uneven)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         first, second = (states.velocities.take(each, axis=1) for each in (frames.first, frames.second))
         rates = rows.rates(first, second)
@@ -192,13 +237,12 @@ class ElasticStructure:
         strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
         amounts = stressed(stiffness, strains)
         loads = summed_on_bodies(frames, rows.loads(amounts), self._count)
-        changes = self._solved(awake, loads if cracks is None else loads + self._of_cracks(cracks, states.velocities))
-        if cracks is not None:
-            for _ in range(_MOST_GUESSES):
-                if cracks.agrees(states.velocities + changes):
-                    break
-                self._refresh(states, awake, acting, places, cracks)
-                changes = self._solved(awake, loads + self._of_cracks(cracks, states.velocities))
+        changes = self._solved(awake, self._with_uneven(loads, uneven, states.velocities))
+        for _ in range(_MOST_GUESSES if uneven else 0):
+            if all([each.agrees(states.velocities + changes) for each in uneven]):  # a list: all guess anew
+                break
+            self._refresh(states, awake, acting, places, uneven)
+            changes = self._solved(awake, self._with_uneven(loads, uneven, states.velocities))
         first, second = (changes.take(each, axis=1) for each in (frames.first, frames.second))
         slowing = rows.rates(first, second)
         amounts -= stressed(stiffness, implicit * slowing)
@@ -208,6 +252,12 @@ class ElasticStructure:
         if cracks is not None:
             of_cracks = cracks.loads(states.velocities + changes)
             of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
+        if beds is not None:
+            of_beds = beds.loads(states.velocities + changes)
+            of_bodies = of_bodies + beds.of_bodies(of_beds, self._count)
+            rows = np.searchsorted(acting, beds.rows)
+            of_first[:, rows] += of_beds[0]
+            of_second[:, rows] += of_beds[1]
         return ElasticStep(
             acting=acting,
             deformations=deformations,
@@ -230,10 +280,14 @@ class ElasticStructure:
             stored[rows] += 0.5 * amount * deformation
         if self._cracks is not None and len(self._cracks):
             stored[self._cracks.rows] = self._cracks.stored_j(positions_m, rotations)
+        if self._beds is not None:
+            stored[self._beds.rows] = self._beds.stored_j(positions_m, rotations) * self._intact[self._beds.rows]
         return stored
 
-    def settle_cracks(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
-        """Take over, before a sub-step, how far reinforcement has yielded, and let go what has ruptured."""
+    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        """Take over, before a sub-step, how far soil and reinforcement have yielded, and let go what has ruptured."""
+        if self._beds is not None:
+            self._beds.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return
         gone = self._cracks.settle(positions_m, rotations)
@@ -312,7 +366,17 @@ class ElasticStructure:
         """Connections (k,) that are intact, and in awake parts (p + 1,)."""
         return np.flatnonzero(self._intact & awake[self.part_of_connection])
 
-    def _acting_cracks(self, states: BodyStates, awake: np.ndarray) -> CrackStep | None:
+    def _acting_beds(self, states: BodyStates, awake: np.ndarray) -> UnevenStep | None:
+        """Footings in awake parts (p + 1,) that stand on soil; None where there is none."""
+        if self._beds is None:
+            return None
+        rows = self._beds.rows
+        chosen = np.flatnonzero(self._intact[rows] & awake[self.part_of_connection[rows]])
+        if not len(chosen):
+            return None
+        return self._beds.in_substep(chosen, states.positions_m, states.rotations, self._substep_s)
+
+    def _acting_cracks(self, states: BodyStates, awake: np.ndarray) -> UnevenStep | None:
         """Cracks in awake parts (p + 1,) that reinforcement holds; None where there is none."""
         if self._cracks is None:
             return None
@@ -321,9 +385,11 @@ class ElasticStructure:
             return None
         return self._cracks.in_substep(chosen, states.positions_m, states.rotations, self._substep_s)
 
-    def _of_cracks(self, cracks: CrackStep, velocities: np.ndarray) -> np.ndarray:
-        """Impulses (6, n) of cracks on bodies that have velocities (6, n) at the end of the sub-step."""
-        return cracks.of_bodies(cracks.loads(velocities), self._count)
+    def _with_uneven(self, loads: np.ndarray, uneven: Sequence[UnevenStep], velocities: np.ndarray) -> np.ndarray:
+        """Impulses (6, n) with those of all that is uneven, on bodies that have velocities (6, n) at the end."""
+        for each in uneven:
+            loads = loads + each.of_bodies(each.loads(velocities), self._count)
+        return loads
 
     def _refresh(
         self,
@@ -331,11 +397,11 @@ class ElasticStructure:
         awake: np.ndarray,
         acting: np.ndarray,
         places: JointPlaces,
-        cracks: CrackStep | None,
+        uneven: Sequence[UnevenStep],
     ) -> None:
-        """Make rows and equations of parts anew that have turned, lost a connection, or have bars that yield."""
-        if cracks is not None:
-            self._stale[self.part_of_connection[cracks.rows[cracks.changed()]]] = True
+        """Make rows and equations of parts anew that have turned, lost a connection, or have what yields."""
+        for each in uneven:
+            self._stale[self.part_of_connection[each.rows[each.changed()]]] = True
         turned = abs(states.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
         turned &= self._part_of_body >= 0
         self._stale[self._part_of_body[turned]] = True
@@ -352,10 +418,10 @@ class ElasticStructure:
         blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
         own = mass_matrices(self._masses, self._inertias, states.rotations, np.flatnonzero(bodies))
         row_of_body = np.cumsum(bodies) - 1
-        if cracks is not None:
-            of_stale = np.flatnonzero(stale[self.part_of_connection[cracks.rows]])
-            blocks = [np.concatenate(each, axis=2) for each in zip(blocks, cracks.blocks(of_stale), strict=True)]
-            connections = np.concatenate((connections, cracks.rows[of_stale]))
+        for each in uneven:
+            of_stale = np.flatnonzero(stale[self.part_of_connection[each.rows]])
+            blocks = [np.concatenate(pair, axis=2) for pair in zip(blocks, each.blocks(of_stale), strict=True)]
+            connections = np.concatenate((connections, each.rows[of_stale]))
         place_of = np.full(len(self._frames), len(connections))
         place_of[connections] = np.arange(len(connections))
         blocks = [np.concatenate((each, np.zeros((6, 6, 1))), axis=2) for each in blocks]  # what broke since has none
@@ -378,6 +444,13 @@ def summed_on_bodies(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], 
     """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
     bodies = np.concatenate((frames.first, frames.second))
     return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+
+
+def without(stiffness: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return stiffness (2, 3, 3, m) with nothing of connections (r,)."""
+    left = stiffness.copy()
+    left[..., rows] = 0.0
+    return left
 
 
 def _grouped(labels: np.ndarray, numbers: np.ndarray) -> list[np.ndarray]:

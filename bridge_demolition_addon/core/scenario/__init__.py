@@ -7,6 +7,7 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
+from ..foundations.settings import Foundation
 from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
 from ..loads.load import Load
 from ..mechanics.materials import Material
@@ -40,6 +41,7 @@ __all__ = [
     "Equipment",
     "Exclusion",
     "Finer",
+    "Foundation",
     "FracturePoint",
     "FractureSettings",
     "Geometry",

@@ -6,6 +6,7 @@ from typing import ClassVar
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..errors import ScenarioError
+from ..foundations.settings import Foundation
 from ..ground_motion.record import GroundRecord
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
@@ -49,6 +50,7 @@ class Scenario(Table):
     materials: tuple[Material, ...] = ()
     connections: ConnectionSettings
     supports: tuple[Support, ...] = ()
+    foundations: tuple[Foundation, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
@@ -135,7 +137,20 @@ class Scenario(Table):
                 wanted = f"less than time.duration_s, {self.time.duration_s} (s)"
                 raise ScenarioError(f"loads.times_s[0] is {load.times_s[0]}: expected {wanted}")
         self._check_ground_motion()
+        self._check_foundations()
         check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
+
+    def _check_foundations(self) -> None:
+        if not self.foundations:
+            return
+        if not self.connections.is_elastic:
+            raise self.connections.unexpected(
+                "stiffness", '"elastic" with foundations: between rigid bodies springs as stiff as soil are not solved'
+            )
+        if not self.connections.foundation:
+            raise self.connections.unexpected(
+                "foundation", "true with foundations: they connect to the ground"
+            )
 
     def _check_ground_motion(self) -> None:
         motion = self.ground_motion

@@ -175,7 +175,7 @@ class StandingBridge:
     def governed_by(self, standing: Standing) -> np.ndarray:
         """Return which of `DIRECTIONS` uses most of each connection (m,); empty where one is gone."""
         found = np.full(len(standing.alone), "", dtype=object)
-        there = np.isfinite(standing.alone)
+        there = np.isfinite(standing.alone) & self.model.breakable
         for number, joint in enumerate(self._joints):
             rows = np.flatnonzero(there & (self.model.joint_of_connection == number))
             if joint.strength is None:
@@ -199,9 +199,11 @@ class StandingBridge:
     ) -> tuple[np.ndarray, np.ndarray]:
         alone, together = np.full(len(intact), np.nan), np.full(len(intact), np.nan)
         parts = self.parts(intact)
+        breakable = intact & self.model.breakable
+        alone[intact & ~breakable] = 0.0
         largest = np.maximum(abs(loads.forces_n).max(axis=1), abs(loads.moments_nm).max(axis=1))
         for number, joint in enumerate(self._joints):
-            rows = np.flatnonzero(intact & (self.model.joint_of_connection == number))
+            rows = np.flatnonzero(breakable & (self.model.joint_of_connection == number))
             if not len(rows):
                 continue
             if joint.strength is not None:

@@ -34,7 +34,7 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
     """
     found = used_of_forces(model, rest, joints) >= 1.0
     for row, joint in enumerate(joints):
-        is_one = model.joint_of_connection == row
+        is_one = model.breakable & (model.joint_of_connection == row)
         if joint.strength is not None:
             found[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
     return found

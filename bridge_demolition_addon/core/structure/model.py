@@ -12,6 +12,7 @@ from ..bridge.extent import room_around
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..elasticity.section_stiffness import SectionStiffness
+from ..foundations.footings import SoilSprings
 from ..fracture.members import fractured_members, shards_with_gaps
 from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh
@@ -21,6 +22,7 @@ from . import connections as connecting
 from .connection_rules import rules_of_pairs
 from .connections import Connections
 from .face_sections import second_moments
+from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .stiffness import connection_stiffness
 from .supports import fixed_shards
 
@@ -53,6 +55,8 @@ class Model:
         Of the connections; None where they are rigid.
     ground : BuiltGround
         What it stands on.
+    soil : SoilSprings or None
+        What footings stand on; None where the ground does not give.
     """
 
     members: tuple[Member, ...]
@@ -66,12 +70,21 @@ class Model:
     fixed: np.ndarray
     stiffness: SectionStiffness | None = None
     ground: BuiltGround = field(default_factory=BuiltGround)
+    soil: SoilSprings | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Thickness (m,) of the thinner of the members that each connection is between."""
         of_members = np.array([member.thickness_m for member in self.members])
         of_shards = np.append(of_members[self.member_of_shard], np.inf)  # the ground, at index -1
         return of_shards[self.connections.pairs].min(axis=1)
+
+    @property
+    def breakable(self) -> np.ndarray:
+        """Which connections (m,) can break: not those that are footings on soil."""
+        can = np.ones(len(self.connections), bool)
+        if self.soil:
+            can[self.soil.rows] = False
+        return can
 
     @property
     def density_kg_m3(self) -> float:
@@ -114,6 +127,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     moments = second_moments(
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
+    soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
     stiffness = None
     if scenario.connections.is_elastic:
         stiffness = connection_stiffness(
@@ -127,6 +141,9 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             fractured.member_of_shard,
             fixed,
         )
+    if soil:
+        connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)
+        moments[soil.rows] = second_moments_of(soil)
     return Model(
         members=members,
         shards=shards_with_gaps(fractured, members, scenario.fracture.margin_m),
@@ -139,6 +156,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         fixed=fixed,
         stiffness=stiffness,
         ground=ground,
+        soil=soil,
     )
 
 

@@ -17,6 +17,7 @@ from ...core.results.frames import BallHistory, Frame
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
+from ...scene.connections.soil import soil_of
 from ...scene.structural_changes import events_of, placed_loads_of
 from ...scene.time_scale import time_step_at
 from ...scene.tools.ground_motion import ground_motion_of, rows_on_moving_ground
@@ -116,8 +117,9 @@ class BulletReader:
     ) -> ElasticConnections | None:
         """Return the connections, None where Bullet's memory does not let them be elastic."""
         stiffness, ratio = stiffness_of(connections), damping_ratio_of(self._scene)
+        soil = soil_of(connections)
         try:
-            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio)
+            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, soil)
         except LayoutError as error:
             self.rigid_because = error
             return None

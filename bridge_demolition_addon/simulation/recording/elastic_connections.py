@@ -18,6 +18,7 @@ from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, 
 from ...core.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...core.elasticity.steel_bars import Steel
 from ...core.elasticity.structure import BodyStates, ElasticStructure
+from ...core.foundations.footings import Footings, SoilSprings
 from ...core.mechanics.section_forces import section_axes
 from ...core.mechanics.strength import Ductility, rectangular_sections
 from ...core.results.inventory import Inventory
@@ -60,6 +61,8 @@ class ElasticConnections:
         Of the connections.
     damping_ratio : float
         Damping of the first frequency, as a share of the critical one.
+    soil : SoilSprings or None
+        What footings stand on, where the ground gives way.
 
     Raises
     ------
@@ -77,6 +80,7 @@ class ElasticConnections:
         bodies: Sequence[bpy.types.Object],
         stiffness: SectionStiffness,
         damping_ratio: float,
+        soil: SoilSprings | None = None,
     ):
         self._world, self._rows, self._reader = world, world.constraint_rows(), world.body_motion()
         self._damping_ratio = damping_ratio
@@ -99,6 +103,11 @@ class ElasticConnections:
         self._inertias = _inertias(self._reader.inverse_inertias(), motion.rotations, self._masses)
         self._shortest_s = scene_time_step(scene).substep_s
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
+        self._footings = None
+        if soil is not None:
+            moves, ends = self._masses > 0.0, (self._frames.first, self._frames.second)
+            self._footings = Footings(soil, *ends, moves, motion.positions_m, motion.rotations)
+            self._touching = np.ones(len(soil.rows))
         self._rest = self._settle(motion)
         self._structure: ElasticStructure | None = None
         self._is_first = is_first
@@ -166,7 +175,9 @@ class ElasticConnections:
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
         velocities = left * motion.velocities
         velocities += substep_s * self._accelerations(motion, motion.loads)
-        self._structure.settle_cracks(motion.positions_m, motion.rotations)
+        self._structure.settle(motion.positions_m, motion.rotations)
+        if self._footings:
+            self._follow_lifting()
         self._states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
@@ -245,6 +256,7 @@ class ElasticConnections:
                 self._built.positions_m,
                 self._built.rotations,
                 self._cracks,
+                self._footings,
             )
             self._damping_s = damping_s
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
@@ -254,9 +266,24 @@ class ElasticConnections:
         diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
         softness = np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0)
+        self._softness = softness
+        if self._footings:
+            self._touching[:] = 1.0
         self._rows.soften(intact, softness[:, intact])
         # What sleeps is held as it is, in the sub-step in which Bullet finds what wakes it.
         self._rows.expect(intact, places.deformations()[:, intact])
+
+    def _follow_lifting(self) -> None:
+        """Let Bullet's own constraint of a footing answer as softly as what of it still touches the ground."""
+        touching, rows = self._footings.touching, self._footings.rows
+        changed = np.flatnonzero((touching != self._touching) & self._world.intact()[rows])
+        if not len(changed):
+            return
+        share = touching[changed]
+        softness = self._softness[:, rows[changed]]
+        softer = np.divide(softness, share, out=np.full_like(softness, np.inf), where=share > 0.0)
+        self._rows.soften(rows[changed], softer)
+        self._touching[changed] = share
 
     def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
         """Accelerations (6, n) by forces and torques (6, n)."""

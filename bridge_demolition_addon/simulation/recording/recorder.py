@@ -25,6 +25,7 @@ from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
+from ...scene.connections.soil import soil_of
 from ...scene.inventory import take_inventory
 from ...scene.start_motion import start_motion_of
 from ...scene.structural_changes import changes_of, loads_of, placed_loads_of
@@ -363,6 +364,8 @@ class Recording:
             elastic = {each.name: getattr(stiffness, each.name) for each in fields(stiffness)}
             elastic["damping_ratio"] = damping_ratio_of(self.scene)
             elastic["thicknesses_m"] = thicknesses_of(self._connections)
+            if soil := soil_of(self._connections):
+                elastic |= {f"soil {each.name}": getattr(soil, each.name) for each in fields(soil)}
             if breaking.ductility:
                 elastic["steel"] = np.array(astuple(breaking.steel))
         matrices = np.array([body.matrix_world for body in self._bodies], float)

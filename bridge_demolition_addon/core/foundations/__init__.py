@@ -1,0 +1,1 @@
+"""Foundations that give: what soil bears under footings, how far they settle, and where they lift off."""
