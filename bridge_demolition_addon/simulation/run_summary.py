@@ -18,6 +18,7 @@ from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
 from ..core.sequence.rest import Rest, last_event_s
 from ..core.sequence.undisturbed import fell_by_itself
+from ..core.structure.settlement import settlements
 from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step
 from .recording.recorder import Recording
@@ -146,6 +147,7 @@ def _of_scenario(
         "came_to_rest_s": rest.came_to_rest_s,
         "fell_by_itself": fell_by_itself(results, scenario),
         "touchdown": _touchdown(scenario, results),
+        "foundations": settlements(results, scenario.foundations),
     }
 
 

@@ -148,9 +148,7 @@ class Scenario(Table):
                 "stiffness", '"elastic" with foundations: between rigid bodies springs as stiff as soil are not solved'
             )
         if not self.connections.foundation:
-            raise self.connections.unexpected(
-                "foundation", "true with foundations: they connect to the ground"
-            )
+            raise self.connections.unexpected("foundation", "true with foundations: they connect to the ground")
 
     def _check_ground_motion(self) -> None:
         motion = self.ground_motion
