@@ -34,8 +34,8 @@ def soil_springs(
     Raises
     ------
     ScenarioError
-        There is no such member, nothing of it stands on the ground and can move, two foundations are under one, or a
-        footing is smaller than what stands on it.
+        There is no such member, nothing of it stands on the ground and can move, two foundations are under one, it
+        stands on a slope, or a footing is smaller than what stands on it.
     """
     found: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
     for foundation in foundations:
@@ -121,6 +121,8 @@ def _places(
 ) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """Connection, places (p, 3) and their areas (p,) of all footings of a member."""
     faces = [_standing_triangles(shards[connections.pairs[row, 0]], connections.points[row, 2]) for row in rows]
+    if not all(map(len, faces)):
+        raise ScenarioError(f"{member.name} stands on a slope: expected level ground under members with foundations")
     corners = np.concatenate(faces).reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
     scale = np.ones(3)
