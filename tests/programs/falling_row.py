@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Let a row of connected blocks fall, and do to it, one after another, what is named on the command line.
+"""Let rows of connected blocks fall, and do to each, one after another, what a line of the input names.
 
-Usage: falling_row.py FOLDER STEP…, each step a method of `FallingRow`. It says "ended well" where nothing went wrong.
+A line is a list in JSON: FOLDER, STEP…, each step a method of `FallingRow`. The program says "ended well" after each
+row where nothing went wrong, and ends where something did.
 """
 
+import json
 import os
 import sys
 from pathlib import Path
@@ -418,7 +420,7 @@ def _raise(error: Exception) -> None:
     raise error
 
 
-def main(folder: str, *steps: str) -> None:
+def play(folder: str, *steps: str) -> None:
     """Do the steps, then begin another file and play it."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     row = FallingRow(Path(folder))
@@ -429,7 +431,13 @@ def main(folder: str, *steps: str) -> None:
     for frame in range(1, 5):
         bpy.context.scene.frame_set(frame)
     print("ended well", flush=True)
+
+
+def main() -> None:
+    """Play one row after the other, as each line of the input says."""
+    for line in sys.stdin:
+        play(*json.loads(line))
     os._exit(0)
 
 
-main(*sys.argv[1:])
+main()
