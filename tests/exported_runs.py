@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 from run_folders import flying_shards, keep_run
 
+from bridge_demolition_addon.core.results.frames import BallHistory
+
 SMALLEST_M = 1e-6
 """What places of a run may differ by in another program."""
 
@@ -41,7 +43,7 @@ def with_ground(results):
     changed = replace(
         inventory, body_kinds=kinds.astype(str), masses_kg=masses, vertices_m=vertices, vertex_counts=counts
     )
-    return replace(results, inventory=changed)
+    return replace(results, inventory=changed, balls=BallHistory.unknown())
 
 
 def kept_turning_run(folder):

@@ -30,5 +30,5 @@ GLTF = Format("gltf", "an animated model, which browsers show", ".glb")
 USD = Format("usd", "an animated stage, in double precision", ".usdc")
 ALEMBIC = Format("alembic", "an animated scene, by Blender", ".abc")
 
-FORMATS = {each.name: each for each in (PARAVIEW, XLSX, GLTF)}
+FORMATS = {each.name: each for each in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC)}
 """All formats by their names."""

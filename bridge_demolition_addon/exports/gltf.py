@@ -11,28 +11,15 @@ import numpy as np
 
 from ..core.geometry.mesh import TriangleMesh
 from ..core.results.arrays import Results
+from .colours import colour_of, coloured_by
 from .progress import Progress
-from .shapes import body_meshes, quaternions
+from .shapes import body_meshes, needed_keys, quaternions
 
 _MAGIC, _VERSION, _JSON, _BINARY = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
 _FLOAT, _INTEGER = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963
 _Z_UP_TO_Y_UP = [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1]
 """Turns the project's axes into those of glTF, column by column; exact, as its numbers are whole."""
-
-_COLOURS = {
-    "ball": (0.03, 0.03, 0.03),
-    "ground": (0.35, 0.32, 0.26),
-    "tool": (0.6, 0.4, 0.0),
-    "crane": (0.6, 0.4, 0.0),
-    "deck": (0.42, 0.42, 0.41),
-    "girder": (0.28, 0.32, 0.38),
-    "pier": (0.35, 0.28, 0.22),
-    "pier cap": (0.30, 0.24, 0.20),
-    "abutment": (0.22, 0.22, 0.22),
-}
-_OTHER_COLOUR = (0.4, 0.4, 0.4)
-"""By the kind of the member, or of the body: red, green and blue from 0 to 1, linear."""
 
 
 def write_gltf(results: Results, path: Path, progress: Progress) -> None:
@@ -56,7 +43,7 @@ def animated_glb(results: Results, finished: Callable[[int, int], None] = lambda
     """
     contents = _Contents()
     meshes = body_meshes(results.inventory)
-    kinds = _kinds(results)
+    kinds = coloured_by(results.inventory)
     materials = {kind: number for number, kind in enumerate(sorted(set(kinds)))}
     nodes: list[dict[str, Any]] = [{"name": "Run", "matrix": _Z_UP_TO_Y_UP, "children": []}]
     for body, (name, mesh) in enumerate(zip(results.inventory.body_names.tolist(), meshes, strict=True)):
@@ -149,23 +136,7 @@ class _Contents:
         return len(self._accessors) - 1
 
 
-def needed_keys(values: np.ndarray) -> np.ndarray:
-    """Return which of k keys with values (k, c) are enough: of equal ones that follow each other, first and last."""
-    changes = (values[1:] != values[:-1]).any(axis=1)
-    if not changes.any():
-        return np.zeros(1, int)
-    inner = np.flatnonzero(changes[1:] | changes[:-1]) + 1
-    return np.concatenate([[0], inner, [len(values) - 1]])
-
-
-def _kinds(results: Results) -> list[str]:
-    """Return what each body is coloured by."""
-    inventory = results.inventory
-    pairs = zip(inventory.body_member_kinds.tolist(), inventory.body_kinds.tolist(), strict=True)
-    return [member or body for member, body in pairs]
-
-
 def _material(kind: str) -> dict[str, Any]:
-    colour = [*_COLOURS.get(kind, _OTHER_COLOUR), 1.0]
+    colour = [*colour_of(kind), 1.0]
     looks = {"baseColorFactor": colour, "metallicFactor": 0.0, "roughnessFactor": 0.9}
     return {"name": kind, "pbrMetallicRoughness": looks, "doubleSided": True}

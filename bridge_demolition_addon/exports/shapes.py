@@ -102,3 +102,12 @@ def quaternions(rotations: np.ndarray) -> np.ndarray:
     turned_over = (found[1:] * found[:-1]).sum(axis=-1) < 0.0
     signs = np.concatenate([np.ones((1, *turned_over.shape[1:])), np.where(turned_over, -1.0, 1.0)]).cumprod(axis=0)
     return found * signs[..., None]
+
+
+def needed_keys(values: np.ndarray) -> np.ndarray:
+    """Return which of k keys with values (k, c) are enough: of equal ones that follow each other, first and last."""
+    changes = (values[1:] != values[:-1]).any(axis=1)
+    if not changes.any():
+        return np.zeros(1, int)
+    inner = np.flatnonzero(changes[1:] | changes[:-1]) + 1
+    return np.concatenate([[0], inner, [len(values) - 1]])

@@ -2,37 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..core.disk import whole_file, whole_folder
 from ..core.errors import OutputError, text_of
-from ..core.results.arrays import Results, load_results, results_in
-from .formats import GLTF, PARAVIEW, XLSX, Format
+from ..core.results.arrays import load_results, results_in
+from . import formats
+from .blender_process import write_in_blender
+from .formats import Format
 from .gltf import write_gltf
 from .paraview import write_paraview
 from .progress import Progress
 from .sheets import check_sheets, write_sheets
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Writer:
-    """What writes a format, and what makes sure beforehand that it can."""
-
-    write: Callable[[Path, Results, Path, Progress], None]
-    check: Callable[[], None] = lambda: None
-
-
-_WRITERS = {
-    PARAVIEW: _Writer(lambda _, results, path, progress: write_paraview(results, path, progress)),
-    XLSX: _Writer(write_sheets, check_sheets),
-    GLTF: _Writer(lambda _, results, path, progress: write_gltf(results, path, progress)),
-}
-
-
-def export_run(folder: Path, form: Format, output: Path, progress: Progress) -> None:
+def export_run(folder: Path, form: Format, output: Path, progress: Progress, blender: str = "") -> None:
     """Write a run in a format.
 
     Parameters
@@ -45,23 +30,35 @@ def export_run(folder: Path, form: Format, output: Path, progress: Progress) -> 
         File or folder to make.
     progress
         Shows stages and frames.
+    blender
+        Program of the Blender that writes what only Blender can; by default Blender as a module of this Python.
 
     Raises
     ------
     MissingLibraryError
-        A library is not there that the format needs.
+        A library or Blender is not there that the format needs.
+    SimulationError
+        Blender ended while it wrote.
     OutputError
         There is no run in the folder, its results cannot be read, there is something at the output, its ending is not
         that of the format, or it cannot be written.
     """
     _check_output(form, output)
-    writer = _WRITERS[form]
-    writer.check()
+    if form == formats.XLSX:
+        check_sheets()
     progress.stage("reading the results")
     results = load_results(_results_file(folder))
     try:
         with _whole(form, output) as part:
-            writer.write(folder, results, part, progress)
+            match form:
+                case formats.PARAVIEW:
+                    write_paraview(results, part, progress)
+                case formats.XLSX:
+                    write_sheets(folder, results, part, progress)
+                case formats.GLTF:
+                    write_gltf(results, part, progress)
+                case formats.USD | formats.ALEMBIC:
+                    write_in_blender(form, folder, part, progress, blender)
     except OSError as error:
         raise OutputError(f"{output}: cannot be written ({text_of(error)})") from error
 

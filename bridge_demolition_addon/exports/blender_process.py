@@ -1,0 +1,105 @@
+"""Formats that only Blender writes: in a process of its own, so that its end is not ours, and that it can be stopped.
+
+The program reads a request from its standard input, one line of JSON, and answers on its standard output with lines of
+JSON behind `MARK`; other lines there are Blender's own.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import MissingLibraryError, SimulationError
+from .formats import Format
+from .progress import Progress
+
+MARK = "bda-export "
+"""What begins the program's own lines on its standard output."""
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+_LAST_WORDS = 400
+
+
+def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress, blender: str = "") -> None:
+    """Have Blender write a run.
+
+    Parameters
+    ----------
+    form
+        The format.
+    folder
+        Of the run.
+    path
+        File to write.
+    progress
+        Shown frame by frame.
+    blender
+        Program of Blender; by default it is a module of this Python.
+
+    Raises
+    ------
+    MissingLibraryError
+        Blender is not there, or lacks what writes the format.
+    SimulationError
+        It ended before all was written.
+    """
+    progress.stage(f"writing {form.name} with Blender")
+    with tempfile.TemporaryFile() as last_words:
+        process = subprocess.Popen(
+            _command(blender),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=last_words,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            # Ctrl-C is for us: we end it ourselves.
+            start_new_session=sys.platform != "win32",
+            creationflags=subprocess.CREATE_NEW_PROCESS_GROUP if sys.platform == "win32" else 0,
+        )
+        try:
+            request = {"format": form.name, "folder": str(folder.resolve()), "path": str(path.resolve())}
+            process.stdin.write(json.dumps(request) + "\n")
+            process.stdin.close()
+            is_done = _follow(process, progress)
+        except BrokenPipeError:  # it ended before it was asked
+            is_done = False
+        finally:
+            process.kill()
+            status = process.wait()
+            process.stdout.close()
+        if not is_done:
+            last_words.seek(0)
+            lines = last_words.read().decode("utf-8", "replace").strip().splitlines()
+            said = lines[-1][-_LAST_WORDS:] if lines else "it said nothing"
+            raise SimulationError(f"Blender ended with status {status} before {form.name} was written: {said}")
+
+
+def _follow(process: subprocess.Popen[str], progress: Progress) -> bool:
+    """Show how far the program is, and return whether it has written all."""
+    for line in process.stdout:
+        if not line.startswith(MARK):
+            continue
+        answer: dict[str, Any] = json.loads(line.removeprefix(MARK))
+        if "missing" in answer:
+            raise MissingLibraryError(answer["missing"])
+        if answer.get("is_done"):
+            return True
+        progress.part(answer["done"], answer["total"], answer["text"])
+    return False
+
+
+def _command(blender: str) -> list[str]:
+    """Return the program and its arguments.
+
+    Blender without preferences knows no extensions and none of their libraries: it is told where they are.
+    """
+    paths = [str(_PACKAGE.parent), *(sys.path if blender else ())]
+    start = f"import sys; sys.path[:0] = {paths!r}; from {_PACKAGE.name}.exports.blender_program import main; main()"
+    if not blender:
+        return [sys.executable, "-c", start]
+    return [blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
