@@ -29,7 +29,13 @@ CASES = (
     "sliding_block",
     "semicircular_arch",
     "breaking_tower",
+    "toppling_row",
+    "toppling_charge",
+    "blasted_strip",
+    "lost_support",
     # published formulas
+    "drop_weight",
+    "airblast_far_away",
     # measurements
 )
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"

@@ -9,6 +9,7 @@ from ..core.bridge import deck_top
 from ..core.bridge.member import Member, mean_density
 from ..core.bridge.preparation import prepared_members
 from ..core.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ..core.mechanics.bar_layers import AXES, SIDES
 from ..core.mechanics.joint import Joint
 from ..core.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 from ..core.scenario import (
@@ -26,6 +27,7 @@ from ..core.sequence.checked_model import checked_model
 from ..core.sequence.loads import placed_on_model
 from ..core.stages.made_elastic import made_elastic
 from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
+from ..core.structure.face_bars import layers_of_members
 from ..core.structure.model import Model
 from ..core.terrain.built import BuiltGround, told
 from ..core.terrain.recorded import NamedSurface
@@ -180,7 +182,20 @@ def _connection_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, s
             yield from _stress_facts(force, scenario, model)
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
+    yield from _bar_facts(scenario, model)
     yield from _rule_facts(scenario)
+
+
+def _bar_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
+    """Yield what sections with layers of bars bear at yield."""
+    strength = scenario.joints[0].strength
+    for group in layers_of_members(scenario.reinforcement, model.members):
+        section = group.section(strength.compression_pa, scenario.connections.strength_factor)
+        along, across, _ = group.axes
+        sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
+        moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
+        borne = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
+        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {borne}"
 
 
 def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:

@@ -12,7 +12,7 @@ from ..core.bridge.extent import room_around, surface_height
 from ..core.elasticity.section_stiffness import DAMPING_RATIO
 from ..core.errors import SimulationError
 from ..core.mechanics.strength import Ductility, Strength
-from ..core.scenario import ConnectionSettings, Scenario
+from ..core.scenario import Scenario
 from ..core.structure.model import Model
 from ..core.structure.start_motion import start_motions
 from .blast.charges import charge_objects, create_charges
@@ -27,7 +27,7 @@ from .bodies import (
     is_marked,
     mark_member,
 )
-from .connections.breaking_settings import Breaking, keep_breaking
+from .connections.breaking_settings import Breaking, keep_bars, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
@@ -116,7 +116,7 @@ def _build(
     for hammer, surface in zip(scenario.jackhammers, hammered, strict=True):
         create_jackhammer(world, hammer, surface, FIRST_STEP_FRAME - 1, scenario.timeline)
     joints = scenario.joints
-    keep_breaking(scene, _breaking(scenario.connections, joints[0].strength))
+    keep_breaking(scene, _breaking(scenario, joints[0].strength))
     keep_changes(scene, scenario.changes)
     keep_loads(scene, scenario.loads)
     with off_scene(scene) as (bodies, connections):
@@ -127,6 +127,8 @@ def _build(
             shards[row].rigid_body.type = "PASSIVE"
         keep_start_motion(shards, *start_motions(scenario.geometry, model))
         made = create_connections(connections, model.connections, shards, ground, model.second_moments_m4)
+        if model.bars:
+            keep_bars(made, model.bars)
         set_joints(made, joints, model.joint_of_connection, scenario.time.step)
         if model.soil:
             keep_soil(made, model.soil)
@@ -175,12 +177,13 @@ def _all_data() -> Iterator[bpy.types.ID]:
         yield from kind
 
 
-def _breaking(settings: ConnectionSettings, strength: Strength | None) -> Breaking:
+def _breaking(scenario: Scenario, strength: Strength | None) -> Breaking:
+    settings = scenario.connections
     if strength is None:
         return Breaking(warm_up_s=settings.warm_up_s, warm_up_damping=settings.warm_up_damping)
-    share, elongation = settings.ductile_share, settings.ductile_elongation_m
-    ductility = Ductility(share, elongation) if share > 0.0 else None
-    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping, settings.steel)
+    elongation = settings.ductile_elongation_m
+    ductility = None if elongation is None else Ductility(settings.ductile_share, elongation)
+    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping, scenario.steel)
 
 
 def last_frame(scenario: Scenario) -> int:

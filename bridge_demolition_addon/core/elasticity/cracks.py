@@ -1,9 +1,9 @@
 """Cracks that reinforcement holds together: what they bear in a sub-step, in the equations of the structure.
 
 A connection that broke leaves four places at the corners of the rectangle with the same second moments as its face. In
-each is a quarter of the bars, and there the sides of the crack press on each other where it is closed, as stiff as the
-connection was. So bars have the plastic moment of such that are spread evenly over the face: all of them yield, about
-the pressed edge.
+each is a quarter of the bars, or what bears the same moments as bars do in their layers. There the sides of the crack
+press on each other where it is closed, as stiff as the connection was. So bars have the plastic moment of such that are
+spread evenly over the face, or are in their layers: all of them yield, about the pressed edge.
 
 A sub-step is implicit, as of connections, but these forces are not linear: the equations are made for the forces at a
 guess, and anew for the opening that follows, until both agree (Newton). Each guess takes energy off, so that this ends:
@@ -49,8 +49,8 @@ class Cracks:
         What the bars are made of.
     elongation_m : float
         How far a crack opens where a bar ruptures.
-    yield_n : (m,) float
-        Force at which all bars of a crack yield together.
+    yield_n : (4, m) float
+        Force at which the bars in each corner of a crack yield.
     shares : (m,) float
         Part of the bars that is left, kept up to date by whoever gives it.
     pressed_n_m : (m,) float
@@ -60,6 +60,8 @@ class Cracks:
     ----------
     rows : (t,) int
         Connections in whose place cracks are that hold, in the order in which they came.
+    have_bars : (m,) bool
+        Across which connections bars run.
     """
 
     def __init__(
@@ -71,6 +73,7 @@ class Cracks:
         pressed_n_m: np.ndarray,
     ):
         self._steel, self._elongation_m, self._yield_n, self._shares = steel, elongation_m, yield_n, shares
+        self.have_bars = (yield_n > 0.0).any(axis=0)
         self._pressed_n_m = pressed_n_m / _COUNT
         self.rows = np.zeros(0, int)
         self._first, self._second = np.zeros(0, int), np.zeros(0, int)
@@ -177,8 +180,8 @@ class Cracks:
 
     def _bars(self) -> Bars:
         """All bars, with what is left of them."""
-        whole = self._yield_n[self.rows] * self._shares[self.rows] / _COUNT
-        return Bars.of(np.tile(whole, _COUNT), self._steel, self._elongation_m)
+        whole = self._yield_n[:, self.rows] * self._shares[self.rows]
+        return Bars.of(whole.ravel(), self._steel, self._elongation_m)
 
     def _gaps(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         first, second = (
@@ -258,6 +261,7 @@ class CrackStep:
         self._bars, self._slips, self._flows, self._substep_s = bars, slips_m, flows_m, substep_s
         self._normals, self._pressed_n_m = normals, pressed_n_m
         self._solved_for, self._which = solved_for, which
+        self._mean_n = np.tile(_summed(bars.yield_n) / _COUNT, _COUNT)
         self._guess: tuple[np.ndarray, np.ndarray] | None = None
         self._begin_at(np.zeros_like(gaps_m))
 
@@ -292,7 +296,7 @@ class CrackStep:
         """Whether the forces are those of the opening that follows from velocities (6, n); if not, guess anew."""
         opening = self._substep_s * self._rates(velocities)
         balance = self._forces + turned(self._tangents, opening)
-        if (abs(self._out_of_balance(opening, balance)) <= _AGREES * self._bars.yield_n).all():
+        if (abs(self._out_of_balance(opening, balance)) <= _AGREES * self._mean_n).all():
             return True
         if self._guess is not None:
             opening, balance = self._least(*self._guess, opening, balance)
@@ -361,6 +365,15 @@ def corner_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -
     """
     halves = 0.5 * CORNERS[:, :, None] * sides_m
     return points_m[:, None] + axes[:, 0, None] * halves[:, 0] + axes[:, 1, None] * halves[:, 1]
+
+
+def corner_shares(places_m: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
+    """Return the parts (4, m) of a force at places (2, m) that corners bear of rectangles with sides (2, m).
+
+    Together they have the same moments about all edges.
+    """
+    beside = np.clip(2.0 * places_m / sides_m, -1.0, 1.0)
+    return 0.25 * (1.0 + CORNERS[:, :1] * beside[0]) * (1.0 + CORNERS[:, 1:] * beside[1])
 
 
 def _as_bars(gaps_m: np.ndarray, normals: np.ndarray) -> np.ndarray:

@@ -7,6 +7,8 @@ answers the speed at which the points part, and a part that grows until that spe
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..geometry.vectors import dot, length, unit
@@ -18,6 +20,28 @@ the roots of r² - (2 - growth - answer) r + (1 - answer) = 0 have that magnitud
 
 _SMALLEST_GAP_M = 1e-9
 """Points that are nearer than this have no direction yet in which they part; their relative velocity gives it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FaceBars:
+    """Layers of bars across the faces of m connections, each face's put together.
+
+    Attributes
+    ----------
+    yield_n : (m,) float
+        Force at which all bars across a face yield; 0 where there are none.
+    offsets_m : (m, 2) float
+        Where that force acts, from the point of the connection along the section's y and z.
+    """
+
+    yield_n: np.ndarray
+    offsets_m: np.ndarray
+
+    def with_even(self, even_n: np.ndarray) -> FaceBars:
+        """Return them together with bars (m,) that are spread evenly over the faces."""
+        whole = self.yield_n + even_n
+        share = np.divide(self.yield_n, whole, out=np.zeros_like(whole), where=whole > 0.0)
+        return FaceBars(whole, share[:, None] * self.offsets_m)
 
 
 def parting(
@@ -43,14 +67,16 @@ def parting(
     return distances, dot(speeds, directions), directions
 
 
-def effective_masses(masses_kg: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+def effective_masses(masses_kg: np.ndarray, pairs: np.ndarray, turning_kg: np.ndarray | float = 0.0) -> np.ndarray:
     """Mass (t,) that each tie between a pair (t, 2) of bodies (n,) may take to be its own, kg.
 
-    1/m = 1/m₁ + 1/m₂, where a body of mass 0 does not move, shared out among all ties of a body: ties that know nothing
-    of each other would otherwise stop it several times over.
+    1/m = 1/m₁ + 1/m₂, where a body of mass 0 does not move, and what is given, (t,) 1/kg, as a tie beside the middle of
+    its bodies turns them. It is shared out among all ties of a body: ties that know nothing of each other would
+    otherwise stop it several times over.
     """
     counts = np.bincount(pairs.ravel(), minlength=len(masses_kg))[pairs].max(axis=1)
     inverse = np.divide(1.0, masses_kg, out=np.zeros(len(masses_kg)), where=masses_kg > 0.0)[pairs].sum(axis=1)
+    inverse = inverse + turning_kg
     return np.divide(1.0, inverse * counts, out=np.zeros(len(pairs)), where=inverse > 0.0)
 
 

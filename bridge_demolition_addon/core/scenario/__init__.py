@@ -10,6 +10,7 @@ from ..blast.settings import BlastSettings
 from ..foundations.settings import Foundation
 from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
 from ..loads.load import Load
+from ..mechanics.bar_layers import BarLayer
 from ..mechanics.materials import Material
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
@@ -29,6 +30,7 @@ __all__ = [
     "Ball",
     "BallCable",
     "BallHit",
+    "BarLayer",
     "BlastSettings",
     "BoxGirder",
     "Bridge",

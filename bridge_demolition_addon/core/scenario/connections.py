@@ -259,14 +259,16 @@ class ConnectionSettings(JointSettings):
         at_most=1,
     )
     ductile_elongation_m: float | None = key(
-        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share`, and only then.",
+        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share` and with "
+        "`[[reinforcement]]`, and only then.",
         default=None,
         unit="m",
         above=0,
     )
     ductile_yield_n_mm2: float | None = key(
-        "Yield strength of the reinforcement, with `stiffness` `elastic`; 500 where it is left out. Until then it "
-        "stretches by its modulus of elasticity, 200 000 N/mm².",
+        "Yield strength of the reinforcement, with `stiffness` `elastic`; where it is left out that of "
+        "`[[reinforcement]]`, in the mean by area, or 500. Until then it stretches by its modulus of elasticity, "
+        "200 000 N/mm².",
         default=None,
         unit="N/mm²",
         above=0,
@@ -370,11 +372,10 @@ class ConnectionSettings(JointSettings):
                 each.check_type(each.type or self.type)
         if self.ductile_share > 0.0 and self.material is None:
             raise self.unexpected("ductile_share", "0 where connections.material is not given")
-        if (self.ductile_share > 0.0) != (self.ductile_elongation_m is not None):
-            wanted = (
-                f"a number above 0 (m) with a connections.ductile_share above 0, and none with {self.ductile_share}"
+        if self.ductile_share > 0.0 and self.ductile_elongation_m is None:
+            raise self.unexpected(
+                "ductile_elongation_m", "a number above 0 (m) with a connections.ductile_share above 0"
             )
-            raise self.unexpected("ductile_elongation_m", wanted)
         self._check_steel()
         if self.warm_up_damping > 0.0 and self.warm_up_s == 0.0:
             raise self.unexpected("warm_up_damping", "0 where connections.warm_up_s is 0")
@@ -385,8 +386,8 @@ class ConnectionSettings(JointSettings):
     def _check_steel(self) -> None:
         """Check that what reinforcement is made of is given where it counts, and that it yields before it ruptures."""
         for name in _STEEL:
-            if getattr(self, name) is not None and not (self.is_elastic and self.ductile_share > 0.0):
-                wanted = 'none but with connections.stiffness "elastic" and a connections.ductile_share above 0'
+            if getattr(self, name) is not None and not (self.is_elastic and self.ductile_elongation_m is not None):
+                wanted = 'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m'
                 raise self.unexpected(name, wanted)
         given = self.ductile_rupture_strain is not None
         rupture = self.ductile_rupture_strain if given else USUAL_STEEL.rupture_strain

@@ -5,12 +5,14 @@ from typing import ClassVar
 
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
+from ..elasticity.steel_bars import Steel
 from ..errors import ScenarioError
 from ..foundations.settings import Foundation
 from ..ground_motion.record import GroundRecord
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
 from ..loads.load import Load
+from ..mechanics.bar_layers import BarLayer
 from ..mechanics.joint import Joint
 from ..mechanics.materials import Material, check_materials
 from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
@@ -48,6 +50,7 @@ class Scenario(Table):
     ground_motion: GroundMotion | None = None
     fracture: FractureSettings
     materials: tuple[Material, ...] = ()
+    reinforcement: tuple[BarLayer, ...] = ()
     connections: ConnectionSettings
     supports: tuple[Support, ...] = ()
     foundations: tuple[Foundation, ...] = ()
@@ -104,6 +107,15 @@ class Scenario(Table):
         return self.ground_motion and ground_record(self.ground_motion, self.seed)
 
     @property
+    def steel(self) -> Steel:
+        """Return what the reinforcement of elastic connections is made of."""
+        steel, layers = self.connections.steel, self.reinforcement
+        if self.connections.ductile_yield_n_mm2 is not None or not layers:
+            return steel
+        yields = sum(each.area_m2 * each.yield_pa for each in layers) / sum(each.area_m2 for each in layers)
+        return replace(steel, yield_pa=yields)
+
+    @property
     def changes(self) -> tuple[Change, ...]:
         """Return all removals, saw cuts and weakenings."""
         return (*self.removals, *self.saw_cuts, *self.weakenings)
@@ -112,6 +124,7 @@ class Scenario(Table):
         self._check_charges()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         check_materials(self.materials)
+        self._check_reinforcement()
         _ = self.joints  # refuses materials that are unknown, or do not say how they deform
         if self.bridge and self._material_density_kg_m3 is None:
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
@@ -162,6 +175,20 @@ class Scenario(Table):
                 )
         if motion.start_s >= self.time.duration_s:
             raise motion.unexpected("start_s", f"less than time.duration_s, {self.time.duration_s:g} (s)")
+
+    def _check_reinforcement(self) -> None:
+        connections, opening = self.connections, "ductile_elongation_m"
+        is_given = getattr(connections, opening) is not None
+        if not self.reinforcement:
+            if is_given and connections.ductile_share == 0.0:
+                wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
+                raise connections.unexpected(opening, wanted)
+            return
+        if connections.material is None:
+            raise ScenarioError("connections.material is missing: expected it with [[reinforcement]]")
+        if not is_given:
+            wanted = "a number above 0 (m), how far a crack opens until bars rupture, with [[reinforcement]]"
+            raise ScenarioError(f"connections.{opening} is missing: expected {wanted}")
 
     def _check_charges(self) -> None:
         charges = named_charges(self.charges)

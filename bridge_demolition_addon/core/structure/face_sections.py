@@ -46,7 +46,7 @@ def second_moments(
     with_area = np.flatnonzero(areas > 0.0)
     for part in blocks(np.array([len(shards[shard].triangles) for shard in first[with_area]], int)):
         rows = with_area[part]
-        face, corners = _triangles_in_faces([shards[shard] for shard in first[rows]], centres[rows], normals[rows])
+        face, corners = triangles_in_faces([shards[shard] for shard in first[rows]], centres[rows], normals[rows])
         counts = np.bincount(face, minlength=len(rows))
         # Faces of as many triangles together: each is summed as it would be alone, to the last bit.
         for count in np.unique(counts[counts > 0]):
@@ -57,7 +57,7 @@ def second_moments(
     return moments
 
 
-def _triangles_in_faces(
+def triangles_in_faces(
     shards: Sequence[TriangleMesh], centres: np.ndarray, normals: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Face (t,), in ascending order, and corners (t, 3, 2) of all triangles in the planes of k faces.

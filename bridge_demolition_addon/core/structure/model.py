@@ -16,11 +16,13 @@ from ..foundations.footings import SoilSprings
 from ..fracture.members import fractured_members, shards_with_gaps
 from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh
+from ..mechanics.reinforcement import FaceBars
 from ..scenario import ConnectionSettings, Scenario
 from ..terrain.built import BuiltGround, built_ground
 from . import connections as connecting
 from .connection_rules import rules_of_pairs
 from .connections import Connections
+from .face_bars import face_bars
 from .face_sections import second_moments
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .stiffness import connection_stiffness
@@ -57,6 +59,8 @@ class Model:
         What it stands on.
     soil : SoilSprings or None
         What footings stand on; None where the ground does not give.
+    bars : FaceBars or None
+        Layers of reinforcement across the connections; None where the scenario has none.
     """
 
     members: tuple[Member, ...]
@@ -71,6 +75,7 @@ class Model:
     stiffness: SectionStiffness | None = None
     ground: BuiltGround = field(default_factory=BuiltGround)
     soil: SoilSprings | None = None
+    bars: FaceBars | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Thickness (m,) of the thinner of the members that each connection is between."""
@@ -128,6 +133,18 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
+    bars = None
+    if scenario.reinforcement:
+        bars = face_bars(
+            scenario.reinforcement,
+            members,
+            fractured.member_of_shard,
+            shards,
+            connections,
+            scenario.joints,
+            joint_of_connection,
+            scenario.connections.strength_factor,
+        )
     stiffness = None
     if scenario.connections.is_elastic:
         stiffness = connection_stiffness(
@@ -157,6 +174,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         stiffness=stiffness,
         ground=ground,
         soil=soil,
+        bars=bars,
     )
 
 

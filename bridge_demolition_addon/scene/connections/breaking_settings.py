@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...core.elasticity.steel_bars import USUAL_STEEL, Steel
+from ...core.mechanics.reinforcement import FaceBars
 from ...core.mechanics.strength import Ductility, Strength
 from ..custom_properties import kept_number, kept_numbers
 
@@ -17,6 +18,7 @@ _WARM_UP = "bda_warm_up_s"
 _DAMPING = "bda_warm_up_damping"
 _DUCTILITY = "bda_ductility"
 _STEEL = "bda_steel"
+_BARS = "bda_bars"
 
 _UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
 """Strength of a connection that no stress breaks."""
@@ -38,6 +40,8 @@ class Breaking:
         Share of their velocities that shards lose in one second of the warm-up, from 0 to 1.
     steel : Steel
         What the reinforcement of elastic connections is made of.
+    bars : FaceBars or None
+        Layers of reinforcement across connections, besides what is left by `ductility`.
     """
 
     strength: Strength | None = None
@@ -45,6 +49,7 @@ class Breaking:
     ductility: Ductility | None = None
     warm_up_damping: float = 0.0
     steel: Steel = USUAL_STEEL
+    bars: FaceBars | None = None
 
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
@@ -63,6 +68,20 @@ def set_strength(connection: bpy.types.Object, strength: Strength | None) -> Non
     connection[_STRENGTH] = astuple(strength or _UNBREAKABLE)
 
 
+def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
+    """Keep with connections (m,) what bars cross them."""
+    columns = zip(connections, bars.yield_n.tolist(), bars.offsets_m.tolist(), strict=True)
+    for connection, yield_n, offset_m in columns:
+        connection[_BARS] = (yield_n, *offset_m)
+
+
+def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
+    if not any(_BARS in each for each in connections):
+        return None
+    numbers = np.array([kept_numbers(each, _BARS, (0.0, 0.0, 0.0)) for each in connections])
+    return FaceBars(numbers[:, 0], numbers[:, 1:])
+
+
 def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:
     """Return what is kept in a scene and with connections; in any other, Blender's threshold and no warm-up.
 
@@ -79,4 +98,5 @@ def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] 
         ductility,
         kept_number(scene, _DAMPING, 0.0),
         Steel(*kept_numbers(scene, _STEEL, astuple(USUAL_STEEL))),
+        _bars_of(connections),
     )

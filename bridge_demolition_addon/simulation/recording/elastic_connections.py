@@ -12,16 +12,17 @@ from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import check_frames
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
-from ...core.elasticity.cracks import Cracks, corner_places
+from ...core.elasticity.cracks import CORNERS, Cracks, corner_places, corner_shares
 from ...core.elasticity.equilibrium import Equilibrium, equilibrium
 from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
 from ...core.elasticity.section_stiffness import SectionStiffness, in_frames
-from ...core.elasticity.steel_bars import Steel
 from ...core.elasticity.structure import BodyStates, ElasticStructure
 from ...core.foundations.footings import Footings, SoilSprings
+from ...core.geometry.vectors import transformed_back
 from ...core.mechanics.section_forces import section_axes
-from ...core.mechanics.strength import Ductility, rectangular_sections
+from ...core.mechanics.strength import rectangular_sections
 from ...core.results.inventory import Inventory
+from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
 
 
@@ -117,23 +118,27 @@ class ElasticConnections:
         self._loads = np.zeros((2, 6, len(self._frames)))
         world.hold_connections()
 
-    def reinforce(self, ductility: Ductility, steel: Steel, tension_pa: np.ndarray | float, left: np.ndarray) -> None:
+    def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
         """Have reinforcement hold on in place of what breaks, before any time passes.
 
         Parameters
         ----------
-        ductility, steel : Ductility, Steel
-            Part of the strength that it has, how far a crack opens until it ruptures, and what it is made of.
-        tension_pa : float or (m,) float
-            Strength of the intact connections in tension.
+        breaking : Breaking
+            Part of the strength that it has, layers of bars, how far a crack opens until they rupture, and what they
+            are made of.
         left : (m,) float
             Part of its strength that each connection has left, kept up to date by whoever gives it.
         """
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
         self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
         self._face_directions = np.moveaxis(sections.directions, 0, 2)
-        yield_n = ductility.strength_share * tension_pa * self._inventory.areas_m2
-        self._cracks = Cracks(steel, ductility.elongation_m, yield_n, left, self._axial_n_m)
+        ductility = breaking.ductility
+        even = ductility.strength_share * breaking.strength.tension_pa * self._inventory.areas_m2
+        yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
+        if breaking.bars:
+            places = transformed_back(sections.directions, breaking.bars.offsets_m).T
+            yield_n = yield_n + breaking.bars.yield_n * corner_shares(places, self._face_sides_m)
+        self._cracks = Cracks(breaking.steel, ductility.elongation_m, yield_n, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke just now.
@@ -144,6 +149,9 @@ class ElasticConnections:
         points_m, axes : (r, 3) and (r, 3, 3) float
             Where they are, and the axes of their sections, as columns.
         """
+        if self._cracks is not None:
+            held = self._cracks.have_bars[rows]
+            rows, points_m, axes = rows[held], points_m[held], axes[held]
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()

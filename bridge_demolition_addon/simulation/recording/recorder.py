@@ -368,6 +368,8 @@ class Recording:
                 elastic |= {f"soil {each.name}": getattr(soil, each.name) for each in fields(soil)}
             if breaking.ductility:
                 elastic["steel"] = np.array(astuple(breaking.steel))
+        if breaking.bars:
+            elastic["bars"] = np.column_stack((breaking.bars.yield_n, breaking.bars.offsets_m))
         matrices = np.array([body.matrix_world for body in self._bodies], float)
         places, rotations = matrices[:, :3, 3], matrices[:, :3, :3]
         return built_digest(

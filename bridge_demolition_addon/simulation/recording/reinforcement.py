@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...bullet.world import BulletWorld
-from ...core.geometry.vectors import transformed, transformed_back
-from ...core.mechanics.reinforcement import effective_masses, parting, tie_forces
+from ...core.geometry.vectors import dot, transformed, transformed_back
+from ...core.mechanics.reinforcement import FaceBars, effective_masses, parting, tie_forces
 from ...core.mechanics.strength import Ductility
 from ...core.results.inventory import Inventory
 
@@ -25,6 +25,8 @@ class Reinforcement:
         Strength of the intact connections in tension.
     remaining_strength : (m,) float
         Part of it that each connection has left, kept up to date by whoever gives it.
+    bars : FaceBars or None
+        Layers of bars besides.
 
     Attributes
     ----------
@@ -39,17 +41,33 @@ class Reinforcement:
         ductility: Ductility,
         tension_pa: float,
         remaining_strength: np.ndarray,
+        bars: FaceBars | None = None,
     ):
         self._world, self._inventory, self._ductility = world, inventory, ductility
         self._remaining_strength = remaining_strength
         self._yield_n = ductility.strength_share * tension_pa * inventory.areas_m2
+        self._offsets_m = self._reader = None
+        if bars:
+            bars = bars.with_even(self._yield_n)
+            self._yield_n, self._offsets_m, self._reader = bars.yield_n, bars.offsets_m, world.body_motion()
         self._rows = np.zeros(0, int)
         self._anchors = np.zeros((0, 2, 3))
         self._holding_n = np.zeros(0)
         self.forces_n = np.zeros((len(inventory.pairs), 3))
 
-    def add(self, rows: np.ndarray, points_m: np.ndarray) -> None:
-        """Let connections (r,), broken just now at points (r, 3), hold on as ties."""
+    def add(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
+        """Let connections (r,), broken just now, hold on as ties.
+
+        Parameters
+        ----------
+        rows : (r,) int
+        points_m, axes : (r, 3) and (r, 3, 3) float
+            Where they are, and the axes of their sections, as columns.
+        """
+        if self._offsets_m is not None:
+            points_m = points_m + transformed(axes[:, :, 1:], self._offsets_m[rows])
+            held = self._yield_n[rows] > 0.0
+            rows, points_m = rows[held], points_m[held]
         positions, rotations = self._world.positions()
         pairs = self._inventory.pairs[rows]
         levers = points_m[:, None] - positions[pairs]
@@ -69,7 +87,7 @@ class Reinforcement:
         points = positions[pairs] + levers
         speeds = self._world.velocities()[pairs] + np.cross(self._world.angular_velocities()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
-        masses = effective_masses(self._inventory.masses_kg, pairs)
+        masses = effective_masses(self._inventory.masses_kg, pairs, self._turning(pairs, levers, directions))
         yield_n = (self._remaining_strength * self._yield_n)[self._rows]
         tensions, self._holding_n = tie_forces(self._holding_n, rates, masses, yield_n, substep_s)
         holds = distances <= self._ductility.elongation_m
@@ -78,3 +96,14 @@ class Reinforcement:
         both = np.stack((pulls, -pulls), axis=1).reshape(-1, 3)
         self._world.add_forces(pairs.ravel(), both, np.cross(levers.reshape(-1, 3), both))
         self._rows, self._anchors, self._holding_n = self._rows[holds], self._anchors[holds], self._holding_n[holds]
+
+    def _turning(self, pairs: np.ndarray, levers: np.ndarray, directions: np.ndarray) -> np.ndarray | float:
+        """By how much a unit impulse along ties (t,) has their points part, as it turns their bodies, 1/kg.
+
+        Ties at the middles of faces hardly turn their bodies; those at the depth of a layer do.
+        """
+        if self._reader is None:
+            return 0.0
+        inverse = np.moveaxis(self._reader.inverse_inertias(), 2, 0)[pairs]
+        arms = np.cross(levers, directions[:, None])
+        return dot(arms, transformed(inverse, arms)).sum(axis=1)

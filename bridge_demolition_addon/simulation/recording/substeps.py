@@ -166,10 +166,10 @@ class SubstepRecorder:
         self._reinforcement = None
         remaining = events.remaining_strength
         if breaking.ductility and elastic:
-            elastic.reinforce(breaking.ductility, breaking.steel, breaking.strength.tension_pa, remaining)
+            elastic.reinforce(breaking, remaining)
         elif breaking.ductility:
             self._reinforcement = Reinforcement(
-                world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining
+                world, inventory, breaking.ductility, breaking.strength.tension_pa, remaining, breaking.bars
             )
         self._is_warming_up = breaking.warm_up_s > 0.0
         if self._is_warming_up:
@@ -272,11 +272,13 @@ class SubstepRecorder:
     def _let_go(self, rows: np.ndarray, loads: Moment) -> None:
         """Break connections (b,) under loads; their reinforcement holds on."""
         self._world.break_connections(rows)
-        if self._reinforcement and len(rows):
-            self._reinforcement.add(rows, loads.connection_points_m[rows])
-        elif self._elastic:
-            axes = self._reader.section_axes(loads.rotations, rows)
-            self._elastic.tear(rows, loads.connection_points_m[rows], axes)
+        if not len(rows) or not self._breaking.ductility:
+            return
+        points_m, axes = loads.connection_points_m[rows], self._reader.section_axes(loads.rotations, rows)
+        if self._elastic:
+            self._elastic.tear(rows, points_m, axes)
+        else:
+            self._reinforcement.add(rows, points_m, axes)
 
     def _threshold_factor(self, substep_s: float) -> float:
         """Impulse of a steady force in this sub-step over that in the one that thresholds were made for."""

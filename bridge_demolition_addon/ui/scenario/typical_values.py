@@ -66,6 +66,8 @@ TYPICAL: dict[str, Any] = {
     "materials.shear_n_mm2": 3.0,
     "materials.torsion_n_mm2": 2.0,
     "materials.bending_n_mm2": 3.0,
+    "reinforcement.depth_m": 0.05,
+    "reinforcement.area_mm2": 10000.0,
     "connections.search_radius_m": 1.0,
     "connections.neighbours": 12,
     "connections.damping_ratio": 0.05,

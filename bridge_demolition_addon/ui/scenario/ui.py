@@ -31,6 +31,7 @@ _PARENTS = {
     "geometry": "BDA_PT_bridge",
     "supports": "BDA_PT_bridge",
     "materials": "BDA_PT_connections",
+    "reinforcement": "BDA_PT_connections",
     "ground": "BDA_PT_shards",
     "blast": "BDA_PT_explosion",
     "recording": "BDA_PT_handler",

@@ -70,7 +70,10 @@ def test_rigid_connections_have_no_moduli():
         ({"elastic_modulus_n_mm2": 0.0}, "connections.elastic_modulus_n_mm2"),
         ({"elastic_modulus_n_mm2": 1e8}, "connections.elastic_modulus_n_mm2"),
         ({"damping_ratio": 1.5}, "connections.damping_ratio"),
-        ({"ductile_hardening": 1.1}, 'none but with connections.stiffness "elastic" and a connections.ductile_share'),
+        (
+            {"ductile_hardening": 1.1},
+            'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m',
+        ),
         (TIED | {"stiffness": "rigid", "ductile_rupture_strain": 0.1}, "none but with connections.stiffness"),
         (TIED | {"ductile_hardening": 0.9}, "connections.ductile_hardening"),
         (TIED | {"ductile_rupture_strain": 0.002}, "more than 0.0025, the strain at which the reinforcement yields"),

@@ -88,7 +88,15 @@ def test_every_key_has_a_meaning():
 
 def test_every_key_with_a_unit_carries_it_in_its_name():
     in_names = {"m": "_m", "s": "_s", "kg": "_kg", "kg/m³": "_kg_m3", "N": "_n", "kgf": "_kgf", "px": "_px"}
-    in_names |= {"ms": "_ms", "m/s": "_m_s", "rad/s": "_rad_s", "1/s": "_per_second", "°": "_deg", "m³": "_m3"}
+    in_names |= {
+        "ms": "_ms",
+        "m/s": "_m_s",
+        "rad/s": "_rad_s",
+        "1/s": "_per_second",
+        "°": "_deg",
+        "m³": "_m3",
+        "mm²": "_mm2",
+    }
     in_names |= {"N/mm²": "_n_mm2", "N/m": "_n_m", "N·s/m": "_ns_m", "N·m/rad": "_nm_rad", "N·m·s/rad": "_nms_rad"}
     in_names |= {"MN/m³": "_mn_m3", "kPa": "_kpa", "Hz": "_hz", "m/s²": "_m_s2"}
     for table_class in all_tables(Scenario):
