@@ -30,11 +30,11 @@ from .contacts import Contacts
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
 from .map_place import site_of
-from .materials import material_table
+from .materials import MaterialTable, material_table
 from .meshes import element_solids
 from .placement import Placement, placement_of
 from .settings import KINDS, ImportSettings
-from .source import IfcSource, open_source
+from .source import IfcSource, naming_contradictions, open_source
 from .supports import loose_members, supports_of
 
 MESH_FOLDER = "members"
@@ -112,6 +112,11 @@ def read_bridge(path: Path, settings: ImportSettings) -> ImportedBridge:
         IfcOpenShell is not installed.
     """
     table = material_table(settings.materials)
+    with naming_contradictions(path):
+        return _bridge(path, table, settings)
+
+
+def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> ImportedBridge:
     source = open_source(path, settings)
     elements = elements_of(source, settings)
     _check_kinds(path, elements)

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +27,8 @@ _HEAD = 100_000
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'", flags=re.IGNORECASE)
 _AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*\)\s*;)", flags=re.IGNORECASE)
 """A unit as some programs spell it; the standard's metre is METRE."""
+
+_BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +54,28 @@ class IfcSource:
     scale: float
     unit_m: float
     notes: tuple[str, ...] = ()
+
+
+@contextmanager
+def naming_contradictions(path: Path) -> Iterator[None]:
+    """Say that a file contradicts its schema, where IfcOpenShell finds something else than it has to in it.
+
+    Errors of other code are let through: they are no fault of the file.
+
+    Raises
+    ------
+    IfcError
+        IfcOpenShell met a missing element, or one of a wrong class.
+    """
+    try:
+        yield
+    except (AttributeError, IndexError, KeyError, RuntimeError, TypeError, ValueError) as error:
+        frames = traceback.extract_tb(error.__traceback__)
+        if Path(library().__file__).parent not in Path(frames[-1].filename).parents:
+            raise
+        raise IfcError(
+            f"{path}: contradicts its schema ({error}); check it with a validator of IFC, or export it again"
+        ) from error
 
 
 def open_source(path: Path, settings: ImportSettings) -> IfcSource:
@@ -109,10 +136,12 @@ def _content(path: Path) -> bytes:
 
 
 def _text(content: bytes) -> str:
+    """Return a file as text in which letters beyond ASCII are spelt as the standard, ISO 10303-21, wants them."""
     try:
-        return content.decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError:  # against the standard, but what programs of some countries write
-        return content.decode("latin-1")
+        text = content.decode("latin-1")
+    return _BEYOND_ASCII.sub(lambda found: f"\\X4\\{found.group().encode('utf-32-be').hex().upper()}\\X0\\", text)
 
 
 def _unit_of_file(model: Any) -> float | None:

@@ -196,6 +196,25 @@ def test_a_bearing_along_an_alignment_is_free_as_its_type_is():
     assert "its own axes follow an alignment" in source
 
 
+def test_openings_are_cut_out(tmp_path):
+    """A hole of 2 m × 1 m through a deck of 0.2 m."""
+    made = whole_bridge()
+    (slab,) = made.file.by_type("IfcSlab")
+    hole = made.box("IfcOpeningElement", "Hole", (2.0, 1.0, 1.0), (4.0, 0.0, 4.0), "DECK")
+    made.file.remove(hole.ContainedInStructure[0])
+    made.root("IfcRelVoidsElement", None, RelatingBuildingElement=slab, RelatedOpeningElement=hole)
+    bridge = read(made, tmp_path)
+    assert volumes(bridge)["deck"] == pytest.approx(VOLUMES_M3["deck"] - 2.0 * 1.0 * 0.2, rel=EXACT)
+    assert "Hole" not in {each.element.facts.name for each in bridge.outcomes}
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
+def test_names_with_letters_that_the_standard_has_no_plain_form_for(encoding, tmp_path):
+    path = whole_bridge().written(tmp_path / "bridge.ifc")
+    path.write_bytes(path.read_text().replace("'Carriageway'", "'Überbau'").encode(encoding))
+    assert "Überbau" in {each.name for each in read_bridge(path, ImportSettings()).scenario.geometry}
+
+
 def test_names_that_are_alike_or_mean_a_kind_get_numbers(tmp_path):
     made = whole_bridge()
     for each in made.file.by_type("IfcColumn"):

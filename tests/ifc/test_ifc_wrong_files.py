@@ -7,6 +7,7 @@ from ifc_bridges import IfcBridge, whole_bridge
 from bridge_demolition_addon.core.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings
+from bridge_demolition_addon.ifc.source import naming_contradictions
 
 
 @pytest.fixture(scope="module")
@@ -123,3 +124,16 @@ def test_a_ground_above_the_bridge(tmp_path):
         IfcError, match=r"the ground at 9 m would cover the bridge, which reaches from 0\.00 m to 4\.60 m"
     ):
         read_bridge(path, ImportSettings(ground_m=9.0))
+
+
+def test_a_file_that_contradicts_its_schema(text, tmp_path):
+    """A material that is a point: the reader looks for its name."""
+    path = tmp_path / "bridge.ifc"
+    assert "IFCMATERIAL('S355',$,$)" in text
+    path.write_text(text.replace("IFCMATERIAL('S355',$,$)", "IFCCARTESIANPOINT((0.,0.,0.))"))
+    assert refused(path).startswith("contradicts its schema (")
+
+
+def test_errors_that_are_not_the_files_are_not_taken_for_it(tmp_path):
+    with pytest.raises(TypeError, match="no fault of the file"), naming_contradictions(tmp_path):
+        raise TypeError("no fault of the file")
