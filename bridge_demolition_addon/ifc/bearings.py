@@ -9,15 +9,16 @@ from typing import Any
 import numpy as np
 
 from ..core.geometry.mesh import TriangleMesh
+from ..core.geometry.solids import union
 from ..core.geometry.vectors import transformed
 from ..core.scenario import ConnectionBetween
-from .contacts import Contacts
+from .contacts import TOUCHING_M, Contacts
 from .elements import Element
 from .library import library
 from .placement import Placement
 
-REACH_M = 0.002
-"""Gap up to which a bearing bears on its neighbours, and that they bear on it."""
+SEAT_M = 0.001
+"""How far a bearing is let into what it lies on, so that the two become one solid whatever the rounding of places."""
 
 _ALL_TURNS = ("turn x", "turn y", "turn z")
 _FREE_OF_TYPE = {
@@ -60,17 +61,45 @@ class Bearing:
     source: str
 
 
-def bearing_of(element: Element, solid: TriangleMesh, contacts: Contacts, placement: Placement) -> Bearing | str:
-    """Return what a bearing connects, or why it is left out."""
-    down, up = contacts.reached(solid, -REACH_M), contacts.reached(solid, REACH_M)
+def bearing_of(
+    element: Element, solid: TriangleMesh, contacts: Contacts, names: Sequence[str], placement: Placement
+) -> Bearing | str:
+    """Return what a bearing connects, or why it is left out.
+
+    Parameters
+    ----------
+    element : Element
+        The bearing.
+    solid : TriangleMesh
+        Its body, in its place.
+    contacts : Contacts
+        Of the members.
+    names : sequence of str
+        Of the members.
+    placement : Placement
+        Where the bridge stands.
+    """
+    down, up = contacts.reached(solid, -TOUCHING_M), contacts.reached(solid, TOUCHING_M)
     # One that it is sunk into, or that is sunk into it, lies on the side that it reaches further into.
     below = sorted((each for each in down if down[each] > up.get(each, 0.0)), key=lambda each: -down[each])
     above = sorted(each for each in up if up[each] > down.get(each, 0.0))
     if not below or not above:
-        where = "under" if not below else "over"
-        return f"nothing lies {where} it within {1e3 * REACH_M:g} mm: connect these members by [[connections.between]]"
+        return f"nothing touches it from {'below' if not below else 'above'}{_gaps(solid, contacts, names)}"
     free, source = free_motions(element, placement)
     return Bearing(below[0], tuple(above), free, source)
+
+
+def seated(solid: TriangleMesh) -> TriangleMesh:
+    """Return a bearing that is let into what it lies on."""
+    return union([solid, TriangleMesh(solid.vertices - (0.0, 0.0, SEAT_M), solid.triangles)])
+
+
+def _gaps(solid: TriangleMesh, contacts: Contacts, names: Sequence[str]) -> str:
+    apart = [(gap, index) for gap, index in contacts.near_to(solid) if gap > TOUCHING_M]
+    if not apart:
+        return ""
+    gap_m, index = apart[0]
+    return f"; {names[index]} is {1e3 * gap_m:.1f} mm off: close that gap in the program that the file was made with"
 
 
 def bearing_rules(bearings: Sequence[Bearing], names: Sequence[str]) -> tuple[list[ConnectionBetween], list[str]]:

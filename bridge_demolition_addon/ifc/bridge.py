@@ -25,7 +25,7 @@ from ..core.scenario import (
 )
 from ..core.scenario.connections import GROUND_NAME
 from ..core.schema import LINE_BREAKING_CATEGORIES
-from .bearings import Bearing, bearing_of, bearing_rules
+from .bearings import Bearing, bearing_of, bearing_rules, seated
 from .contacts import Contacts
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
@@ -63,6 +63,8 @@ class Outcome:
         ``member``, ``connection`` or ``left out``.
     why : str
         Why, or what else there is to know of it; empty for nothing.
+    mesh : TriangleMesh or None
+        What is written of it, where that is not the member's solid.
     """
 
     element: Element
@@ -70,6 +72,7 @@ class Outcome:
     substance: Substance | None
     became: str
     why: str
+    mesh: TriangleMesh | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,9 +221,9 @@ def _connected(
     """Return outcomes with those of the bearings, the connections that these are, and what they disagree in."""
     done, found = dict(outcomes), []
     members = [each for each in outcomes.values() if each.member]
-    contacts = Contacts([each.member.solid for each in members])
+    contacts, names = Contacts([each.member.solid for each in members]), [each.member.name for each in members]
     for element, solid in zip(bearings, solids, strict=True):
-        bearing = bearing_of(element, solid, contacts, placement)
+        bearing = bearing_of(element, solid, contacts, names, placement)
         number = element.entity.id()
         if isinstance(bearing, str):
             done[number] = Outcome(element, None, None, "left out", bearing)
@@ -228,14 +231,14 @@ def _connected(
         below = members[bearing.below]
         found.append(bearing)
         part = Member(below.member.name, below.member.kind, solid, below.member.density_kg_m3)
-        done[number] = Outcome(element, part, below.substance, "connection", _why(bearing, members))
-    rules, notes = bearing_rules(found, [each.member.name for each in members])
+        done[number] = Outcome(element, part, below.substance, "connection", _why(bearing, names), seated(solid))
+    rules, notes = bearing_rules(found, names)
     return done, rules, notes
 
 
-def _why(bearing: Bearing, members: Sequence[Outcome]) -> str:
-    above = " and ".join(members[each].member.name for each in bearing.above)
-    return f"between {above} and {members[bearing.below].member.name}, of which it is part; {bearing.source}"
+def _why(bearing: Bearing, names: Sequence[str]) -> str:
+    above = " and ".join(names[each] for each in bearing.above)
+    return f"between {above} and {names[bearing.below]}, of which it is part; {bearing.source}"
 
 
 def _scenario(
@@ -254,7 +257,9 @@ def _scenario(
     # A member that rests on a bearing touches that, not what the bearing lies on.
     connected = {each.member for each in supports} | {name for rule in rules for name in rule.members}
     loose = loose_members(members, contacts, connected)
-    meshes = {_file(number, each.member.name): each.member.solid for number, each in enumerate(kept, start=1)}
+    meshes = {
+        _file(number, each.member.name): each.mesh or each.member.solid for number, each in enumerate(kept, start=1)
+    }
     geometry = tuple(
         Geometry(name=each.member.name, file=file, kind=each.member.kind, density_kg_m3=each.member.density_kg_m3)
         for each, file in zip(kept, meshes, strict=True)

@@ -11,8 +11,8 @@ from manifold3d import Manifold
 from ..core.geometry.mesh import TriangleMesh
 from ..core.geometry.solids import to_manifold
 
-TOUCHING_M = 1e-5
-"""Gap up to which two members touch: rounding of places far from the origin of a file."""
+TOUCHING_M = 1e-4
+"""Gap up to which two members touch, as where connections are made."""
 
 NEAR_M = 0.5
 """Gap up to which a neighbour is looked for."""
@@ -32,8 +32,13 @@ class Contacts:
 
     def near(self, index: int) -> list[tuple[float, int]]:
         """Return gaps in m to all members within `NEAR_M` of a member, and which they are, the nearest first."""
-        own = self._manifolds[index]
-        found = [(own.min_gap(self._manifolds[other], NEAR_M), other) for other in self._boxes_near(index)]
+        return [(gap, other) for gap, other in self.near_to(self._solids[index]) if other != index]
+
+    def near_to(self, solid: TriangleMesh) -> list[tuple[float, int]]:
+        """Return gaps in m to all members within `NEAR_M` of a solid, and which they are, the nearest first."""
+        own, (lowest, highest) = to_manifold(solid), solid.bounds
+        may = ((self._lowest <= highest + NEAR_M) & (self._highest >= lowest - NEAR_M)).all(axis=1)
+        found = [(own.min_gap(self._manifolds[other], NEAR_M), other) for other in np.flatnonzero(may).tolist()]
         return sorted((gap, other) for gap, other in found if gap < NEAR_M)
 
     def reached(self, solid: TriangleMesh, shift_m: float) -> dict[int, float]:
@@ -43,12 +48,6 @@ class Contacts:
         may = np.flatnonzero(((self._lowest < highest) & (self._highest > lowest)).all(axis=1))
         shared = {index: (moved ^ self._manifolds[index]).volume() for index in may.tolist()}
         return {index: volume for index, volume in shared.items() if volume > 0.0}
-
-    def _boxes_near(self, index: int) -> list[int]:
-        lowest, highest = self._lowest[index] - NEAR_M, self._highest[index] + NEAR_M
-        near = ((self._lowest <= highest) & (self._highest >= lowest)).all(axis=1)
-        near[index] = False
-        return np.flatnonzero(near).tolist()
 
     @cached_property
     def _manifolds(self) -> list[Manifold]:

@@ -8,6 +8,7 @@ import pytest
 from ifc_bridges import DECK_KG_M3, MASS_KG, SCHEMAS, STEEL_KG_M3, VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.core.errors import IfcError
+from bridge_demolition_addon.core.geometry.solids import bodies, to_manifold, union
 from bridge_demolition_addon.ifc.bearings import free_motions
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.elements import Element
@@ -158,7 +159,26 @@ def test_a_bearing_that_bears_nothing_is_left_out(tmp_path):
     bridge = read(made, tmp_path)
     (spare,) = (each for each in bridge.outcomes if each.element.facts.name == "Spare")
     assert spare.became == "left out"
-    assert "nothing lies under it" in spare.why
+    assert spare.why == "nothing touches it from below"
+
+
+@pytest.mark.parametrize("gap_m, joined", [(5e-9, True), (5e-5, True), (-0.01, True), (0.002, False)])
+def test_a_bearing_a_little_above_or_in_what_it_lies_on(gap_m, joined, tmp_path):
+    """Up to 0.1 mm above, or sunk into it, the two are one solid; further off it is left out, and that is said."""
+    made = whole_bridge()
+    (bearing,) = (each for each in made.file.by_type("IfcBearing") if each.Name == "Bearing 2 left")
+    solid = bearing.Representation.Representations[0].Items[0]
+    solid.Position.Location.Coordinates = (10.0, 1.0, 3.5 + gap_m)
+    solid.Depth = 0.1 - gap_m
+    bridge = read(made, tmp_path)
+    (found,) = (each for each in bridge.outcomes if each.element.facts.name == "Bearing 2 left")
+    assert (found.became == "connection") == joined
+    if joined:
+        whole = union([member(bridge, "Crosshead").solid, found.mesh])
+        assert len(bodies(to_manifold(whole))) == 1
+        assert whole.volume == pytest.approx(1.0 * 4.0 * 0.6 + 0.4 * 0.4 * 0.1, abs=1e-8)
+    else:
+        assert found.why.startswith("nothing touches it from below; Crosshead is 2.0 mm off: close that gap")
 
 
 def test_motions_that_a_bearing_gives_itself(tmp_path):
