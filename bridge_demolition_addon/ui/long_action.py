@@ -57,8 +57,8 @@ class LongAction(Action):
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         messages.clear(self)
-        if _at_work:
-            return refused(self, DemolitionError(f"{_at_work[0].bl_label} goes on: wait for it, or stop it with Esc"))
+        if reason := _what_goes_on():
+            return refused(self, DemolitionError(reason))
         try:
             self._turns = Turns(self.work(context))
         except (DemolitionError, OSError) as error:
@@ -148,6 +148,8 @@ class RenderingAction(Refusing):
             return refused(self, error)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if reason := _what_goes_on():
+            return refused(self, DemolitionError(reason))
         try:
             self._pictures, self._total = self.begin(context)
         except (DemolitionError, OSError) as error:
@@ -186,6 +188,12 @@ class RenderingAction(Refusing):
         self._pictures.close()
         context.window_manager.event_timer_remove(self._timer)
         course.end(context)
+
+
+def _what_goes_on() -> str:
+    """Return in a sentence what else goes on and has to end first; empty where nothing does."""
+    going_on = course.going_on()
+    return f"{going_on.what} goes on: wait for it, or stop it with Esc" if going_on else ""
 
 
 _at_work: list[LongAction] = []

@@ -9,7 +9,7 @@ from habits import build, delete_all
 from panels import Panels
 from person import Person, Steps
 from pulse import Pulse, judge
-from traces import CHECKOUT, EXTENSION, handlers, recording_runs, rows
+from traces import CHECKOUT, EXTENSION, handlers, recording_runs, rows, something_goes_on
 
 SCENARIO = CHECKOUT / "examples" / "i235_one_span.toml"
 SHARDS = 200
@@ -66,6 +66,7 @@ def run_to_the_end(person: Person) -> Steps:
             yield from person.press("Z", ctrl=True)
             undone = True
     pulse.stop()
+    yield from person.wait_for("its pictures are taken", lambda: not something_goes_on(), 60.0)
     yield 1.0
     yield from person.picture("run")
     person.expect("undo does nothing meanwhile", person.scene.frame_current, person.scene.frame_end)
@@ -77,7 +78,7 @@ def run_to_the_end(person: Person) -> Steps:
     with np.load(folder / "results.npz") as arrays:
         person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, person.scene.frame_end + 1)))
     person.expect("no recording runs", recording_runs(), False)
-    person.expect_reports("nothing but the results is reported", "Results are in")
+    person.expect_reports("nothing but the results is reported", "Results are in", "Pictures of the run are in")
 
 
 def bake(person: Person) -> Steps:

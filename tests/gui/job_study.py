@@ -13,7 +13,7 @@ from habits import build, delete_all, play_or_pause
 from panels import Panels
 from person import Person, Steps, region_of
 from pulse import Pulse, judge
-from traces import module, recording_runs, rows
+from traces import module, recording_runs, rows, something_goes_on
 
 RUNS, QUANTILE, CONFIDENCE, RANK = 24, 0.5, 0.9, 1
 """Enough runs to pause them in the middle."""
@@ -192,10 +192,10 @@ def run_the_worst_draw(person: Person, panels: Panels) -> Steps:
     yield from person.fill_in("output_directory", str(results))
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 10.0)
-    yield from person.wait_for("it runs to its end", lambda: not recording_runs(), 120.0)
+    yield from person.wait_for("it runs to its end", lambda: not something_goes_on(), 120.0)
     yield 1.0
     yield from person.picture("worst_draw_run")
-    person.expect_reports("nothing but the results is reported", "Results are in")
+    person.expect_reports("nothing but the results is reported", "Results are in", "Pictures of the run are in")
     expected = next(
         kept["fingerprint"]
         for kept in map(read_json, folder(person).glob("draws/*/outcome.json"))

@@ -4,7 +4,7 @@
 import bpy
 from habits import build
 from person import Person, Steps
-from traces import module, opened, recording_runs
+from traces import module, opened, recording_runs, something_goes_on
 
 
 def steps(person: Person) -> Steps:
@@ -16,7 +16,7 @@ def steps(person: Person) -> Steps:
     yield from build(person)
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)
-    yield from person.wait_for("it is over", lambda: not recording_runs(), 120.0)
+    yield from person.wait_for("it is over", lambda: not something_goes_on(), 120.0)
     yield 0.5
     with person._in_sidebar():
         bpy.ops.bda.draw_charts("INVOKE_DEFAULT")

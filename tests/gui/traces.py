@@ -56,6 +56,11 @@ def recording_runs() -> bool:
     return module("simulation.blender_events").running_recording() is not None
 
 
+def something_goes_on() -> bool:
+    """Whether a recording runs, or its pictures are taken, or anything else shows how far it is."""
+    return recording_runs() or module("ui.course").going_on() is not None
+
+
 def handlers() -> Counter[str]:
     """How often each handler of the extension is registered."""
     lists = {name: getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)}
