@@ -45,12 +45,12 @@ def write_alembic(results: Results, path: Path, tell: Callable[[int, int, str], 
     named = zip(results.inventory.body_names.tolist(), body_meshes(results.inventory), strict=True)
     for body, (name, mesh) in enumerate(named):
         _add(scene, name, mesh, numbers, results.frames.positions_m[:, body], results.frames.rotations[:, body])
-    first, total, written = int(numbers[0]), len(numbers), set()
+    left = numbers.tolist()
 
     def count(shown: bpy.types.Scene, _: bpy.types.Depsgraph) -> None:
-        if shown.frame_current not in written:  # at its end Blender goes back to where it was
-            written.add(shown.frame_current)
-            tell(min(max(written) - first + 1, total), total, "frames written")
+        if shown.frame_current in left:  # once: Blender looks at some twice, and goes back to where it was
+            left.remove(shown.frame_current)
+            tell(len(numbers) - len(left), len(numbers), "frames written")
 
     bpy.app.handlers.frame_change_post.append(count)
     bpy.ops.wm.alembic_export(

@@ -13,6 +13,8 @@ class Format:
     ----------
     name
         What users call it.
+    title
+        What a menu calls it.
     what
         What is written, in a few words.
     ending
@@ -20,15 +22,16 @@ class Format:
     """
 
     name: str
+    title: str
     what: str
     ending: str = ""
 
 
-PARAVIEW = Format("paraview", "a folder with series of all bodies, centres and connections")
-XLSX = Format("xlsx", "all tables in one workbook", ".xlsx")
-GLTF = Format("gltf", "an animated model, which browsers show", ".glb")
-USD = Format("usd", "an animated stage, in double precision", ".usdc")
-ALEMBIC = Format("alembic", "an animated scene, by Blender", ".abc")
+PARAVIEW = Format("paraview", "ParaView", "a folder with series of all bodies, centres and connections")
+XLSX = Format("xlsx", "Spreadsheet (XLSX)", "all tables in one workbook", ".xlsx")
+GLTF = Format("gltf", "Animated Model (glTF)", "an animated model, which browsers show", ".glb")
+USD = Format("usd", "USD", "an animated stage, in double precision", ".usdc")
+ALEMBIC = Format("alembic", "Alembic", "an animated scene, by Blender", ".abc")
 
 FORMATS = {each.name: each for each in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC)}
 """All formats by their names."""

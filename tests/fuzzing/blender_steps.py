@@ -82,6 +82,7 @@ BUTTONS = {
     "make_workspace": 0.5,
     "go_to_body": 2,
     "draw_charts": 0.1,
+    "export_run": 0.1,
     "make_report": 0.1,
     "render_contours": 0.3,
 }

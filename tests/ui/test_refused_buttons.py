@@ -15,6 +15,7 @@ MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT")
 IN_A_LINKED_SCENE = {
     "dismiss_messages": "There are no messages",
     "draw_charts": "Nothing was recorded yet",
+    "export_run": "Nothing was recorded yet",
     "go_to_body": "is not in this scene",
     "make_report": "Run the scene first",
     "open_report": "Run the scene first",

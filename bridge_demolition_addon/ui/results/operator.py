@@ -1,4 +1,4 @@
-"""Operators of results: looking at a body, opening the folder, drawing charts and making the report."""
+"""Operators of results: looking at a body, opening the folder, charts, exports and the report."""
 
 import shutil
 import sys
@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.props import IntProperty, StringProperty
+from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ...core.blast.models import BlastModel
 from ...core.errors import OutputError, SimulationError, writing
 from ...core.results.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
 from ...core.results.summary import first_hit_s
+from ...exports.formats import FORMATS, Format
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...simulation.results_folder import keep_site
 from ..bridge_view import look_at_shards, shards_in_view
@@ -134,6 +135,36 @@ class BDA_OT_draw_charts(LongAction, _OfShownRun, bpy.types.Operator):
         return draw
 
 
+class BDA_OT_export_run(LongAction, _OfShownRun, bpy.types.Operator):
+    """Write the run into its folder for another program: all bodies in every frame; Esc stops"""
+
+    bl_idname = "bda.export_run"
+    bl_label = "Export"
+    what, unit = "Exporting the run", "parts"
+
+    form: EnumProperty(
+        name="Format",
+        description="What the run is written for",
+        items=[(each.name, each.title, each.what) for each in FORMATS.values()],
+    )
+
+    @classmethod
+    def why_not(cls, context: bpy.types.Context) -> str | None:
+        return super().why_not(context) or recording_runs(context)
+
+    def work(self, context: bpy.types.Context) -> Work:
+        from ...exports.write import export_run
+
+        folder, form, blender = shown_run(context.scene).folder, FORMATS[self.form], bpy.app.binary_path
+
+        def write(turns: Turns) -> str:
+            output = new_export(folder, form)
+            export_run(folder, form, output, turns, blender)
+            return f"{form.title}: {output}"
+
+        return write
+
+
 class BDA_OT_make_report(LongAction, bpy.types.Operator):
     """Make a report of the results, as a page and as a PDF, with zones and neighbours as shown here; Esc stops"""
 
@@ -197,6 +228,12 @@ def folder_to_report(scene: bpy.types.Scene) -> Path:
     return absolute(chosen) if chosen else folder_of_run(scene)
 
 
+def new_export(folder: Path, form: Format) -> Path:
+    """Return a new file or folder for an export, in the folder of its run: ``export``, and counted up from 2."""
+    names = (f"export{number}{form.ending}" for number in ("", *(f"_{each}" for each in range(2, 10_000))))
+    return next(path for name in names if not (path := folder / name).exists())
+
+
 def open_path(path: Path) -> None:
     """Open a folder or file as the system does.
 
@@ -222,6 +259,7 @@ CLASSES = (
     BDA_OT_look_at_bridge,
     BDA_OT_open_results,
     BDA_OT_draw_charts,
+    BDA_OT_export_run,
     BDA_OT_make_report,
     BDA_OT_open_report,
 )

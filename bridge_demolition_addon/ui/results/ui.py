@@ -37,6 +37,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("bda.open_results")
         row.operator("bda.draw_charts")
+        layout.operator_menu_enum("bda.export_run", "form", icon="EXPORT")
 
     def _draw_place(self, label: str, place: Place | None) -> None:
         """Draw a largest value, with a button that leads to where and when it was."""
