@@ -16,7 +16,8 @@ from ..core.blast.damage import distinct_thresholds, ring_radii
 from ..core.blast.models import BlastModel
 from ..core.blast.receptors import PlaceLoads, peak_overpressures
 from ..core.scenario import Neighbour
-from .plan_maps import draw_area
+from ..core.terrain.recorded import RecordedGround
+from .plan_maps import LEVEL_GROUND, draw_area, draw_ground
 from .style import DASHES, SHADES, line_style, plain
 
 _CELLS = 240
@@ -33,8 +34,9 @@ def overpressure_map(
     neighbours: Sequence[Neighbour],
     model: BlastModel,
     pressure_factor: float = 1.0,
+    ground: RecordedGround = LEVEL_GROUND,
 ) -> None:
-    """Largest overpressure of any one charge on the ground, with the rings of damage."""
+    """Largest overpressure of any one charge on the ground, with the rings of damage and the ground's contour lines."""
     thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= WIDEST_PA]
     radii = ring_radii(charges, 0.0, thresholds, model, pressure_factor)
     places = np.array([charge.place_m[:2] for charge in charges])
@@ -42,7 +44,8 @@ def overpressure_map(
     low = np.minimum(places.min(axis=0) - _ROOM * radii.max(), (left, back))
     high = np.maximum(places.max(axis=0) + _ROOM * radii.max(), (right, front))
     xs, ys = np.linspace(low[0], high[0], _CELLS), np.linspace(low[1], high[1], _CELLS)
-    grid = np.stack([*np.meshgrid(xs, ys), np.zeros((_CELLS, _CELLS))], axis=-1)
+    plan = np.stack(np.meshgrid(xs, ys), axis=-1)
+    grid = np.concatenate([plan, ground.heights_at(plan)[..., None]], axis=-1)
     peaks_pa = peak_overpressures(grid.reshape(-1, 3), charges, model, pressure_factor)
     peaks_kpa = peaks_pa.reshape(_CELLS, _CELLS) / 1e3
     axes = figure.add_subplot()
@@ -61,6 +64,7 @@ def overpressure_map(
         if (np.array(neighbour.place_m[:2]) >= low).all() and (np.array(neighbour.place_m[:2]) <= high).all():
             axes.plot(*neighbour.place_m[:2], "k^", markersize=5)
             name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
+    draw_ground(axes, ground)
     axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
     figure.colorbar(image, ax=axes, label="peak overpressure of one charge (kPa)", shrink=0.9)
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False, fontsize=8)

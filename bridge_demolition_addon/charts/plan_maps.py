@@ -13,6 +13,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
+from matplotlib.ticker import MaxNLocator
 
 from ..core.debris.exclusion import ExclusionZone
 from ..core.debris.footprint import plan_hulls
@@ -20,6 +21,7 @@ from ..core.debris.throws import Debris, HeightMap
 from ..core.geometry.plan_areas import outlines
 from ..core.results.arrays import Results
 from ..core.scenario import Zone
+from ..core.terrain.recorded import RecordedGround
 from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, plain
 
 NAMED_THROWS = 5
@@ -45,6 +47,13 @@ _MAP_TITLE_MM, _MAP_LEGEND_MM, _HIGHEST_MAPS_MM = 20.0, 10.0, 220.0
 """What title and labels of one of the maps beside each other need, their legend, and what fits on a page."""
 
 _SHORTEST_MAP_MM, _TALLEST_MAP_MM = 75.0, 150.0
+
+LEVEL_GROUND = RecordedGround()
+
+_SURFACE_COLOURS = {"water": "tab:blue", "river bank": "tab:green"}
+_CONTOUR, _CONTOUR_LINES, _FLAT_M = "peru", 12, 0.01
+_SEEN = 33
+"""Places along each side of a map at which it is seen which heights are in it."""
 
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
@@ -74,10 +83,44 @@ def debris_map(
         axes.annotate(str(number), last, ha="center", va="center", fontsize=6, bbox=box)
     fit(axes, figure)
     name_zones(axes, figure, zones)
+    draw_ground(axes, debris.ground)
 
 
-def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> None:
-    """Draw how high the debris lies, in plan."""
+def draw_ground(axes: Axes, ground: RecordedGround) -> None:
+    """Draw contour lines of ground that is not flat, and outlines of surfaces on it, in a map that was fitted."""
+    left, right, low, high = (*axes.get_xlim(), *axes.get_ylim())
+    for each in ground.surfaces:
+        style = {"fill": False, "edgecolor": _SURFACE_COLOURS.get(each.kind, "0.35"), "linewidth": 0.9}
+        draw_area(axes, each.plan(), linestyle="-.", zorder=0.8, **style)
+        corner = np.clip(each.plan().bounds()[:2], (left, low), (right, high))
+        axes.annotate(plain(each.name), corner, fontsize=6, va="bottom", color=style["edgecolor"], annotation_clip=True)
+    if ground.terrain is not None:
+        x, y, heights = ground.terrain.mesh.vertices.T
+        places = np.stack(np.meshgrid(np.linspace(left, right, _SEEN), np.linspace(low, high, _SEEN)), -1)
+        levels = _contour_levels(ground.terrain.heights_at(places))
+        if len(levels):
+            triangles = ground.terrain.mesh.triangles
+            lines = axes.tricontour(
+                x, y, triangles, heights, levels=levels, colors=_CONTOUR, linewidths=0.5, zorder=0.7
+            )
+            axes.clabel(lines, fmt="%g m", fontsize=5)
+    axes.set(xlim=(left, right), ylim=(low, high))
+
+
+def _contour_levels(heights_m: np.ndarray) -> np.ndarray:
+    """Heights of contour lines, a round distance apart; none where the ground is flat to the centimetre."""
+    known = heights_m[np.isfinite(heights_m)]
+    low, high = float(known.min(initial=np.inf)), float(known.max(initial=-np.inf))
+    if not high - low > _FLAT_M:
+        return np.zeros(0)
+    levels = MaxNLocator(_CONTOUR_LINES, steps=[1, 2, 5, 10]).tick_values(low, high)
+    return levels[(levels > low) & (levels < high)]
+
+
+def pile_map(
+    figure: FigureBase, heights: HeightMap, outline: CrossSection, ground: RecordedGround = LEVEL_GROUND
+) -> None:
+    """Draw how high the debris lies above the ground, in plan."""
     axes = plan_axes(figure)
     xs, ys = heights.xs_m, heights.ys_m
     half = (xs[1] - xs[0]) / 2.0
@@ -88,10 +131,13 @@ def pile_map(figure: FigureBase, heights: HeightMap, outline: CrossSection) -> N
     )
     draw_area(axes, outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
     fit(axes, figure)
+    draw_ground(axes, ground)
     figure.colorbar(image, ax=axes, label="height above the ground (m)", shrink=0.8)
 
 
-def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone] = ()) -> None:
+def exclusion_map(
+    figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone] = (), ground: RecordedGround = LEVEL_GROUND
+) -> None:
     """Draw the areas that make up the exclusion zone."""
     axes = plan_axes(figure)
     draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone")
@@ -102,6 +148,7 @@ def exclusion_map(figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone]
     draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
     fit(axes, figure)
     name_zones(axes, figure, zones)
+    draw_ground(axes, ground)
     _dimension(axes, zone)
 
 

@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from enum import StrEnum
+from typing import Any
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 from ..core.geometry.mesh import TriangleMesh
 from ..core.geometry.solids import box
+from ..core.geometry.vectors import transformed
 from ..core.scenario import Ground, GroundSurface, ShardSettings
+from ..core.scenario.kept import values_from_text, values_text
+from ..core.terrain.built import TerrainFacts
+from ..core.terrain.recorded import NamedSurface, RecordedGround
+from ..core.terrain.surface import Surface
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
 _MEMBER = "bda_member"
+_TERRAIN = "bda_terrain"
 _MEMBER_KIND = "bda_member_kind"
 _GROUND_THICKNESS_M = 2.0
 
@@ -145,9 +154,59 @@ def create_flat_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, sett
     return ground
 
 
-def create_terrain(world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: Ground) -> bpy.types.Object:
-    """Make passive ground of triangles, which bodies meet as they are and not as their convex hull."""
-    return _create_passive(world, mesh_of("Ground", mesh), "MESH", settings)
+def create_terrain(
+    world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: Ground, facts: TerrainFacts | None = None
+) -> bpy.types.Object:
+    """Make passive ground of triangles, which bodies meet as they are and not as their convex hull.
+
+    It keeps what became of the file that it was made from.
+    """
+    ground = _create_passive(world, mesh_of("Ground", mesh), "MESH", settings)
+    if facts is not None:
+        ground[_TERRAIN] = values_text(asdict(facts))
+    return ground
+
+
+def is_uneven_ground(body: bpy.types.Object) -> bool:
+    """Return whether a body is ground that was built here, which others meet at its triangles."""
+    return is_marked(body) and kind_of(body) == Kind.GROUND and body.rigid_body.collision_shape == "MESH"
+
+
+def ground_of(scene: bpy.types.Scene) -> RecordedGround:
+    """Return the ground that was built in a scene, where it lies now."""
+    world, terrain, surfaces = scene.rigidbody_world, None, []
+    for body in bodies_of(scene) if world and world.collection else []:
+        if not is_uneven_ground(body):
+            continue
+        mesh, matrix = triangle_mesh(body.data), np.array(body.matrix_world, float)
+        surface = Surface(TriangleMesh(transformed(matrix[:3, :3], mesh.vertices) + matrix[:3, 3], mesh.triangles))
+        name, kind = member_of(body)
+        if name:
+            surfaces.append(NamedSurface(name, kind, surface))
+        else:
+            terrain = surface
+    return RecordedGround(terrain, tuple(surfaces))
+
+
+def terrain_under(scene: bpy.types.Scene, eye: Vector, ray: Vector) -> Vector | None:
+    """Return where a ray meets the terrain of a scene, or a surface on it; None where it meets none."""
+    world = scene.rigidbody_world
+    places = []
+    for body in bodies_of(scene) if world and world.collection else []:
+        if not is_uneven_ground(body) or not body.visible_get():
+            continue
+        back = body.matrix_world.inverted_safe()
+        met, place, _, _ = body.ray_cast(back @ eye, back.to_3x3() @ ray)
+        if met:
+            places.append(body.matrix_world @ place)
+    return min(places, key=lambda place: (place - eye).length, default=None)
+
+
+def terrain_facts(scene: bpy.types.Scene) -> dict[str, Any] | None:
+    """Return what became of the file of a scene's terrain, by the names of `TerrainFacts`; None where it is flat."""
+    world = scene.rigidbody_world
+    bodies = bodies_of(scene) if world and world.collection else []
+    return next((values_from_text(str(body[_TERRAIN]), {}) for body in bodies if _TERRAIN in body), None)
 
 
 def create_surface(world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: GroundSurface) -> bpy.types.Object:

@@ -152,7 +152,7 @@ def _create_ground(world: bpy.types.RigidBodyWorld, scenario: Scenario, model: M
     if model.ground.terrain is None:
         ground = create_flat_ground(world, room_around(scenario, model.members), scenario.ground)
     else:
-        ground = create_terrain(world, model.ground.terrain.mesh, scenario.ground)
+        ground = create_terrain(world, model.ground.terrain.mesh, scenario.ground, model.ground.facts)
     for surface in model.ground.surfaces:
         create_surface(world, surface.mesh, surface.settings)
     return ground

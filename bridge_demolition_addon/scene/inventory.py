@@ -10,7 +10,7 @@ import numpy as np
 from ..core.errors import SimulationError
 from ..core.geometry.mesh import TriangleMesh, volumes_and_centres
 from ..core.results.inventory import Inventory
-from .bodies import Kind, is_marked, kind_of, member_of, scaled_mesh
+from .bodies import is_uneven_ground, kind_of, member_of, scaled_mesh
 from .connections.constraints import sections_of
 
 
@@ -27,9 +27,8 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
     areas, normals, second_moments = sections_of(connections)
     meshes = [scaled_mesh(body) for body in bodies]
     members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
-    triangles = [
-        mesh.triangles if _is_uneven(body) else mesh.triangles[:0] for body, mesh in zip(bodies, meshes, strict=True)
-    ]
+    uneven = [is_uneven_ground(body) for body in bodies]
+    triangles = [mesh.triangles[: None if kept else 0] for mesh, kept in zip(meshes, uneven, strict=True)]
     has_triangles = any(map(len, triangles))
     return Inventory(
         body_names=np.array([body.name for body in bodies], str),
@@ -49,11 +48,6 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         triangles=np.concatenate(triangles).astype(int) if has_triangles else None,
         triangle_counts=np.array([len(each) for each in triangles], int) if has_triangles else None,
     )
-
-
-def _is_uneven(body: bpy.types.Object) -> bool:
-    """Return whether a body is ground that was built here, which bodies meet at its triangles."""
-    return is_marked(body) and kind_of(body) == Kind.GROUND and body.rigid_body.collision_shape == "MESH"
 
 
 def _pairs(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> np.ndarray:

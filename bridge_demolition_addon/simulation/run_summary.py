@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -11,14 +11,18 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..core.debris.on_ground import bodies_under_ground, debris_on_surfaces
+from ..core.debris.throws import debris_of
 from ..core.debris.touchdown import landings, shaking_at
 from ..core.results.arrays import Results
 from ..core.results.fingerprint import motion_digest, result_digest
+from ..core.results.removed_shards import without_removed
 from ..core.results.summary import settling, summarise
 from ..core.scenario import Scenario
 from ..core.sequence.rest import Rest, last_event_s
 from ..core.sequence.undisturbed import fell_by_itself
 from ..core.structure.settlement import settlements
+from ..scene.bodies import terrain_facts
 from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step
 from .recording.recorder import Recording
@@ -42,6 +46,8 @@ class RunContext:
         What of that no scenario can say, in words.
     ground_motion : GroundMotionOfScene or None
         How the ground moves, where it does.
+    terrain : dict or None
+        What became of the file of the ground; None where it is flat.
     """
 
     title: str
@@ -50,6 +56,7 @@ class RunContext:
     scenario: Scenario | None
     made_by_hand: Sequence[str] = ()
     ground_motion: GroundMotionOfScene | None = None
+    terrain: Mapping[str, Any] | None = None
 
     @classmethod
     def of(
@@ -57,7 +64,7 @@ class RunContext:
     ) -> RunContext:
         """Return the context of a scene as it is now."""
         gravity, substep_s = np.array(scene.gravity, float), scene_time_step(scene).substep_s
-        return cls(title, gravity, substep_s, scenario, made_by_hand, ground_motion_of(scene))
+        return cls(title, gravity, substep_s, scenario, made_by_hand, ground_motion_of(scene), terrain_facts(scene))
 
 
 def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:
@@ -85,6 +92,8 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         **summarise(results, context.gravity, contact_time_s),
         "events": recording.applied_events,
         "ground_motion": _ground_motion(context.ground_motion),
+        "terrain": context.terrain,
+        **_on_ground(results),
         "made_by_hand": list(context.made_by_hand),
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
@@ -119,6 +128,26 @@ def _processor() -> str:
             if line.startswith("model name"):
                 return line.partition(":")[2].strip()
     return platform.processor() or platform.machine()
+
+
+def _on_ground(results: Results) -> dict[str, Any]:
+    """Debris on each surface of the ground by its name, and what went through the ground or off its edge."""
+    left, _ = without_removed(results)
+    under = bodies_under_ground(left)
+    debris = debris_of(left) if left.ground().surfaces else None
+    surfaces = debris_on_surfaces(left, debris) if debris else ()
+    return {
+        "debris_on_surfaces": {
+            each.name: {
+                "kind": each.kind,
+                "bodies": len(each.bodies),
+                "mass_kg": each.mass_kg,
+                "covered_m2": each.covered_m2,
+            }
+            for each in surfaces
+        },
+        "under_ground": [str(name) for name in left.inventory.body_names[under]],
+    }
 
 
 def rest_watch(scenario: Scenario, motion: GroundMotionOfScene | None) -> Rest:

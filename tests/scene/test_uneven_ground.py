@@ -139,3 +139,33 @@ def test_a_run_keeps_its_ground_and_the_bridge_stands_on_it(built, tmp_path):
     assert (river.name, river.kind) == ("river", "water")
     assert river.plan().area() == pytest.approx(37.0 * 18.0, rel=1e-6)
     np.testing.assert_allclose(ground.heights_at(np.array([[-20.0, 0.0], [20.0, 0.0]])), [0.4, 2.0], atol=1e-5)
+
+
+def test_what_is_laid_and_looked_at_follows_the_ground(built, blender, tmp_path):
+    """A picture of 40 m lies on the slope, a ray from above meets it there, and the land is as low as it gets."""
+    from mathutils import Vector
+
+    from bridge_demolition_addon.scene.bodies import ground_of, terrain_facts, terrain_under
+    from bridge_demolition_addon.scene.rendering.site_plan import lay_site_plan
+    from bridge_demolition_addon.scene.rendering.surroundings import surround
+
+    scene, _, model = built
+    image = blender.data.images.new("Plan", 8, 8)
+    image.filepath_raw, image.file_format = str(tmp_path / "plan.png"), "PNG"
+    image.save()
+    lay_site_plan(scene, tmp_path / "plan.png", 40.0, 90.0, (0.5, 0.5))
+    scene.view_layers[0].update()
+    plan = scene.objects["Site plan"]
+    corners = np.array([plan.matrix_world @ vertex.co for vertex in plan.data.vertices])
+    heights = np.where((corners[:, 0] < -3.0) & (abs(corners[:, 1]) < 9.0), 0.4, -np.inf)  # the river
+    far = np.abs(corners[:, 0] - 6.5) > 8.0  # from the columns, under which the ground is level
+    expected = np.maximum(0.1 * corners[:, 0], heights) + 0.01
+    np.testing.assert_allclose(corners[far, 2], expected[far], atol=1e-4)
+    place = terrain_under(scene, Vector((30.0, 5.0, 50.0)), Vector((0.0, 0.0, -1.0)))
+    assert tuple(place) == pytest.approx((30.0, 5.0, 3.0), abs=1e-4)
+    assert terrain_under(scene, Vector((30.0, 5.0, 50.0)), Vector((0.0, 0.0, 1.0))) is None
+    assert terrain_facts(scene)["triangles"] == model.ground.facts.triangles
+    assert ground_of(scene).surfaces[0].name == "river"
+    surround(scene, np.array([(0.0, 0.0, 0.0), (13.0, 0.0, 5.0)]))
+    land = max((scene.objects["Land"].matrix_world @ vertex.co).z for vertex in scene.objects["Land"].data.vertices)
+    assert land == pytest.approx(model.ground.facts.lowest_m - 0.01, abs=1e-3)

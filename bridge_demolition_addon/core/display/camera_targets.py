@@ -17,17 +17,19 @@ middle half as far."""
 
 
 def points_to_see(scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
-    """Return the points that a camera is to see: the bridge, what works on it, and the ground where members fall.
+    """Return the points that a camera is to see: the bridge, what works on it, and the ground where members fall, as
+    low as they stand.
 
     Returns
     -------
     (n, 3) float
         In m.
     """
-    (first, right, _), (last, left, top) = extent(members)
-    room = _DEBRIS_HEIGHTS * top
+    (first, right, low), (last, left, top) = extent(members)
+    foot = min(float(low), 0.0)
+    room = _DEBRIS_HEIGHTS * (top - foot)
     seen = [(x, y, top) for x in (first, last) for y in (right, left)]
-    seen += [(x, y, 0.0) for x in (first - room, last + room) for y in (right - room, left + room)]
+    seen += [(x, y, foot) for x in (first - room, last + room) for y in (right - room, left + room)]
     return np.array([*seen, *_of_the_ball(scenario, members), *_of_jackhammers(scenario, members)])
 
 

@@ -9,7 +9,10 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ..debris.exclusion import ExclusionZone, widened, widened_around
+from ..geometry.proximity import ranges
+from ..geometry.vectors import length
 from ..scenario import Exclusion, Zone
+from ..terrain.recorded import RecordedGround
 from .study_map import outline_lines
 
 FLASH_S = 0.25
@@ -18,6 +21,7 @@ FLASH_S = 0.25
 _FADING_S = 0.08
 _ABOVE_M = 0.02
 _RAYS = 8
+_DRAPED_M = 2.0
 
 
 def zone_lines(zone: Zone) -> np.ndarray:
@@ -29,6 +33,23 @@ def zone_lines(zone: Zone) -> np.ndarray:
     high = low + np.array((0.0, 0.0, zone.top_m - bottom))
     uprights = np.stack((low[::2], high[::2]), axis=1).reshape(-1, 3)
     return np.concatenate((low, high, uprights))
+
+
+def draped(lines_m: np.ndarray, ground: RecordedGround) -> np.ndarray:
+    """Return lines (2 k, 3) float, m, of which those just above height 0 follow the ground, in parts of 2 m at most."""
+    if ground.is_flat:
+        return lines_m
+    sides = lines_m.reshape(-1, 2, 3)
+    on_ground = sides[..., 2] == _ABOVE_M
+    flat, others = sides[on_ground.all(axis=1)], sides[~on_ground.all(axis=1)]
+    parts = np.maximum(np.ceil(length(flat[:, 1] - flat[:, 0]) / _DRAPED_M).astype(int), 1)
+    rows, numbers = ranges(np.zeros(len(flat), int), parts)
+    shares = np.stack((numbers, numbers + 1), axis=1) / parts[rows, None]
+    flat = flat[rows, 0][:, None] + shares[..., None] * (flat[rows, 1] - flat[rows, 0])[:, None]
+    sides = np.concatenate([flat, others])
+    follows = np.concatenate([np.ones(flat.shape[:2], bool), on_ground[~on_ground.all(axis=1)]])
+    sides[follows, 2] += ground.heights_at(sides[follows, :2])
+    return sides.reshape(-1, 3)
 
 
 def ring_of(corners_m: np.ndarray, height_m: float) -> np.ndarray:

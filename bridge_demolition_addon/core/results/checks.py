@@ -136,6 +136,10 @@ def checked_summary(summary: Any) -> dict[str, Any]:
             _check_table(name, summary[name], {"time_s": _is_number, "reason": _is_text}, optional=("reason",))
     if summary.get("fell_by_itself") is not None:
         _check_table("fell_by_itself", summary["fell_by_itself"], _FALL)
+    if summary.get("terrain") is not None:
+        _check_table("terrain", summary["terrain"], _TERRAIN)
+        for number, each in enumerate(summary["terrain"]["levelled"]):
+            _check_table(f"terrain.levelled[{number}]", each, _LEVELLED)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -261,7 +265,22 @@ _FALL = {
     "connections": _is_number,
     "largest_move_m": _is_number,
 }
+_TERRAIN = {
+    "name": _is_text,
+    "heights": _is_number,
+    "triangles": _is_number,
+    "step_m": _is_number,
+    "largest_error_m": _is_number,
+    "error_place_m": lambda value: _is_list(value) and len(value) == 2 and all(map(_is_number, value)),
+    "common_error_m": _is_number,
+    "lowest_m": _is_number,
+    "highest_m": _is_number,
+    "filled_in_share": _is_number,
+    "levelled": _is_list,
+}
+_LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
+    "terrain": _is_table_or_none,
     "made_by_hand": _are_texts,
     "fell_by_itself": _is_table_or_none,
     "title": _is_text,

@@ -196,7 +196,16 @@ class Ball(_Drop):
         for name in ("target_m", "drop_height_m", "hits"):
             if getattr(self, name):
                 raise ScenarioError(f"ball.{name} is given together with ball.cable: expected one of the two")
-        lowest_m = cable.lowest_point_m[2] - self.diameter_m / 2.0
-        if lowest_m <= 0.0:
+
+    def check_swing(self, ground_m: float) -> None:
+        """Make sure that a ball on a cable swings above ground of a height, m.
+
+        Raises
+        ------
+        ScenarioError
+            It would swing into it.
+        """
+        lowest_m = self.cable.lowest_point_m[2] - self.diameter_m / 2.0
+        if lowest_m <= ground_m:
             wanted = f"a ball that swings above the ground, its lowest point is at {lowest_m:.6g} (m)"
-            raise cable.unexpected("length_m", wanted)
+            raise self.cable.unexpected("length_m", wanted)

@@ -132,6 +132,8 @@ class Scenario(Table):
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
         for ball in (self.ball, *self.ball.hits) if self.ball else ():
             self._check_release(ball)
+        if self.ball and self.ball.cable and self.ground.file is None:
+            self.ball.check_swing(0.0)
         for drop in self.ball.drops if self.ball else ():
             self._check_on_deck(f"{drop.table}.target_m", drop.target_m)
         for hit in self.ball.hits if self.ball else ():

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 from manifold3d import Manifold
 
 from ..bridge.extent import surface_height
@@ -43,6 +44,9 @@ def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -
     heights = [surface_height(scenario, model.members, place) for place in drops]
     for hammer in scenario.jackhammers:
         surface_height(scenario, model.members, hammer.path_m[0])
+    if scenario.ball and scenario.ball.cable and scenario.ground.file is not None:
+        lowest = np.array([scenario.ball.cable.lowest_point_m[:2]])
+        scenario.ball.check_swing(float(np.nan_to_num(model.ground.heights_at(lowest)[0], nan=-np.inf)))
     if scenario.ball:
         _check_start(scenario.ball, heights[0] if heights else 0.0, model.members)
     return model

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -202,6 +203,21 @@ def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:
     cells = np.clip(np.floor((points[:, :2] - grid.low) / grid.step_m).astype(np.int64), 0, grid.size - 2)
     corners = [kept[cells[:, 1] + down, cells[:, 0] + right] for down in (0, 1) for right in (0, 1)]
     return np.any(corners, axis=0)
+
+
+def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
+    """Return the facts that a run's summary keeps.
+
+    Raises
+    ------
+    KeyError, TypeError
+        They are others.
+    """
+    known = {each.name: values[each.name] for each in fields(TerrainFacts)}
+    x, y = known["error_place_m"]
+    return TerrainFacts(
+        **known | {"error_place_m": (x, y), "levelled": tuple(Levelled(**each) for each in known["levelled"])}
+    )
 
 
 def told(facts: TerrainFacts) -> list[tuple[str, str]]:

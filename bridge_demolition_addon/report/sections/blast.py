@@ -14,11 +14,12 @@ from ...core.blast.models import BlastModel
 from ...core.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
 from ...core.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
 from ...core.scenario import Scenario
+from ...core.terrain.recorded import RecordedGround
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 
-def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
-    """What the charges do around the bridge; None where the scenario has none that does anything."""
+def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGround) -> Section | None:
+    """What the charges do around the bridge, on that ground; None where the scenario has none that does anything."""
     charges = tuple(charge for charge in scenario.charges if charge.mass_kg > 0.0)
     if not charges:
         return None
@@ -38,6 +39,7 @@ def blast_section(scenario: Scenario, bridge: CrossSection) -> Section | None:
                 neighbours=scenario.neighbours,
                 model=model,
                 pressure_factor=factor,
+                ground=ground,
             ),
             "Peak overpressure on the ground, the largest that any one charge gives by itself; where waves meet, it "
             f"can be more. Rings up to that of {WIDEST_PA / 1e3:g} kPa; those of less are in the table. Free field: "

@@ -10,13 +10,16 @@ import numpy as np
 from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
 from ...core.debris.exclusion import ExclusionZone, exclusion_zone
+from ...core.debris.on_ground import bodies_under_ground, debris_on_surfaces
 from ...core.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
 from ...core.debris.zones import ZoneWatch, watch_zone
 from ...core.geometry.plan_areas import outlines
 from ...core.results.arrays import Results
 from ...core.results.motion import MOVED_M
+from ...core.results.removed_shards import without_removed
 from ...core.results.solver_energy import throws_of
 from ...core.scenario import Zone
+from ...core.terrain.built import facts_from, told
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run
 
@@ -70,7 +73,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
     blocks: list[Block] = [
         Paragraph(words),
         Picture(
-            partial(exclusion_map, zone=zone, zones=run.scenario.zones),
+            partial(exclusion_map, zone=zone, zones=run.scenario.zones, ground=run.results.ground()),
             "Exclusion zone in plan, with its reach beyond the bridge to each side.",
             map_height_mm(zone.whole.bounds()),
         ),
@@ -111,13 +114,15 @@ def _debris_blocks(
     extent = f", from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to {high[1]:.2f} m"
     mass = debris.masses_kg.sum()
     middle = debris.masses_kg @ results.frames.positions_m[-1, debris.bodies] / mass
+    places = results.frames.positions_m[-1, debris.bodies]
+    above_m = float(debris.masses_kg @ (places[:, 2] - debris.ground.heights_at(places[:, :2])) / mass)
     solid = float(results.inventory.volumes_m3[debris.bodies].sum())
     shards = len(results.inventory.of_kind("shard"))
     rows = [
         ("Debris", f"{len(debris.bodies)} of {shards} shards, {mass / 1e3:.2f} t"),
         ("Footprint", f"{debris.area.area():.1f} m²{extent if covered is debris.area else ''}"),
         ("Bridge before", f"{debris.outline.area():.1f} m² in plan"),
-        ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {middle[2]:.2f} m above the ground"),
+        ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {above_m:.2f} m above the ground"),
         ("Highest point of the pile", f"{debris.highest_m:.2f} m above the ground"),
         ("Volume of the pile", f"{heights.volume_m3:.1f} m³ under its surface, {solid:.1f} m³ of it solid"),
         ("Farthest beyond the bridge's outline", f"{debris.reaches_m.max():.2f} m"),
@@ -132,7 +137,11 @@ def _debris_blocks(
             map_height_mm(bounds),
         ),
         facts("Debris at the end", rows, "debris"),
-        Picture(partial(pile_map, heights=heights, outline=debris.outline), "Height of the debris.", 85.0),
+        Picture(
+            partial(pile_map, heights=heights, outline=debris.outline, ground=debris.ground),
+            "Height of the debris.",
+            85.0,
+        ),
         _throw_table(debris),
         Picture(
             partial(throw_distribution, throws_m=debris.throws_m, masses_kg=debris.masses_kg),
@@ -141,6 +150,45 @@ def _debris_blocks(
         ),
         _largest_throws(results, debris),
         *_doubts(results),
+        *_on_surfaces(results, debris),
+    ]
+
+
+def ground_section(run: Run) -> Section | None:
+    """Return what the ground is; None where it is flat and nothing went through it."""
+    results = without_removed(run.results)[0]
+    under, ground = bodies_under_ground(results), results.ground()
+    blocks: list[Block] = []
+    if run.summary and run.summary.get("terrain"):
+        blocks.append(facts("Ground", told(facts_from(run.summary["terrain"])), "terrain"))
+    if ground.surfaces:
+        rows = [(each.name, f"{each.kind}, {each.plan().area():.1f} m² in plan") for each in ground.surfaces]
+        blocks.append(facts("Surfaces on the ground", rows, "surfaces"))
+    if len(under):
+        words = (
+            f"{len(under)} bodies went through the ground or off its edge, such as "
+            f"{results.inventory.body_names[under[0]]}: their throws are wrong. What is small and fast needs more "
+            "sub-steps: set time.farthest_per_substep_m to a part of the smallest shard."
+        )
+        blocks.append(Paragraph(words, is_notice=True))
+    return Section("Ground", tuple(blocks)) if blocks else None
+
+
+def _on_surfaces(results: Results, debris: Debris) -> list[Block]:
+    """Table of the debris on each surface of the ground."""
+    found = debris_on_surfaces(results, debris)
+    if not found:
+        return []
+    columns = (
+        Column("surface", "surface"),
+        Column("kind", "kind"),
+        Column("shards on it", "shards", "d"),
+        Column("mass (t)", "mass_t", ".2f"),
+        Column("covered (m²)", "covered_m2", ".1f"),
+    )
+    rows = [(each.name, each.kind, len(each.bodies), each.mass_kg / 1e3, each.covered_m2) for each in found]
+    return [
+        DataTable("debris_on_surfaces", "Debris over each surface, by where its middle lies in plan", columns, rows)
     ]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.fracture.finishes import Finish, finishes
 from ...core.structure.model import Model
-from ..bodies import Kind, kind_of
+from ..bodies import Kind, kind_of, member_of
 from .materials import BUILT_AT, Surface, material_of
 
 _OF_FINISH = {Finish.CAST: Surface.CONCRETE, Finish.BROKEN: Surface.BROKEN_CONCRETE, Finish.ROAD: Surface.ASPHALT}
@@ -19,6 +19,8 @@ _OF_KIND = {
     Kind.CRANE: Surface.PAINT,
     Kind.GROUND: Surface.SOIL,
 }
+_OF_SURFACE = {"water": Surface.WATER, "carriageway": Surface.ASPHALT}
+"""Of surfaces on the ground, by their kind."""
 
 
 def finish_shards(shards: Sequence[bpy.types.Object], model: Model) -> None:
@@ -36,6 +38,7 @@ def finish_others(bodies: Iterable[bpy.types.Object]) -> None:
     for body in bodies:
         kind = kind_of(body)
         if kind in _OF_KIND and not body.data.materials:
-            body.data.materials.append(material_of(_OF_KIND[kind]))
+            surface = _OF_SURFACE.get(member_of(body)[1], _OF_KIND[kind]) if kind == Kind.GROUND else _OF_KIND[kind]
+            body.data.materials.append(material_of(surface))
         if kind == Kind.BALL:
             body.data.polygons.foreach_set("use_smooth", np.ones(len(body.data.polygons), bool))

@@ -22,6 +22,7 @@ class Surface(StrEnum):
     STEEL = "Steel"
     PAINT = "Yellow paint"
     SOIL = "Soil"
+    WATER = "Water"
     CHARGE = "Charge"
 
 
@@ -64,6 +65,9 @@ _LOOKS = {
     ),
     Surface.STEEL: _Look((0.08, 0.09, 0.10), (0.04, 0.04, 0.045), (0.10, 0.10, 0.105), 0.35, metallic=0.9, grain_m=0.4),
     Surface.PAINT: _Look((0.60, 0.37, 0.02), (0.55, 0.33, 0.02), (0.65, 0.41, 0.03), 0.4, grain_m=0.5),
+    Surface.WATER: _Look(
+        (0.10, 0.20, 0.26), (0.012, 0.035, 0.045), (0.02, 0.05, 0.06), 0.12, grain_m=9.0, depth_m=0.01
+    ),
     Surface.SOIL: _Look(
         (0.18, 0.17, 0.12), (0.075, 0.075, 0.035), (0.165, 0.145, 0.085), 1.0, grain_m=6.0, depth_m=0.03
     ),

@@ -6,13 +6,20 @@ import math
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 from ...core.errors import OutputError
+from ...core.geometry.rotations import turn_in_plane
+from ...core.geometry.vectors import transformed
+from ..bodies import ground_of
 from ..collections import collection_for, find_collection
 
 _ROLE, _MARK = "Site plan", "bda_role"
 _ABOVE_M = 0.01
 """Above the ground, so that the two do not flicker."""
+
+_PARTS = 128
+"""Parts of a side where the ground is not flat, which the picture then follows."""
 
 
 def lay_site_plan(
@@ -47,11 +54,17 @@ def lay_site_plan(
     height_m = width_m * image.size[1] / image.size[0]
     remove_site_plan(scene)
     left, low = -origin[0] * width_m, -origin[1] * height_m
-    corners = [(left, low), (left + width_m, low), (left + width_m, low + height_m), (left, low + height_m)]
+    ground, turn = ground_of(scene), turn_in_plane(math.radians(bearing_deg - 90.0))
+    parts = 1 if ground.is_flat else _PARTS
+    shares = np.stack(np.meshgrid(*2 * (np.linspace(0.0, 1.0, parts + 1),)), -1).reshape(-1, 2)
+    places = shares * (width_m, height_m) + (left, low)
+    corners = np.column_stack((places, ground.heights_at(transformed(turn, places))))
+    first = (np.arange(parts)[:, None] * (parts + 1) + np.arange(parts)).ravel()
+    faces = np.column_stack((first, first + 1, first + parts + 2, first + parts + 1))
     mesh = bpy.data.meshes.new("Site plan")
-    mesh.from_pydata([(x, y, 0.0) for x, y in corners], [], [(0, 1, 2, 3)])
+    mesh.from_pydata(corners.tolist(), [], faces.tolist())
     layer = mesh.uv_layers.new(name="Picture")
-    for loop, place in zip(layer.data, ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)), strict=True):
+    for loop, place in zip(layer.data, shares[faces.ravel()].tolist(), strict=True):
         loop.uv = place
     mesh.materials.append(_material(image))
     plan = bpy.data.objects.new("Site plan", mesh)

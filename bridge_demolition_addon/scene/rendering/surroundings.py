@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.geometry.solids import box
 from ...core.scenario.recording import PictureSettings
-from ..bodies import SOIL, mesh_of
+from ..bodies import SOIL, bodies_of, is_uneven_ground, mesh_of, scaled_mesh
 from ..collections import collection_for, find_collection
 from .camera import aim_camera
 from .materials import Surface, material_of
@@ -54,7 +54,7 @@ def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings |
     scene[_POINTS] = np.asarray(points, float).ravel().tolist()
     camera = aim_camera(scene, points, scene.render.resolution_x / scene.render.resolution_y, collection, view)
     scene.camera = own or camera
-    land = _land(camera.data.clip_end / 2.0)
+    land = _land(camera.data.clip_end / 2.0, _lowest_ground(scene))
     for each in (_sun(), land):
         collection.objects.link(each)
     for each in collection.objects:
@@ -98,10 +98,18 @@ def _sun() -> bpy.types.Object:
     return sun
 
 
-def _land(half_size_m: float) -> bpy.types.Object:
+def _lowest_ground(scene: bpy.types.Scene) -> float:
+    """Return the height of the lowest place of ground that is not flat, m; 0 without such."""
+    world = scene.rigidbody_world
+    bodies = bodies_of(scene) if world and world.collection else []
+    uneven = [each for each in bodies if is_uneven_ground(each)]
+    return min((float(scaled_mesh(each).vertices[:, 2].min()) for each in uneven), default=0.0)
+
+
+def _land(half_size_m: float, height_m: float) -> bpy.types.Object:
     """Make ground to the horizon, just below that of the simulation."""
     size = 2.0 * half_size_m
-    mesh = mesh_of("Land", box((size, size, _LAND_THICKNESS_M), (0.0, 0.0, -_LAND_THICKNESS_M)))
+    mesh = mesh_of("Land", box((size, size, _LAND_THICKNESS_M), (0.0, 0.0, min(height_m, 0.0) - _LAND_THICKNESS_M)))
     mesh.materials.append(material_of(Surface.SOIL))
     land = bpy.data.objects.new("Land", mesh)
     land.color, land.hide_select = SOIL, True

@@ -16,7 +16,9 @@ from ...core.geometry.plan_areas import united
 from ...core.geometry.vectors import transformed
 from ...core.results.arrays import Results
 from ...core.scenario import Exclusion
-from ...scene.bodies import Kind, bodies_of, kind_of, triangle_mesh
+from ...core.terrain.recorded import RecordedGround
+from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
+from ...scene.bodies import ground_of as ground_in
 from ...simulation.blender_events import contours_of
 
 _found: dict[str, tuple[tuple, Any]] = {}
@@ -74,6 +76,15 @@ def zone_of(scene: bpy.types.Scene, settings: Exclusion) -> ExclusionZone | None
     if results is None or not len(results.inventory.of_kind("shard")):
         return planned_zone(plan, settings)
     return _kept("zone", (*_key(scene), settings), lambda: exclusion_zone(results, settings))
+
+
+def ground_of(scene: bpy.types.Scene) -> RecordedGround:
+    """Return the ground of a scene, as it was built."""
+    world = scene.rigidbody_world
+    bodies = bodies_of(scene) if world and world.collection else []
+    built = [(body.name, len(body.data.vertices)) for body in bodies if is_uneven_ground(body)]
+    key = (scene.session_uid, tuple(built), scene.bda.built_scenario)
+    return _kept("ground", key, lambda: ground_in(scene))
 
 
 def way_of_ball(scene: bpy.types.Scene) -> list[np.ndarray]:

@@ -6,13 +6,13 @@ Nothing here changes any data, and nothing raises: the sidebar says what cannot 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.display.ground_lines import cross_lines, flash_lines, flash_share, way_lines, zone_lines
+from ...core.display.ground_lines import cross_lines, draped, flash_lines, flash_share, way_lines, zone_lines
 from ...core.display.study_map import outline_lines
 from ...core.geometry.plan_areas import outlines
 from ...scene.blast.charges import charges_of
@@ -80,8 +80,10 @@ def unregister() -> None:
 def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     """Give all that is drawn of a scene, as its settings ask for it."""
     for name, parts in _PARTS.items():
-        if name in scene.bda.overlays:
-            yield from parts(scene, layer)
+        if name not in scene.bda.overlays:
+            continue
+        for each in parts(scene, layer):
+            yield replace(each, lines=draped(each.lines, areas.ground_of(scene))) if name in _ON_GROUND else each
 
 
 def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -151,6 +153,8 @@ def _outlined(area: CrossSection, name: str, text: str) -> Drawn:
     place = corners[corners[:, 0].argmax()] if len(corners) else (0.0, 0.0)
     return Drawn(outline_lines(area), _COLOURS[name], _WIDTHS_PX.get(name, _WIDTH_PX), text, (*place, 0.0))
 
+
+_ON_GROUND = (EXCLUSION, ZONES, DEBRIS, RINGS)
 
 _PARTS = {
     EXCLUSION: _exclusion,

@@ -10,6 +10,7 @@ from ...core.display.dust import puffs
 from ...core.errors import DemolitionError
 from ...core.scenario import Zone
 from ...core.toml_tables import toml_value
+from ...scene.bodies import terrain_under
 from ...scene.rendering.dust import raise_dust, remove_dust
 from ...scene.rendering.site_plan import lay_site_plan
 from ...simulation.blender_events import contours_of
@@ -173,13 +174,15 @@ def unregister() -> None:
 
 
 def ground_under(context: bpy.types.Context, mouse_x: int, mouse_y: int) -> tuple[float, float] | None:
-    """Return the place at height 0 that the mouse is over, x and y in m; None where it is over none."""
+    """Return the place on the ground that the mouse is over, x and y in m; None where it is over none."""
     region = next(each for each in context.area.regions if each.type == "WINDOW")
     x, y = mouse_x - region.x, mouse_y - region.y
     if not (0 <= x < region.width and 0 <= y < region.height):
         return None
     view = context.area.spaces.active.region_3d
     eye, ray = region_2d_to_origin_3d(region, view, (x, y)), region_2d_to_vector_3d(region, view, (x, y))
+    if (met := terrain_under(context.scene, eye, ray)) is not None:
+        return round(met.x, 2), round(met.y, 2)
     if eye.z * ray.z >= 0.0:  # it looks away from the ground
         return None
     place = eye - ray * (eye.z / ray.z)

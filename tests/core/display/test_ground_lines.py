@@ -12,13 +12,17 @@ from bridge_demolition_addon.core.display.ground_lines import (
     FLASH_S,
     cross_lines,
     distance_rings,
+    draped,
     flash_lines,
     flash_share,
     planned_zone,
     way_lines,
     zone_lines,
 )
+from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.core.scenario import Exclusion, Zone
+from bridge_demolition_addon.core.terrain.recorded import RecordedGround
+from bridge_demolition_addon.core.terrain.surface import Surface
 
 SQUARE = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))
 
@@ -86,3 +90,18 @@ def test_there_is_no_dust_where_nothing_breaks_and_never_too_much():
     both = puffs(changed(results, intact=whole))
     assert len(both) == 2 and len(puffs(changed(results, intact=whole), most=1)) == 1
     assert puffs(changed(results, intact=whole), most=1)[0].radius_m == max(each.radius_m for each in both)
+
+
+def test_lines_on_the_ground_follow_a_slope():
+    """A zone of 8 m by 4 m on ground that rises by 1 in 10: its sides in parts of 2 m, its top where it was."""
+    corners = np.array([[-50, -50, -5], [50, -50, 5], [50, 50, 5], [-50, 50, -5]], float)
+    ground = RecordedGround(Surface(TriangleMesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))))
+    zone = Zone(name="road", corners_m=((0, 0), (8, 0), (8, 4), (0, 4)), top_m=6.0)
+    lines = draped(zone_lines(zone), ground)
+    top = lines[:, 2] == 6.0
+    # Four sides at the top and one end of each of four uprights; 4 + 2 + 4 + 2 parts and the other ends at the bottom.
+    assert (top.sum(), (~top).sum()) == (8 + 4, 24 + 4)
+    np.testing.assert_allclose(lines[~top, 2], 0.02 + 0.1 * lines[~top, 0], atol=1e-12)
+    sides = lines.reshape(-1, 2, 3)
+    assert np.linalg.norm(np.diff(sides[(sides[..., 2] != 6.0).all(axis=1)], axis=1)[..., :2], axis=-1).max() <= 2.0
+    np.testing.assert_array_equal(draped(zone_lines(zone), RecordedGround()), zone_lines(zone))

@@ -1,18 +1,21 @@
 """A ball swings on its cable as a pendulum does, and hits what stands in its way."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from blocks import Blocks
 from scenarios import I235
+from terrain_files import EASTING, NORTHING, write_asc
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario import Ball, BallCable
+from bridge_demolition_addon.core.scenario import Ball, BallCable, Ground
 from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
+from bridge_demolition_addon.core.sequence.checked_model import checked_model
 from bridge_demolition_addon.core.sequence.rest import last_event_s
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
@@ -113,15 +116,25 @@ def test_facts_and_events_of_a_swing():
             {"drop_height_m": None, "cable": None},
             r"ball.drop_height_m is missing: expected a number above 0 and up to 10000.0 \(m\), or a",
         ),
-        (
-            {"target_m": None, "drop_height_m": None, "cable": replace(CABLE, length_m=11.5)},
-            r"ball.cable.length_m is 11.5: expected a ball that swings above the ground, its lowest point is at -0.17",
-        ),
     ],
 )
 def test_wrong_cables_are_refused(values, text):
     with pytest.raises(ScenarioError, match=text):
         replace(I235.ball, **{"cable": CABLE, **values})
+
+
+def test_a_ball_swings_above_the_ground_and_may_swing_into_a_valley(tmp_path):
+    """11.5 m of cable take the ball 17 cm below height 0, where flat ground is; it does not reach a valley below."""
+    low = replace(I235.ball, target_m=None, drop_height_m=None, cable=replace(CABLE, length_m=11.5))
+    message = r"ball.cable.length_m is 11.5: expected a ball that swings above the ground, its lowest point is at -0.17"
+    with pytest.raises(ScenarioError, match=message):
+        replace(I235, ball=low)
+    for height, reached in ((-0.3, False), (-0.1, True)):
+        path = write_asc(tmp_path / "level.asc", lambda x, _, level=height: level + 0.0 * x, count=121)
+        ground = Ground(file=str(path), origin=(EASTING + 150.0, NORTHING + 150.0, 0.0))
+        scenario = replace(I235, ball=low, ground=ground, fracture=replace(I235.fracture, shards=10))
+        with pytest.raises(ScenarioError, match=message) if reached else nullcontext():
+            checked_model(scenario)
 
 
 def test_cables_that_do_not_hang_are_refused():

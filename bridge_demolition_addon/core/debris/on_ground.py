@@ -1,0 +1,65 @@
+"""What debris comes to lie on: surfaces such as water or the carriageway below, and what is under the ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..results.arrays import Results
+from ..results.motion import MOVED_M, relative_to_ground
+from .footprint import corners_at
+from .throws import Debris
+
+_BELOW_M = 0.1
+"""How far all of a body has to be below the ground to have gone through it, and not into a dip between two heights."""
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceDebris:
+    """Debris on a surface.
+
+    Attributes
+    ----------
+    name, kind : str
+        What the surface is called, and what it is.
+    bodies : (d,) int
+        Shards whose centres lie over it in plan in the end, and not below it.
+    mass_kg : float
+        What they weigh together.
+    covered_m2 : float
+        Part of its area that debris covers.
+    """
+
+    name: str
+    kind: str
+    bodies: np.ndarray
+    mass_kg: float
+    covered_m2: float
+
+
+def debris_on_surfaces(results: Results, debris: Debris) -> tuple[SurfaceDebris, ...]:
+    """Return the debris on each surface of the ground, at the last recorded step."""
+    results = relative_to_ground(results)
+    places = results.frames.positions_m[-1, debris.bodies]
+    found = []
+    for each in debris.ground.surfaces:
+        on_it = places[:, 2] >= each.surface.heights_at(places[:, :2]) - MOVED_M  # nan beside it
+        mass = float(debris.masses_kg[on_it].sum())
+        covered = float((debris.area ^ each.plan()).area())
+        found.append(SurfaceDebris(each.name, each.kind, debris.bodies[on_it], mass, covered))
+    return tuple(found)
+
+
+def bodies_under_ground(results: Results) -> np.ndarray:
+    """Return the shards and balls that are all below the ground in the end: they went through it, or off its edge."""
+    results = relative_to_ground(results)
+    inventory, ground = results.inventory, results.ground()
+    bodies = np.concatenate([inventory.of_kind("shard"), inventory.of_kind("ball")])
+    places = results.frames.positions_m[-1, bodies]
+    bodies = bodies[places[:, 2] < ground.heights_at(places[:, :2])]  # of all others a part is above it
+    under = [
+        (corners[:, 2] < ground.heights_at(corners[:, :2]) - _BELOW_M).all()
+        for corners in corners_at(results, -1, bodies)
+    ]
+    return bodies[np.array(under, bool)]
