@@ -145,7 +145,8 @@ def test_what_is_laid_and_looked_at_follows_the_ground(built, blender, tmp_path)
     """A picture of 40 m lies on the slope, a ray from above meets it there, and the land is as low as it gets."""
     from mathutils import Vector
 
-    from bridge_demolition_addon.scene.bodies import ground_of, terrain_facts, terrain_under
+    from bridge_demolition_addon.scene.bodies import terrain_facts
+    from bridge_demolition_addon.scene.rendering.ground import ground_of, terrain_under
     from bridge_demolition_addon.scene.rendering.site_plan import lay_site_plan
     from bridge_demolition_addon.scene.rendering.surroundings import surround
 

@@ -11,8 +11,8 @@ import numpy as np
 from ...core.errors import OutputError
 from ...core.geometry.rotations import turn_in_plane
 from ...core.geometry.vectors import transformed
-from ..bodies import ground_of
 from ..collections import collection_for, find_collection
+from .ground import ground_of
 
 _ROLE, _MARK = "Site plan", "bda_role"
 _ABOVE_M = 0.01

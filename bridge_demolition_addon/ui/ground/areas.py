@@ -18,7 +18,7 @@ from ...core.results.arrays import Results
 from ...core.scenario import Exclusion
 from ...core.terrain.recorded import RecordedGround
 from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
-from ...scene.bodies import ground_of as ground_in
+from ...scene.rendering.ground import ground_of as ground_in
 from ...simulation.blender_events import contours_of
 
 _found: dict[str, tuple[tuple, Any]] = {}

@@ -10,8 +10,8 @@ from ...core.display.dust import puffs
 from ...core.errors import DemolitionError
 from ...core.scenario import Zone
 from ...core.toml_tables import toml_value
-from ...scene.bodies import terrain_under
 from ...scene.rendering.dust import raise_dust, remove_dust
+from ...scene.rendering.ground import terrain_under
 from ...scene.rendering.site_plan import lay_site_plan
 from ...simulation.blender_events import contours_of
 from ..contours import view as contour_view
