@@ -9,6 +9,7 @@ from ..core.bridge import deck_top
 from ..core.bridge.member import Member, mean_density
 from ..core.bridge.preparation import prepared_members
 from ..core.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ..core.ground_motion.settings import DIRECTIONS
 from ..core.mechanics.bar_layers import AXES, SIDES
 from ..core.mechanics.joint import Joint
 from ..core.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
@@ -32,6 +33,7 @@ from ..core.structure.model import Model
 from ..core.terrain.built import BuiltGround, told
 from ..core.terrain.recorded import NamedSurface
 from ..core.terrain.surface import Surface
+from ..core.units import STANDARD_GRAVITY_M_S2
 from .arguments import naming
 
 MOST_FIELDS = 300
@@ -87,6 +89,10 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     elif model.stiffness is not None:
         yield from _section("At rest", _rest_facts(scenario, model))
     yield from _section("Overlap at the start", _overlap_facts(model))
+    if scenario.ground_motion:
+        yield from _section("Ground motion", _ground_facts(scenario))
+    if model.soil:
+        yield from _section("Foundations", _foundation_facts(scenario, model))
     if scenario.ball:
         yield from _section("Ball", _ball_facts(scenario.ball, scenario.time))
     if scenario.changes or scenario.jackhammers:
@@ -222,6 +228,40 @@ def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
     if held:
         yield "sag", f"{1000.0 * sag_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
+
+
+def _ground_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    """Yield how the ground shakes."""
+    record, start_s = scenario.ground_record, scenario.ground_motion.start_s
+    yield "from, to", f"{start_s:g} s, {start_s + record.duration_s:g} s, of {scenario.time.duration_s:g} s"
+    peaks = record.peaks()
+    for axis, direction in enumerate(DIRECTIONS):
+        if direction not in scenario.ground_motion.directions:
+            continue
+        acceleration = peaks["accelerations_m_s2"][axis]
+        yield (
+            direction,
+            f"up to {acceleration:.3g} m/s² = {acceleration / STANDARD_GRAVITY_M_S2:.3f} g, "
+            f"{peaks['velocities_m_s'][axis]:.3g} m/s, {peaks['displacements_m'][axis]:.3g} m",
+        )
+
+
+def _foundation_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
+    """Yield how footings press on their soil by the bridge's own weight."""
+    rest, soil = model_at_rest(model, scenario.joints), model.soil
+    forces_n = np.abs(rest.loads[2, soil.rows])
+    areas = model.connections.areas[soil.rows]
+    members = model.member_of_shard[model.connections.pairs[soil.rows, 0]]
+    for member in dict.fromkeys(members.tolist()):
+        mine = members == member
+        force, area = float(forces_n[mine].sum()), float(areas[mine].sum())
+        pressure = force / area
+        settled = pressure / float(soil.stiffness_n_m3[mine][0])
+        yield (
+            model.members[member].name,
+            f"{force / 1e3:.0f} kN on {area:.2f} m², {pressure / 1e3:.0f} kPa, "
+            f"{pressure / float(soil.capacity_pa[mine][0]):.1%} of what it bears, {1e3 * settled:.2f} mm",
+        )
 
 
 def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:

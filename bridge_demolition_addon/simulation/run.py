@@ -29,7 +29,15 @@ from .display.pictures import check_camera, rendered_pictures, show_charges
 from .kept_run import keep_run, mark_run
 from .playback import Playing
 from .recording.recorder import Recording
-from .results_folder import check_folder, keep_results, keep_scenario, keep_summary, lock_in_place, prepare_folder
+from .results_folder import (
+    check_folder,
+    keep_ground_motion,
+    keep_results,
+    keep_scenario,
+    keep_summary,
+    lock_in_place,
+    prepare_folder,
+)
 from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
@@ -173,6 +181,7 @@ def _keep_all(
     if not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
         keep_scenario(folder, scenario)
     keep_results(folder, recording.results(), summary)
+    keep_ground_motion(folder, ground_motion_of(scene))
     recording.remove_stream()
     keep_run(scene, folder, summary)
     mark_run(scene, recording.results(), summary)

@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.charts.style import blank_figure
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.report.document.blocks import DataTable, Picture
+from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.report.sections.ground import ground_section
 from bridge_demolition_addon.simulation.run import run_scenario
 
 SIZE_M = np.array([2.0, 3.0, 6.0])
@@ -115,3 +119,11 @@ def test_on_ground_that_is_accelerated_the_heel_lifts_off_as_winkler_has_it(run,
     late = results.frames.time_s > 1.25
     assert turns[late].mean() == pytest.approx(expected, rel=0.05)
     # A footing that is held down would turn by 16 % less.
+    section = ground_section(read_run(tmp_path / "run"))
+    peaks, settled = (block for block in section.blocks if isinstance(block, DataTable))
+    assert [row[0] for row in peaks.rows] == ["along"]
+    assert peaks.rows[0][1] == pytest.approx(abs(values).max(), rel=1e-6)
+    assert settled.rows[0][0] == "pier" and settled.rows[0][4] == pytest.approx(1e3 * expected, rel=0.2)
+    figure = blank_figure(6.0, 8.0)
+    for part, block in zip(figure.subfigures(2, 1), (b for b in section.blocks if isinstance(b, Picture)), strict=True):
+        block.draw(part)

@@ -7,6 +7,7 @@ FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.n
 
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
 BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
+GROUND_MOTION_FILE = "ground_motion.csv"
 FORCE_CHART = "force_over_time.png"
 BLEND_FILE = "scene.blend"
 
@@ -32,6 +33,7 @@ RESULT_FILES = (
     DEBRIS_LOG,
     BREAKING_LOG,
     EXPLOSION_LOG,
+    GROUND_MOTION_FILE,
     RESULTS_FILE,
     FRAMES_FILE,
     BALLS_FILE,

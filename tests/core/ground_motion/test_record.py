@@ -1,14 +1,19 @@
 """Motion of the ground by accelerations that are known: integrals by hand, and what a baseline leaves."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from places import EXAMPLES
 
 from bridge_demolition_addon.core.errors import ScenarioError
 from bridge_demolition_addon.core.ground_motion.record import corrected, integrated
+from bridge_demolition_addon.core.ground_motion.record_file import read_record, record_text
 from bridge_demolition_addon.core.ground_motion.settings import GroundMotion, Sweep
 from bridge_demolition_addon.core.ground_motion.sources import ground_record
+from bridge_demolition_addon.core.scenario.file import files_of, read_scenario
+from bridge_demolition_addon.core.study.keys import changed, keys_named
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 
 TIMES_S = np.linspace(0.0, 4.0, 401)
@@ -130,3 +135,28 @@ def test_a_file_that_is_not_there_and_one_of_zeros_are_refused(tmp_path):
 def test_wrong_keys_are_refused_in_words(given, said):
     with pytest.raises(ScenarioError, match=said):
         GroundMotion(**given)
+
+
+def test_a_study_can_vary_the_factor_and_a_draw_depends_on_the_file(tmp_path):
+    """The example's record is made: it names no file; one that is named counts by what is in it."""
+    scenario = read_scenario(EXAMPLES / "ground_motion" / "span_in_an_earthquake.toml")
+    assert list(files_of(scenario)) == []
+    (key,) = keys_named(scenario, "ground_motion.factor")
+    stronger = changed(scenario, {key: 1.5})
+    peaks = [each.ground_record.peaks()["accelerations_m_s2"][0] for each in (scenario, stronger)]
+    assert peaks[1] == pytest.approx(1.5 * peaks[0])
+    motion = written(tmp_path)
+    assert list(files_of(replace(scenario, ground_motion=motion))) == [tmp_path / "record.csv"]
+
+
+def test_a_record_is_written_and_read_back(tmp_path):
+    record = ground_record(written(tmp_path), seed=0)
+    path = tmp_path / "kept.csv"
+    path.write_text(record_text(record, 1.5), encoding="utf-8")
+    read, start_s = read_record(path)
+    assert start_s == 1.5
+    assert read.times_s == pytest.approx(record.times_s)
+    assert read.displacements_m == pytest.approx(record.displacements_m, abs=1e-12)
+    path.write_text("time_s\n1\n", encoding="utf-8")
+    with pytest.raises(ScenarioError, match="expected the motion of the ground"):
+        read_record(path)

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from moving_boxes import moving_boxes
 
+from bridge_demolition_addon.core.debris.throws import debris_of
 from bridge_demolition_addon.core.geometry.rotations import rotated, rotation_vectors
-from bridge_demolition_addon.core.results.motion import first_hit, throw, travel
+from bridge_demolition_addon.core.results.motion import first_hit, relative_to_ground, throw, travel
 
 GRAVITY = np.array([0.0, 0.0, -9.80665])
 
@@ -74,3 +76,18 @@ def test_a_quarter_turn_about_z_takes_x_to_y():
 def test_more_than_half_a_turn_seems_to_go_back():
     end = rotated(np.eye(3)[None], about((0, 0, 1), 200.0)[None])
     np.testing.assert_allclose(rotation_vectors(np.eye(3)[None], end), about((0, 0, 1), -160.0)[None], atol=1e-12)
+
+
+def test_who_stands_on_the_ground_sees_what_moves_with_it_at_rest():
+    """The ground goes by 2 m along; one box with it, another stays where it is in space, and a third rises by 1 m."""
+    first = np.array([(0, 0, -1), (0, 0, 1), (5, 0, 1), (9, 0, 1)], float)
+    last = first + np.array([(2, 0, 0), (2, 0, 0), (0, 0, 0), (2, 0, 1)])
+    kinds = ["ground", "shard", "shard", "shard"]
+    velocities = np.stack((np.zeros((4, 3)), last - first))
+    results = moving_boxes([0.0, 1.0], np.ones((4, 3)), [first, last], kinds=kinds, velocities_m_s=velocities)
+    seen = relative_to_ground(results).frames
+    assert (seen.positions_m[1] - seen.positions_m[0]).tolist() == [[0, 0, 0], [0, 0, 0], [-2, 0, 0], [0, 0, 1]]
+    assert seen.velocities_m_s[1].tolist() == [[0, 0, 0], [0, 0, 0], [-2, 0, 0], [0, 0, 1]]
+    assert debris_of(results).throws_m.tolist() == [2.0, 0.0]
+    at_rest = moving_boxes([0.0, 1.0], np.ones((4, 3)), [first, first], kinds=kinds)
+    assert relative_to_ground(at_rest) is at_rest

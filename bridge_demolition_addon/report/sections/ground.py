@@ -1,0 +1,118 @@
+"""The section on how the ground moved, and how foundations settled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+from ...charts.ground_motion import ground_motion_history, moving_directions, response_spectra
+from ...core.errors import ScenarioError
+from ...core.ground_motion.record import GroundRecord
+from ...core.ground_motion.record_file import read_record
+from ...core.ground_motion.settings import DIRECTIONS, GroundMotion
+from ...core.results.arrays import Results
+from ...core.results.files import GROUND_MOTION_FILE
+from ...core.scenario import Scenario
+from ...core.structure.settlement import settlements
+from ...core.units import STANDARD_GRAVITY_M_S2
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
+from ..run_folder import Run
+
+
+def ground_section(run: Run) -> Section | None:
+    """How the ground moved and gave way; None where it did neither."""
+    if run.scenario is None:
+        return None
+    blocks: list[Block] = []
+    if run.scenario.ground_motion:
+        blocks += _motion_blocks(run, run.scenario.ground_motion)
+    if run.scenario.foundations and run.results is not None:
+        blocks += _settlement_blocks(run.results, run.scenario)
+    return Section("Ground", tuple(blocks)) if blocks else None
+
+
+def _motion_blocks(run: Run, motion: GroundMotion) -> list[Block]:
+    try:
+        record, start_s = read_record(run.folder / GROUND_MOTION_FILE)
+    except ScenarioError as error:
+        return [Paragraph(f"The ground moved, but its record is not there: {error}.", is_notice=True)]
+    return [
+        Paragraph(_told(motion)),
+        _peak_table(record),
+        Picture(
+            partial(ground_motion_history, record=record, start_s=start_s), "Motion of the ground", height_mm=110.0
+        ),
+        Picture(
+            partial(response_spectra, record=record, wanted=motion.spectrum, factor=motion.factor),
+            "Largest acceleration of an oscillator on it with 5 % damping, by its period",
+            height_mm=70.0,
+        ),
+    ]
+
+
+def _told(motion: GroundMotion) -> str:
+    if motion.spectrum:
+        spectrum = motion.spectrum
+        source = (
+            f"a record made from the spectrum of EN 1998-1, type {spectrum.type}, ground {spectrum.ground_type}, "
+            f"with {spectrum.acceleration_m_s2:g} m/s² on rock: sines with random phases under an envelope"
+        )
+    elif motion.sweep:
+        source = f"a sine from {motion.sweep.from_hz:g} to {motion.sweep.to_hz:g} Hz"
+    else:
+        source = f"the accelerogram {motion.file}"
+    baselines = {
+        "linear": "a straight line was taken off, after which the ground ends at rest where it began",
+        "parabola": "a parabola was taken off, after which the ground ends at rest where it began",
+        "none": "nothing was taken off",
+    }
+    return (
+        f"The ground and all that is fixed to it moved by {source}, times {motion.factor:g}. Baseline: "
+        f"{baselines[motion.baseline]}. Throws, rest and collapse in this report are as seen from the ground."
+    )
+
+
+def _peak_table(record: GroundRecord) -> DataTable:
+    columns = (
+        Column("direction", "direction"),
+        Column("acceleration (m/s²)", "peak_acceleration_m_s2", ".2f"),
+        Column("acceleration (g)", "peak_acceleration_g", ".3f"),
+        Column("velocity (m/s)", "peak_velocity_m_s", ".3f"),
+        Column("displacement (m)", "peak_displacement_m", ".3f"),
+    )
+    peaks = record.peaks()
+    rows = [
+        (
+            DIRECTIONS[axis],
+            peaks["accelerations_m_s2"][axis],
+            peaks["accelerations_m_s2"][axis] / STANDARD_GRAVITY_M_S2,
+            peaks["velocities_m_s"][axis],
+            peaks["displacements_m"][axis],
+        )
+        for axis in moving_directions(record)
+    ]
+    return DataTable("ground_motion_peaks", "Largest of the ground's motion", columns, rows)
+
+
+def _settlement_blocks(results: Results, scenario: Scenario) -> list[Block]:
+    columns = (
+        Column("member", "member"),
+        Column("settled (mm)", "settled_mm", ".2f"),
+        Column("at most (mm)", "most_settled_mm", ".2f"),
+        Column("slid (mm)", "slid_mm", ".2f"),
+        Column("leans (mrad)", "tilt_mrad", ".2f"),
+    )
+    rows = [_settled(each) for each in settlements(results, scenario.foundations)]
+    return [
+        Paragraph(
+            "Footings stand on springs that press and never pull, settle for good where the soil bears no more, and "
+            "slide where friction ends. Settlement is from the bridge as it was built, without any load."
+        ),
+        DataTable("settlements", "Foundations at the end of the run", columns, rows),
+    ]
+
+
+def _settled(footing: Mapping[str, Any]) -> tuple[Any, ...]:
+    lengths = (1e3 * footing[name] for name in ("settled_m", "most_settled_m", "slid_m", "tilt_rad"))
+    return footing["member"], *lengths
