@@ -12,6 +12,7 @@ from typing import Any
 from ..core.disk import part_of, write_whole_text
 from ..core.errors import OutputError, writing
 from ..core.folder_lock import FolderLock, check_unlocked
+from ..core.ground_motion.record import GroundRecord
 from ..core.ground_motion.record_file import record_text
 from ..core.results.arrays import Results
 from ..core.results.files import (
@@ -28,7 +29,6 @@ from ..core.results.files import (
 from ..core.results.summary import first_hit_s
 from ..core.scenario import Scenario
 from ..core.scenario.file import read_scenario, scenario_text
-from ..scene.tools.ground_motion import GroundMotionOfScene
 
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""
@@ -194,10 +194,9 @@ def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> Non
     plot_forces(results, folder / FORCE_CHART, summary["title"], first_hit_s(summary))
 
 
-def keep_ground_motion(folder: Path, motion: GroundMotionOfScene | None) -> None:
-    """Write how the ground moved, where it did."""
-    if motion:
-        write_whole_text(folder / GROUND_MOTION_FILE, record_text(motion.record, motion.start_s))
+def keep_ground_motion(folder: Path, record: GroundRecord, start_s: float) -> None:
+    """Write how the ground moved, from a time on."""
+    write_whole_text(folder / GROUND_MOTION_FILE, record_text(record, start_s))
 
 
 def keep_summary(folder: Path, summary: dict[str, Any]) -> None:

@@ -181,7 +181,8 @@ def _keep_all(
     if not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
         keep_scenario(folder, scenario)
     keep_results(folder, recording.results(), summary)
-    keep_ground_motion(folder, ground_motion_of(scene))
+    if motion := ground_motion_of(scene):
+        keep_ground_motion(folder, motion.record, motion.start_s)
     recording.remove_stream()
     keep_run(scene, folder, summary)
     mark_run(scene, recording.results(), summary)

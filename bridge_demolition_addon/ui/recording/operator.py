@@ -216,7 +216,8 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
         if context.scenario and not (lock.folder / SCENARIO_FILE).exists():  # a folder in the place of one that moved
             keep_scenario(lock.folder, context.scenario, context.made_by_hand)
         keep_results(lock.folder, results, summary)
-        keep_ground_motion(lock.folder, context.ground_motion)
+        if motion := context.ground_motion:
+            keep_ground_motion(lock.folder, motion.record, motion.start_s)
         recording.remove_stream()
     with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
         keep_run(recording.scene, lock.folder, summary)
