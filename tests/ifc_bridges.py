@@ -170,9 +170,9 @@ class IfcBridge:
         self.box("IfcBeam", "Crosshead", *cap, predefined="PIERCAP", material=concrete)
         return self
 
-    def bearings(self, predefined="ROLLER"):
-        """Two at each support: a class of its own in IFC4X3, a proxy of that name elsewhere."""
-        for number, along in enumerate((0.0, 10.0, 20.0), start=1):
+    def bearings(self):
+        """Two at each support, rockers on the pier and rollers beside: in IFC4X3 of a class, elsewhere by name."""
+        for number, (along, predefined) in enumerate(((0.0, "ROLLER"), (10.0, "ROCKER"), (20.0, "ROLLER")), start=1):
             for side, across in (("right", -1.0), ("left", 1.0)):
                 kind = "IfcBearing" if self.is_newest else "IfcBuildingElementProxy"
                 size, place = (0.4, 0.4, 0.1), (along, across, 3.5)
