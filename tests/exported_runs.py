@@ -40,8 +40,16 @@ def with_ground(results):
     counts = inventory.vertex_counts.copy()
     vertices = np.vstack([inventory.vertices_m[: -counts[-1]], corners])
     counts[-1] = len(corners)
+    triangle_counts = np.zeros_like(counts)
+    triangle_counts[-1] = 2
     changed = replace(
-        inventory, body_kinds=kinds.astype(str), masses_kg=masses, vertices_m=vertices, vertex_counts=counts
+        inventory,
+        triangles=np.array([(0, 1, 2), (0, 2, 3)]),
+        triangle_counts=triangle_counts,
+        body_kinds=kinds.astype(str),
+        masses_kg=masses,
+        vertices_m=vertices,
+        vertex_counts=counts,
     )
     return replace(results, inventory=changed, balls=BallHistory.unknown())
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import Delaunay
 
 from ..core.geometry.hulls import THINNEST
 from ..core.geometry.mesh import TriangleMesh
@@ -20,39 +19,20 @@ _NO_TRIANGLES = np.zeros((0, 3), np.int64)
 def body_meshes(inventory: Inventory) -> list[TriangleMesh]:
     """Return the surface of every body in its own axes, from its origin.
 
-    It is the convex hull, which is what Bullet lets collide, or the triangles of ground that is not flat. Any other
-    body that never moves, and has one height above each place, is that surface. A body of which none of these can be
-    had has no triangles.
+    It is what collides: the convex hull, or the recorded triangles of ground that is not flat. A body without volume
+    has no triangles.
     """
-    found = []
-    for body, (vertices, moves) in enumerate(zip(inventory.vertices_by_body(), inventory.moves, strict=True)):
-        if len(triangles := inventory.triangles_of(body)):
-            found.append(TriangleMesh(vertices, triangles.astype(np.int64)))
-        else:
-            found.append(_hull(vertices) if moves or not _is_surface(vertices) else _surface(vertices))
-    return found
+    return [_mesh(vertices, inventory.triangles_of(body)) for body, vertices in enumerate(inventory.vertices_by_body())]
 
 
-def _hull(vertices: np.ndarray) -> TriangleMesh:
+def _mesh(vertices: np.ndarray, triangles: np.ndarray) -> TriangleMesh:
+    if len(triangles):
+        return TriangleMesh(vertices, triangles)
     if len(vertices) >= 4:
         mesh = from_manifold(hull(vertices))
         if len(mesh.triangles) and mesh.volume > THINNEST * mesh.cube_volume:
             return mesh
     return TriangleMesh(vertices, _NO_TRIANGLES)
-
-
-def _is_surface(vertices: np.ndarray) -> bool:
-    """Return whether vertices spread over an area in plan, with one of them at each place."""
-    plan = vertices[:, :2] - vertices[0, :2]
-    return len(np.unique(plan, axis=0)) == len(plan) and np.linalg.matrix_rank(plan) == 2
-
-
-def _surface(vertices: np.ndarray) -> TriangleMesh:
-    triangles = Delaunay(vertices[:, :2]).simplices.astype(np.int64)
-    sides = vertices[triangles[:, 1:], :2] - vertices[triangles[:, :1], :2]
-    downwards = sides[:, 0, 0] * sides[:, 1, 1] < sides[:, 0, 1] * sides[:, 1, 0]
-    triangles[downwards] = triangles[downwards, ::-1]
-    return TriangleMesh(vertices, triangles)
 
 
 class ConnectionPlaces:

@@ -63,7 +63,7 @@ def test_surfaces_enclose_the_volumes_of_their_bodies(written):
     assert volumes[:-1] == pytest.approx(results.inventory.volumes_m3[:-1], rel=1e-5)  # recorded with seven digits
 
 
-def test_ground_with_one_height_at_each_place_is_that_surface_and_looks_up(written):
+def test_ground_that_is_not_flat_has_its_own_triangles(written):
     folder, results = written
     mesh = series(folder, "bodies")[1][0]
     (cells,) = mesh.cells
