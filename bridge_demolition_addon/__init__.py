@@ -1,5 +1,117 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bridge Demolition Add-on: plan the demolition of a bridge with Blender's rigid bodies."""
+"""Bridge Demolition Add-on: plan the demolition of a bridge with Blender's rigid bodies.
+
+For Python there are three functions, which stay as they are: `read_scenario`, `run` and `load_results`. Blender is
+loaded by `run` alone. With the small bridge of ``docs/small_bridge.toml``:
+
+>>> from bridge_demolition_addon import load_results, read_scenario, run
+>>> scenario = read_scenario("docs/small_bridge.toml")
+>>> results = run(scenario, "my_results")
+>>> results.frames.positions_m.shape == (len(results.frames), len(results.inventory.body_names), 3)
+True
+>>> bool(load_results("my_results").frames.time_s[-1] == results.frames.time_s[-1])
+True
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .core.results.arrays import Results
+    from .core.scenario import Scenario
+
+__all__ = ["load_results", "read_scenario", "run"]
+
+
+def read_scenario(path: str | PathLike[str]) -> Scenario:
+    """Read a scenario, and check it.
+
+    Parameters
+    ----------
+    path
+        File of the scenario, TOML.
+
+    Returns
+    -------
+    Scenario
+        Frozen dataclasses, named as the tables and keys of the file; `dataclasses.replace` varies them.
+
+    Raises
+    ------
+    DemolitionError
+        It cannot be read, or a value in it cannot be used; the text names file and key.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> scenario = read_scenario("docs/small_bridge.toml")
+    >>> scenario.ball.mass_kg
+    5000.0
+    >>> heavier = replace(scenario, ball=replace(scenario.ball, mass_kg=8000.0))
+    """
+    from .core.scenario.file import read_scenario as read
+
+    return read(path)
+
+
+def run(scenario: Scenario, output: str | PathLike[str], *, overwrite: bool = False, pictures: bool = False) -> Results:
+    """Run a scenario with Blender in this process, and leave what ``bda run`` leaves in a folder.
+
+    Inside Blender's window this replaces the file that is open.
+
+    Parameters
+    ----------
+    scenario
+        What to simulate.
+    output
+        Folder for the results, made here.
+    overwrite
+        Whether results of an earlier run there may be replaced.
+    pictures
+        Whether to render pictures.
+
+    Returns
+    -------
+    Results
+        As `load_results` reads them.
+
+    Raises
+    ------
+    DemolitionError
+        The scenario cannot be built or run, or the folder is there already or cannot be written.
+    """
+    from .cli.progress import Silence
+    from .simulation.run import run_scenario
+
+    run_scenario(scenario, Path(output), overwrite=overwrite, pictures=pictures, progress=Silence())
+    return load_results(output)
+
+
+def load_results(folder: str | PathLike[str]) -> Results:
+    """Read what a run recorded.
+
+    Parameters
+    ----------
+    folder
+        Of the run, also of one that was killed; or its file ``results.npz``.
+
+    Returns
+    -------
+    Results
+        Its parts ``inventory``, ``frames`` and ``balls`` hold numpy arrays; `Results.arrays` gives all by their names
+        in the file. Large ones are read when they are looked at.
+
+    Raises
+    ------
+    DemolitionError
+        There are none, or they are damaged.
+    """
+    from .core.results.arrays import load_results as load
+
+    return load(Path(folder))
 
 
 def register() -> None:

@@ -32,6 +32,7 @@ XLSX = Format("xlsx", "Spreadsheet (XLSX)", "all tables in one workbook", ".xlsx
 GLTF = Format("gltf", "Animated Model (glTF)", "an animated model, which browsers show", ".glb")
 USD = Format("usd", "USD", "an animated stage, in double precision", ".usdc")
 ALEMBIC = Format("alembic", "Alembic", "an animated scene, by Blender", ".abc")
+MAT = Format("mat", "MATLAB", "all arrays in one file, for MATLAB and Octave", ".mat")
 
-FORMATS = {each.name: each for each in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC)}
+FORMATS = {each.name: each for each in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC, MAT)}
 """All formats by their names."""

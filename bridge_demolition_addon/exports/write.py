@@ -12,6 +12,7 @@ from . import formats
 from .blender_process import write_in_blender
 from .formats import Format
 from .gltf import write_gltf
+from .mat import write_mat
 from .paraview import write_paraview
 from .progress import Progress
 from .sheets import check_sheets, write_sheets
@@ -57,6 +58,8 @@ def export_run(folder: Path, form: Format, output: Path, progress: Progress, ble
                     write_sheets(folder, results, part, progress)
                 case formats.GLTF:
                     write_gltf(results, part, progress)
+                case formats.MAT:
+                    write_mat(results, part, progress)
                 case formats.USD | formats.ALEMBIC:
                     write_in_blender(form, folder, part, progress, blender)
     except OSError as error:

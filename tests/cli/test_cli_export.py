@@ -15,8 +15,15 @@ from bridge_demolition_addon.core.signals import Interrupted
 from bridge_demolition_addon.exports import write
 from bridge_demolition_addon.exports.formats import FORMATS
 
-WITHOUT_BLENDER = ("paraview", "xlsx", "gltf")
-FILES = {"paraview": "series", "xlsx": "run.xlsx", "gltf": "run.glb", "usd": "run.usdc", "alembic": "run.abc"}
+WITHOUT_BLENDER = ("paraview", "xlsx", "gltf", "mat")
+FILES = {
+    "paraview": "series",
+    "xlsx": "run.xlsx",
+    "gltf": "run.glb",
+    "usd": "run.usdc",
+    "alembic": "run.abc",
+    "mat": "run.mat",
+}
 
 
 @pytest.fixture
