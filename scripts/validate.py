@@ -37,6 +37,7 @@ CASES = (
     "drop_weight",
     "airblast_far_away",
     # measurements
+    "prestwood",
 )
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
 KEPT = ROOT / "docs" / "data" / "validation"

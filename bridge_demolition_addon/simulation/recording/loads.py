@@ -22,33 +22,39 @@ class Loads:
     """
 
     def __init__(self, world: BulletWorld, loads: Sequence[PlacedLoad]):
-        self._world, self._loads = world, loads
-        self._directions = [np.array(each.load.unit_direction) for each in loads]
-        self._arms: list[np.ndarray | None] = []  # in the axes of the bodies
-        rotations = world.positions()[1] if loads else None
-        for each in loads:
-            arm = each.arm_m
-            self._arms.append(None if arm is None else transformed_back(rotations[each.bodies], arm[None]))
+        self._world = world
+        self._courses = [each.load for each in loads]
+        counts = [len(each.bodies) for each in loads]
+        self._load_of = np.repeat(np.arange(len(loads)), counts)
+        self._bodies = np.concatenate([np.zeros(0, int), *(each.bodies for each in loads)])
+        shares = np.concatenate([np.zeros(0), *(each.shares for each in loads)])
+        directions = np.array([each.load.unit_direction for each in loads]).reshape(-1, 3)
+        self._unit_forces = shares[:, None] * directions[self._load_of]
+        at_points = np.array([each.arm_m is not None for each in loads], bool)
+        self._turns = np.flatnonzero(at_points[self._load_of])
+        arms = np.array([each.arm_m for each in loads if each.arm_m is not None]).reshape(-1, 3)
+        self._arms = transformed_back(
+            world.positions()[1][self._bodies[self._turns]], arms
+        )  # in the axes of the bodies
         self._begins_s = 0.0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Push with each load's mean in a sub-step of a length in s; simulated time is known once a frame at least.
+        """Push with the means of loads in a sub-step of a length in s; simulated time is known once a frame at least.
 
         What was removed bears nothing, and its part of the load is gone with it.
         """
-        if not self._loads:
+        if not self._courses:
             return
         self._begins_s = max(self._begins_s, elapsed_s)
         middle_s = self._begins_s + substep_s / 2.0
         self._begins_s += substep_s
-        for load, direction, arm in zip(self._loads, self._directions, self._arms, strict=True):
-            stays = ~self._world.removed[load.bodies]
-            bodies, force_n = load.bodies[stays], load.load.force_n(middle_s)
-            if not len(bodies) or force_n == 0.0:
-                continue
-            forces = force_n * load.shares[stays, None] * direction
-            torques = None
-            if arm is not None:
-                torques = cross(transformed(self._world.positions()[1][bodies], arm), forces)
-            self._world.wake(bodies)
-            self._world.add_forces(bodies, forces, torques)
+        sizes_n = np.array([each.force_n(middle_s) for each in self._courses])[self._load_of]
+        forces = sizes_n[:, None] * self._unit_forces
+        torques = np.zeros_like(forces)
+        if len(self._turns):
+            arms = transformed(self._world.positions()[1][self._bodies[self._turns]], self._arms)
+            torques[self._turns] = cross(arms, forces[self._turns])
+        pushed = np.flatnonzero((sizes_n > 0.0) & ~self._world.removed[self._bodies])
+        if len(pushed):
+            self._world.wake(self._bodies[pushed])
+            self._world.add_forces(self._bodies[pushed], forces[pushed], torques[pushed])

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Segmental arches of voussoirs: as meshes, as scenarios, and as a linear program that says what they bear."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from case import RIGID_BODIES, simulated
+from scipy.optimize import linprog
+from solids import prism
+
+from bridge_demolition_addon.core.results.arrays import Results
+from bridge_demolition_addon.core.results.energy import energy_of
+
+G = 9.80665
+FRICTION = 0.6
+
+
+@dataclass(frozen=True, slots=True)
+class Arch:
+    """An arch of equal voussoirs, whose intrados is an arc.
+
+    Attributes
+    ----------
+    span_m, rise_m : float
+        Of the intrados.
+    ring_m, width_m : float
+        Thickness of the ring, and its width across.
+    density_kg_m3 : float
+    voussoirs : int
+    fill_n_m3, cover_m : float
+        Weight of the fill, and its depth over the crown; 0 where there is none.
+    """
+
+    span_m: float
+    rise_m: float
+    ring_m: float
+    width_m: float
+    density_kg_m3: float
+    voussoirs: int
+    fill_n_m3: float = 0.0
+    cover_m: float = 0.0
+
+    @property
+    def inner_m(self) -> float:
+        """Radius of the intrados."""
+        return (self.span_m**2 / 4.0 + self.rise_m**2) / (2.0 * self.rise_m)
+
+    @property
+    def angles(self) -> np.ndarray:
+        """Directions of the joints (n + 1,), from the vertical, left to right."""
+        half = math.acos(1.0 - self.rise_m / self.inner_m)
+        return np.linspace(-half, half, self.voussoirs + 1)
+
+    def on_arc(self, radius_m: float, angle: float) -> np.ndarray:
+        """Return a place (x, z): x from the middle of the span, z from the springings."""
+        down = self.inner_m - self.rise_m
+        return np.array([radius_m * math.sin(angle), radius_m * math.cos(angle) - down])
+
+    def outlines(self) -> list[np.ndarray]:
+        """Corners (4, 2) of each voussoir, counter-clockwise."""
+        inner, outer = self.inner_m, self.inner_m + self.ring_m
+        return [
+            np.array([self.on_arc(r, a) for r, a in ((inner, low), (inner, high), (outer, high), (outer, low))])
+            for low, high in pairwise(self.angles)
+        ]
+
+    def fill(self) -> list[tuple[np.ndarray, float]]:
+        """Where on its back the fill over each voussoir weighs (x, z), and how much, N."""
+        top = self.rise_m + self.ring_m + self.cover_m
+        weights = []
+        for corners in self.outlines() if self.fill_n_m3 else ():
+            (right, low), (left, high) = corners[2], corners[3]
+            depths = np.array([top - high, top - low])
+            area = abs(right - left) * depths.mean()
+            share = (depths[0] + 2.0 * depths[1]) / (3.0 * depths.sum())  # centre of a trapezium, from the left
+            place = np.array([left + share * (right - left), high + share * (low - high)])
+            weights.append((place, self.fill_n_m3 * self.width_m * area))
+        return weights
+
+    def back_at(self, x_m: float) -> np.ndarray:
+        """Place (x, z) on the back of the ring."""
+        for corners in self.outlines():
+            (right, low), (left, high) = corners[2], corners[3]
+            if left <= x_m <= right:
+                return np.array([x_m, high + (x_m - left) / (right - left) * (low - high)])
+        raise ValueError(f"{x_m} m is beside the arch")
+
+
+def least_collapse_n(arch: Arch, load_x_m: float) -> float:
+    """Return the load at which an arch of blocks that only touch comes down (Livesley 1978), N.
+
+    The largest for which forces at all joints exist that press, hold by friction and balance each block, which is the
+    one at which it falls as long as it falls without sliding.
+    """
+    outlines, angles = arch.outlines(), arch.angles
+    inner, outer = arch.inner_m, arch.inner_m + arch.ring_m
+    count = arch.voussoirs
+    balance = np.zeros((3 * count, 3 * (count + 1) + 1))
+    given = np.zeros(3 * count)
+    point = arch.back_at(load_x_m)
+    fill = arch.fill()
+    for row, corners in enumerate(outlines):
+        area, centre = _area_and_centre(corners)
+        forces = [(centre, -area * arch.width_m * arch.density_kg_m3 * G)]
+        forces += [(place, -weight) for place, weight in fill[row : row + 1]]
+        for place, upwards in forces:
+            given[3 * row : 3 * row + 3] -= _wrench(place, np.array([0.0, upwards]))
+        if corners[3, 0] <= load_x_m < corners[2, 0]:
+            balance[3 * row : 3 * row + 3, -1] = _wrench(point, np.array([0.0, -1.0]))
+        for joint, sign in ((row, 1.0), (row + 1, -1.0)):
+            angle = angles[joint]
+            along, across = np.array([math.cos(angle), -math.sin(angle)]), np.array([math.sin(angle), math.cos(angle)])
+            columns = (
+                (arch.on_arc(outer, angle), along),
+                (arch.on_arc(inner, angle), along),
+                (arch.on_arc(inner, angle), across),
+            )
+            for offset, (place, direction) in enumerate(columns):
+                balance[3 * row : 3 * row + 3, 3 * joint + offset] += _wrench(place, sign * direction)
+    slides = np.zeros((2 * (count + 1), balance.shape[1]))
+    for joint in range(count + 1):
+        for row, sign in ((2 * joint, 1.0), (2 * joint + 1, -1.0)):
+            slides[row, 3 * joint : 3 * joint + 3] = -FRICTION, -FRICTION, sign
+    scale = abs(given).max()
+    bounds = [(0.0, None), (0.0, None), (None, None)] * (count + 1) + [(0.0, None)]
+    cost = np.zeros(balance.shape[1])
+    cost[-1] = -1.0
+    found = linprog(
+        cost,
+        A_ub=slides,
+        b_ub=np.zeros(len(slides)),
+        A_eq=balance,
+        b_eq=given / scale,
+        bounds=bounds,
+        method="highs",
+    )
+    return float(found.x[-1]) * scale if found.status == 0 else 0.0
+
+
+def _wrench(place: np.ndarray, force: np.ndarray) -> np.ndarray:
+    return np.array([force[0], force[1], place[0] * force[1] - place[1] * force[0]])
+
+
+def _area_and_centre(corners: np.ndarray) -> tuple[float, np.ndarray]:
+    following = np.roll(corners, -1, axis=0)
+    crosses = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
+    area = crosses.sum() / 2.0
+    return area, ((corners + following) * crosses[:, None]).sum(axis=0) / (6.0 * area)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """How an arch came down, frame by frame.
+
+    Attributes
+    ----------
+    sag_m : (k,) float
+        How far the loaded voussoir had come down.
+    load_n : (k,) float
+        The load.
+    resistance_n : (k,) float
+        What the arch bore of it: the load less what it gave to motion, by the work of both.
+    """
+
+    sag_m: np.ndarray
+    load_n: np.ndarray
+    resistance_n: np.ndarray
+
+    @property
+    def borne_n(self) -> float:
+        """Return the most that the arch bore."""
+        return float(self.resistance_n.max())
+
+
+_FRAMES = 4
+"""Over which work and motion are compared: a joint that opens with a jerk is no change of what is borne."""
+
+
+def course_of(results: Results, body: int, load_n: np.ndarray) -> Course:
+    """Return how an arch came down, under a load (k,) on one of its bodies."""
+    heights = results.frames.positions_m[:, body, 2].astype(float)
+    sag = heights[0] - heights
+    kinetic = energy_of(results).kinetic_j
+    start = int(np.argmax(load_n > 0.0))  # while it settles, what little moves says nothing
+    sag, kinetic, load_n = sag[start:], kinetic[start:], load_n[start:]
+    before, after = slice(None, -_FRAMES), slice(_FRAMES, None)
+    gone = sag[after] - sag[before]
+    mean = (load_n[after] + load_n[before]) / 2.0
+    inertia = np.divide(kinetic[after] - kinetic[before], gone, out=np.zeros_like(gone), where=gone > 0.0)
+    middle = slice(_FRAMES // 2, -_FRAMES // 2)
+    return Course(sag[middle], load_n[middle], mean - inertia)
+
+
+def loaded(
+    folder: Path,
+    name: str,
+    arch: Arch,
+    load_x_m: float,
+    course: Sequence[tuple[float, float]],
+    *,
+    connections: str = "",
+    substeps_per_frame: int = 320,
+    iterations: int = 60,
+) -> Course:
+    """Load an arch as a course of (time, N) says, in a run that ends with it."""
+    depth = arch.width_m / 2.0
+    base_m = 1.0
+    meshes = {f"voussoir_{row:02d}": prism(each, -depth, depth) for row, each in enumerate(arch.outlines())}
+    for side, corners in _springers(arch).items():
+        meshes[f"springer_{side}"] = prism(corners, -depth, depth)
+    members = "".join(
+        f"""
+[[geometry]]
+name = "{each.replace("_", " ")}"
+kind = "{each.split("_")[0]}"
+file = "{each}.stl"
+place_m = [0.0, 0.0, {base_m}]
+density_kg_m3 = {arch.density_kg_m3}
+"""
+        for each in meshes
+    )
+    loads = "".join(
+        _load(f"voussoir {row:02d}", place, base_m, ((0.0, weight),)) for row, (place, weight) in enumerate(arch.fill())
+    )
+    rows = [row for row, each in enumerate(arch.outlines()) if each[3, 0] <= load_x_m < each[2, 0]]
+    loads += _load(f"voussoir {rows[0]:02d}", arch.back_at(load_x_m), base_m, course)
+    scenario = f"""
+[scenario]
+title = "{name.replace("_", " ")}"
+
+[time]
+duration_s = {course[-1][0]}
+frames_per_second = 48
+substeps_per_frame = {substeps_per_frame}
+solver_iterations = {iterations}
+{members}{loads}
+[[supports]]
+member = "springer"
+
+[fracture]
+shards = {arch.voussoirs + 2}
+{connections or LOOSE_JOINTS}
+{RIGID_BODIES.format(friction=math.sqrt(FRICTION), ground=math.sqrt(FRICTION))}"""
+    results = simulated(folder, name, scenario, meshes)
+    body = int(np.flatnonzero(results.inventory.body_members == f"voussoir {rows[0]:02d}")[0])
+    times, forces = zip(*course, strict=True)
+    return course_of(results, body, np.interp(results.frames.time_s, times, forces, left=0.0))
+
+
+LOOSE_JOINTS = """
+[connections]
+type = "FIXED"
+method = "face"
+breaking_force_n = 1e12
+
+[[connections.between]]
+members = ["voussoir", "voussoir"]
+none = true
+
+[[connections.between]]
+members = ["voussoir", "springer"]
+none = true
+"""
+"""Voussoirs that only touch."""
+
+
+def _springers(arch: Arch) -> dict[str, np.ndarray]:
+    """Corners of the blocks that hold the arch, whose faces are its first and last joints."""
+    inner, outer = arch.inner_m, arch.inner_m + arch.ring_m
+    found = {}
+    for side, sign in (("left", -1.0), ("right", 1.0)):
+        angle = sign * arch.angles[-1]
+        low, high = arch.on_arc(inner - arch.ring_m, angle), arch.on_arc(outer + arch.ring_m, angle)
+        out = sign * arch.ring_m * np.array([math.cos(angle), -math.sin(angle)])
+        corners = np.array([low, low + out, high + out, high])
+        found[side] = corners if _area_and_centre(corners)[0] > 0.0 else corners[::-1]
+    return found
+
+
+def _load(member: str, place: np.ndarray, base_m: float, course: Sequence[tuple[float, float]]) -> str:
+    times, forces = ([float(each) for each in values] for values in zip(*course, strict=True))
+    return f"""
+[[loads]]
+members = ["{member}"]
+point_m = [{place[0]:.6f}, 0.0, {place[1] + base_m:.6f}]
+times_s = {times}
+forces_n = {forces}
+"""
