@@ -90,12 +90,13 @@ class Arch:
         raise ValueError(f"{x_m} m is beside the arch")
 
 
-def least_collapse_n(arch: Arch, load_x_m: float) -> float:
-    """Return the load at which an arch of blocks that only touch comes down (Livesley 1978), N.
+def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
+    """Return the load at which an arch of rigid blocks comes down by limit analysis (Livesley 1978), N.
 
-    The largest for which forces at all joints exist that press, hold by friction and balance each block, which is the
-    one at which it falls as long as it falls without sliding.
+    The largest for which forces at the edges of all joints exist that press, hold by friction and balance each block.
+    Mortar that holds on with a constant stress however far it opens lets each edge pull with half of that on the joint.
     """
+    pull = bond_pa * arch.ring_m * arch.width_m / 2.0
     outlines, angles = arch.outlines(), arch.angles
     inner, outer = arch.inner_m, arch.inner_m + arch.ring_m
     count = arch.voussoirs
@@ -125,14 +126,15 @@ def least_collapse_n(arch: Arch, load_x_m: float) -> float:
     for joint in range(count + 1):
         for row, sign in ((2 * joint, 1.0), (2 * joint + 1, -1.0)):
             slides[row, 3 * joint : 3 * joint + 3] = -FRICTION, -FRICTION, sign
+    holds = np.full(len(slides), 2.0 * FRICTION * pull)
     scale = abs(given).max()
-    bounds = [(0.0, None), (0.0, None), (None, None)] * (count + 1) + [(0.0, None)]
+    bounds = [(-pull / scale, None), (-pull / scale, None), (None, None)] * (count + 1) + [(0.0, None)]
     cost = np.zeros(balance.shape[1])
     cost[-1] = -1.0
     found = linprog(
         cost,
         A_ub=slides,
-        b_ub=np.zeros(len(slides)),
+        b_ub=holds / scale,
         A_eq=balance,
         b_eq=given / scale,
         bounds=bounds,
@@ -170,10 +172,9 @@ class Course:
     load_n: np.ndarray
     resistance_n: np.ndarray
 
-    @property
-    def borne_n(self) -> float:
-        """Return the most that the arch bore."""
-        return float(self.resistance_n.max())
+    def borne_n(self, farthest_m: float) -> float:
+        """Return the most that the arch bore until the voussoir had come down that far."""
+        return float(self.resistance_n[self.sag_m <= farthest_m].max())
 
 
 _FRAMES = 4
