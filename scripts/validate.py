@@ -38,6 +38,8 @@ CASES = (
     "airblast_far_away",
     # measurements
     "prestwood",
+    "laboratory_arches",
+    "i235_decks",
 )
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
 KEPT = ROOT / "docs" / "data" / "validation"
