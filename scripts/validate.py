@@ -39,6 +39,7 @@ CASES = (
     # measurements
     "prestwood",
     "laboratory_arches",
+    "falling_chimney",
     "i235_decks",
 )
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"

@@ -143,6 +143,56 @@ def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
     return float(found.x[-1]) * scale if found.status == 0 else 0.0
 
 
+_PARTS = 10
+"""Straight beams that a voussoir is divided into, for beam theory."""
+
+
+def first_crack_n(arch: Arch, load_x_m: float, bond_pa: float) -> float:
+    """Return the load at which the stress at the edge of a joint first reaches that of the bond, by beam theory, N.
+
+    The ring is elastic, whole and built in at both springings: N / A + M / W of its own weight and the load.
+    """
+    area, modulus = arch.ring_m * arch.width_m, arch.width_m * arch.ring_m**2 / 6.0
+    half = arch.angles[-1]
+    middle = arch.inner_m + arch.ring_m / 2.0
+    nodes = np.array([arch.on_arc(middle, each) for each in np.linspace(-half, half, _PARTS * arch.voussoirs + 1)])
+    count = len(nodes)
+    weight, unit = np.zeros((2, 3 * count))
+    stiffness = np.zeros((3 * count, 3 * count))
+    beams = []
+    for row, (start, end) in enumerate(pairwise(nodes)):
+        length = math.dist(start, end)
+        turn = np.eye(6)
+        (cosine, sine) = (end - start) / length
+        turn[:2, :2] = turn[3:5, 3:5] = [[cosine, sine], [-sine, cosine]]
+        own = np.zeros((6, 6))
+        own[np.ix_((0, 3), (0, 3))] = area / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        bends = np.array(
+            [
+                [12.0, 6.0 * length, -12.0, 6.0 * length],
+                [6.0 * length, 4.0 * length**2, -6.0 * length, 2.0 * length**2],
+                [-12.0, -6.0 * length, 12.0, -6.0 * length],
+                [6.0 * length, 2.0 * length**2, -6.0 * length, 4.0 * length**2],
+            ]
+        )
+        own[np.ix_((1, 2, 4, 5), (1, 2, 4, 5))] = modulus * arch.ring_m / 2.0 / length**3 * bends
+        places = np.arange(3 * row, 3 * row + 6)
+        stiffness[np.ix_(places, places)] += turn.T @ own @ turn
+        weight[[3 * row + 1, 3 * row + 4]] -= arch.density_kg_m3 * G * area * length / 2.0
+        beams.append((own @ turn, places))
+    unit[3 * int(np.argmin(abs(nodes[:, 0] - load_x_m))) + 1] = -1.0
+    free = np.arange(3, 3 * count - 3)
+    edges = []
+    for forces in (weight, unit):
+        moved = np.zeros(3 * count)
+        moved[free] = np.linalg.solve(stiffness[np.ix_(free, free)], forces[free])
+        ends = np.array([beam @ moved[places] for beam, places in beams])
+        pull = np.append(-ends[::_PARTS, 0], ends[-1, 3])
+        bend = np.append(ends[::_PARTS, 2], -ends[-1, 5])
+        edges.append(np.concatenate((pull / area + bend / modulus, pull / area - bend / modulus)))
+    return min((bond_pa - own) / by_unit for own, by_unit in zip(*edges, strict=True) if by_unit > 0.0)
+
+
 def _wrench(place: np.ndarray, force: np.ndarray) -> np.ndarray:
     return np.array([force[0], force[1], place[0] * force[1] - place[1] * force[0]])
 
@@ -166,15 +216,22 @@ class Course:
         The load.
     resistance_n : (k,) float
         What the arch bore of it: the load less what it gave to motion, by the work of both.
+    cracked_n : float
+        The load as the first joint cracked; infinite where none was to.
     """
 
     sag_m: np.ndarray
     load_n: np.ndarray
     resistance_n: np.ndarray
+    cracked_n: float
 
     def borne_n(self, farthest_m: float) -> float:
         """Return the most that the arch bore until the voussoir had come down that far."""
         return float(self.resistance_n[self.sag_m <= farthest_m].max())
+
+    def load_at_n(self, sag_m: float) -> float:
+        """Return the load under which the voussoir had come down that far."""
+        return float(self.load_n[int(np.argmax(self.sag_m >= sag_m))])
 
 
 _FRAMES = 4
@@ -183,6 +240,8 @@ _FRAMES = 4
 
 def course_of(results: Results, body: int, load_n: np.ndarray) -> Course:
     """Return how an arch came down, under a load (k,) on one of its bodies."""
+    broken = np.flatnonzero((~results.frames.intact).any(axis=1))
+    cracked = (load_n[broken[0] - 1] + load_n[broken[0]]) / 2.0 if len(broken) else math.inf
     heights = results.frames.positions_m[:, body, 2].astype(float)
     sag = heights[0] - heights
     kinetic = energy_of(results).kinetic_j
@@ -193,7 +252,7 @@ def course_of(results: Results, body: int, load_n: np.ndarray) -> Course:
     mean = (load_n[after] + load_n[before]) / 2.0
     inertia = np.divide(kinetic[after] - kinetic[before], gone, out=np.zeros_like(gone), where=gone > 0.0)
     middle = slice(_FRAMES // 2, -_FRAMES // 2)
-    return Course(sag[middle], load_n[middle], mean - inertia)
+    return Course(sag[middle], load_n[middle], mean - inertia, float(cracked))
 
 
 def loaded(

@@ -36,7 +36,9 @@ def run(folder: Path) -> Found:
             (alone, hit, beside), (("only deck", "s"), ("hit, of two", "o"), ("beside it", "x")), strict=True
         ):
             axes.plot(list(SEEDS), 100.0 * each, marker, color="black", fillstyle="none", label=title)
-        axes.set(xlabel="seed", ylabel="of the deck fell by 2 m or more (%)", ylim=(-5.0, 105.0), xticks=list(SEEDS)[::2])
+        axes.set(
+            xlabel="seed", ylabel="of the deck fell by 2 m or more (%)", ylim=(-5.0, 105.0), xticks=list(SEEDS)[::2]
+        )
         axes.legend(loc="center right")
 
     return Found(comparisons, draw)
