@@ -52,7 +52,7 @@ def run(folder: Path) -> Found:
     cracked = first_crack_n(ARCHES[thin], LOAD_X_M, BOND_PA)
     holding = limit_load_n(ARCHES[thin], LOAD_X_M, BOND_PA)
     comparisons += [
-        Comparison(f"{thin}, first crack of mortar with 0.1 N/mm²", "N", cracked, bonded.cracked_n, 0.1),
+        Comparison(f"{thin}, first crack of mortar with 0.1 N/mm²", "N", cracked, bonded.cracked_n, 0.2),
         Comparison(f"{thin} with it, down by 2 mm", "N", (0.9 * limits[thin], holding), bonded.load_at_n(0.002)),
     ]
 
@@ -92,10 +92,11 @@ CASE = Case(
     "of E. Bertolesi and others (2018), as a public repository quotes them; 18 kN/m³ is its assumption. Bertolesi's "
     "own limit analysis gives 261 N without bond for the thinner one, and 919 N with 0.1 N/mm² that holds on. Limit "
     "loads here: as for Prestwood; mortar that holds on as it opens adds a constant pull.",
-    reason="10 % of limit analysis, as contacts sink; 10 % of the first crack, by beam theory of a whole elastic ring "
-    "(`first_crack_n` there), as a frame is 7 N. What was measured is 1.5 to 3 times what blocks bear that only touch, "
-    "by mortar and walls. Brittle mortar cracks long before blocks come down, and adds little: between nine tenths of "
-    "their limit and that of a mortar that holds on is expected. By beam theory the first crack would be at the 390 N "
-    "that were measured with 0.27 N/mm².",
+    reason="10 % of limit analysis, as contacts sink. 20 % of the first crack, by beam theory of a whole elastic ring "
+    "(`first_crack_n` there): its own weight uses half of that bond already, so that 5 % of stress are 11 % of load; "
+    "and a frame is 7 N. Joints of whole members gave way unevenly until this case told. What was measured is 1.5 to 3 "
+    "times what blocks bear that only touch, by mortar and walls. Brittle mortar cracks long before blocks come down, "
+    "and adds little: between nine tenths of their limit and that of a mortar that holds on is expected. By beam "
+    "theory the first crack would be at the 390 N that were measured with 0.27 N/mm².",
     run=run,
 )

@@ -13,7 +13,7 @@ from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..elasticity.section_stiffness import SectionStiffness
 from ..foundations.footings import SoilSprings
-from ..fracture.members import fractured_members, shards_with_gaps
+from ..fracture.members import FracturedMembers, fractured_members, shards_with_gaps
 from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh
 from ..mechanics.reinforcement import FaceBars
@@ -153,7 +153,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             scenario.joints,
             joint_of_connection,
             shards,
-            fractured.points_m,
+            _middles(fractured),
             members,
             fractured.member_of_shard,
             fixed,
@@ -176,6 +176,15 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         soil=soil,
         bars=bars,
     )
+
+
+def _middles(fractured: FracturedMembers) -> np.ndarray:
+    """Return the points (n, 3) from which shards reach to their faces, each half way to the next one.
+
+    A member that was not cut has its centre of mass: its point, around which it would have been, is anywhere in it.
+    """
+    whole = np.bincount(fractured.member_of_shard)[fractured.member_of_shard] == 1
+    return np.where(whole[:, None], fractured.centres_m, fractured.points_m)
 
 
 def _connections(

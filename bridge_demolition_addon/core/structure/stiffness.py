@@ -39,7 +39,7 @@ def connection_stiffness(
     joints, joint_of_connection : sequence of Joint, (m,) int
         What they have in common, with the moduli of their material, and which of these each is.
     shards, points_m : n TriangleMesh, (n, 3) float
-        The shards, and the points whose Voronoi cells they are.
+        The shards, and the points from which they reach to their faces: those whose Voronoi cells they are.
     members, member_of_shard : sequence of Member, (n,) int
         What they were cut from.
     fixed : (n,) bool

@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.core.bridge.member import Member
+from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.core.errors import GeometryError
 from bridge_demolition_addon.core.fracture.shards import fracture
 from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.core.geometry.solids import box
 from bridge_demolition_addon.core.mechanics.joint import Joint
+from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.structure.connections import GROUND, connect, foundations, joined, neighbours_by_face
 from bridge_demolition_addon.core.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.core.structure.face_sections import second_moments
+from bridge_demolition_addon.core.structure.model import build_model
 from bridge_demolition_addon.core.structure.stiffness import connection_stiffness
 
 MODULI = ElasticModuli(30e9, 0.2)
@@ -130,3 +133,45 @@ def test_a_slab_held_at_both_ends_has_the_moments_of_a_fixed_beam(count, seeds, 
             turning = moments[1] + levers[2] * forces[0] - levers[0] * forces[2]
             found.append((abs(forces[0].sum()) / (load * HEIGHT_M / 2), abs(turning.sum()) / (load * HEIGHT_M**2 / 12)))
     assert np.mean(found, axis=0) == pytest.approx([1.0, 1.0], abs=within)
+
+
+def test_members_that_are_not_cut_give_way_evenly_to_both_sides(tmp_path):
+    """Three blocks of 2 m in a row, the first of them held: E A / L over 1 m to the second, and 2 m to the third."""
+    tables = ""
+    for number in range(3):
+        (tmp_path / f"{number}.stl").write_bytes(exported(box((2.0, 1.0, 1.0), (2.0 * number, 0.0, 5.0)), ".stl"))
+        tables += f'[[geometry]]\nname = "block {number}"\nfile = "{number}.stl"\ndensity_kg_m3 = 2400.0\n'
+    path = tmp_path / "scenario.toml"
+    path.write_text(
+        f"""
+[scenario]
+title = "three blocks"
+[time]
+duration_s = 1.0
+{tables}
+[[materials]]
+name = "own"
+compression_n_mm2 = 30.0
+tension_n_mm2 = 3.0
+shear_n_mm2 = 3.0
+torsion_n_mm2 = 3.0
+bending_n_mm2 = 3.0
+elastic_modulus_n_mm2 = 30000.0
+[[supports]]
+member = "block 0"
+[fracture]
+shards = 3
+[connections]
+type = "FIXED"
+method = "face"
+material = "own"
+stiffness = "elastic"
+""",
+        encoding="utf-8",
+    )
+    model = build_model(read_scenario(path))
+    lengths = {
+        tuple(sorted(pair)): 30e9 / axial
+        for pair, axial in zip(model.connections.pairs.tolist(), model.stiffness.axial_n_m, strict=True)
+    }
+    assert lengths == {(0, 1): pytest.approx(1.0, rel=1e-4), (1, 2): pytest.approx(2.0, rel=1e-4)}
