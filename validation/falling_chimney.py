@@ -8,7 +8,7 @@ from case import MEASURED, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-HEIGHT_M, SIDE_M, FOOT_M, LEVEL_DEG = 41.0, 0.2, 0.2, 89.0
+HEIGHT_M, SIDE_M, FOOT_M, NEARLY_DOWN_DEG = 41.0, 0.2, 0.2, 85.0
 MEASURED_S = 7.0
 DUE_S = {2.0: 7.60, 3.0: 6.92, 5.0: 6.07}
 """Angles from which it falls, degrees, and how long that takes to the ground: ∫ dθ / ω of a slender rod."""
@@ -26,7 +26,7 @@ def run(folder: Path) -> Found:
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
         for (lean, (times, angles)), dashes in zip(courses.items(), ("-", "--", ":"), strict=True):
-            falls = angles < 90.0
+            falls = slice(0, int(np.argmax(angles >= NEARLY_DOWN_DEG)))
             axes.plot(times[falls], angles[falls], color="black", linestyle=dashes, label=f"from {lean:g}°")
         axes.axvline(MEASURED_S, color="0.6")
         axes.annotate("measured", (MEASURED_S - 0.05, 20.0), rotation=90, ha="right", color="0.4")
@@ -38,7 +38,7 @@ def run(folder: Path) -> Found:
 
 def _time_s(times: np.ndarray, angles: np.ndarray) -> float:
     """When it is level with its foot, from where it is near that at the speed that it has there."""
-    row = int(np.argmax(angles >= LEVEL_DEG - 4.0))
+    row = int(np.argmax(angles >= NEARLY_DOWN_DEG))
     speed = (angles[row] - angles[row - 1]) / (times[row] - times[row - 1])
     return float(times[row] + (90.0 - angles[row]) / speed)
 
