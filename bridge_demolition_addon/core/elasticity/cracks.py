@@ -146,8 +146,9 @@ class Cracks:
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
         forces = stretched(bars, _as_bars(gaps, self._normals), self._slips, self._flows).forces_n
+        holds = self._holds & (bars.stiffness_n_m > 0.0)
         doubled = np.divide(
-            dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=self._holds
+            dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=holds
         )
         closing = np.minimum(dot_products(self._normals, gaps), 0.0)
         return 0.5 * _summed(doubled + self._stiffness_pressed() * closing * closing)
