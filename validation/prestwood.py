@@ -66,7 +66,7 @@ CASE = Case(
     "measured. Fill is weight alone, and does not spread the load (over 0.8 m, limit analysis gives a tenth more). "
     "Mortar, spandrel walls, and the distortion that the arch had.",
     source="228 kN, four hinges, ring of 220 mm: J. Page, TRRL Research Report 110 (1987). Span, rise, width and 1800 "
-    "kg/m³: L. Simoncello and others, *Front. Built Environ.* 6 (2020) 7, as a public repository quotes them; their "
+    "kg/m³: Simoncello and others, *Front. Built Environ.* 6 (2020) 7, as a public repository quotes them; their "
     "model with soil bears 245 kN. Cover of 165 mm and 20 kN/m³ of the fill are assumed. Limit loads: linear program "
     "of R. K. Livesley, *Int. J. Numer. Methods Eng.* 12 (1978) 1853, with friction of 0.6, worked out in "
     "`validation/arches.py` without the add-on.",
