@@ -53,7 +53,8 @@ def test_a_draw_is_the_scenario_with_its_inputs():
 
 
 def test_inputs_have_the_distributions_that_were_asked_for():
-    drawn = [inputs_of(study(*ALL), number) for number in range(1, 3001)]
+    whole = study(*ALL)
+    drawn = [inputs_of(whole, number) for number in range(1, 3001)]
     columns = {name: [each[name] for each in drawn] for name in drawn[0]}
     expected = {
         SEED: stats.uniform(0, 2**31),
@@ -71,7 +72,8 @@ def test_inputs_have_the_distributions_that_were_asked_for():
 
 
 def test_draws_follow_one_another_independently():
-    heights = [inputs_of(study(HEIGHT), number)["ball.drop_height_m"] for number in range(1, 3001)]
+    of_heights = study(HEIGHT)
+    heights = [inputs_of(of_heights, number)["ball.drop_height_m"] for number in range(1, 3001)]
     for apart in (1, 2, 93):
         assert stats.spearmanr(heights[apart:], heights[:-apart]).pvalue > 0.01
 
