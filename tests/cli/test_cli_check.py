@@ -11,7 +11,16 @@ from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_fac
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.core.bridge.mesh_files import exported
 from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.scenario import Ball, BallCable, ConnectionBetween, ConnectionSettings, Geometry, Load
+from bridge_demolition_addon.core.scenario import (
+    Ball,
+    BallCable,
+    BarLayer,
+    ConnectionBetween,
+    ConnectionSettings,
+    FractureSettings,
+    Geometry,
+    Load,
+)
 from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.core.scenario.recording import PictureSettings
@@ -214,6 +223,15 @@ def test_loads_are_told_with_what_bears_them():
     deck = lines[lines.index("Members") + 1]  # by volume and density, as the member itself
     assert deck.startswith("deck") and lines[start + 1] == f"on 129 shards of deck, together {deck.split(' m³ ')[1]}"
     assert lines[start + 2] == "load 2 0 kN at 0.5 s, 90 kN at 2 s, towards (0, 1, 0)"
+
+
+def test_moments_of_sections_with_bars_are_told():
+    connections = ConnectionSettings(method="face", material="reinforced concrete slab", ductile_elongation_m=0.05)
+    layer = BarLayer(members=("deck",), depth_m=0.04, area_mm2=12_000.0)
+    told = facts(replace(I235, connections=connections, reinforcement=(layer,), fracture=FractureSettings(shards=20)))
+    # By hand, EN 1992-1-1: 6 MN, a = 6 / (8.5 × 35) m = 20.2 mm, 6 MN × (0.21 m - a / 2).
+    assert told["reinforcement"].startswith("deck, along x: 1199 kN·m with its top pressed, ")
+    assert told["reinforcement"].endswith(" kN·m with its bottom pressed")
 
 
 def test_pictures_that_only_a_window_can_take_are_said():
