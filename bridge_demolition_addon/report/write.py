@@ -36,7 +36,7 @@ from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, ground_section, zone_of
 from .sections.forces import force_section, logged_section
-from .sections.ground import ground_section
+from .sections.ground_motion import motion_section
 from .sections.model import model_section
 from .sections.search import search_section
 from .sections.stages import has_stages, stages_section
@@ -220,8 +220,8 @@ def document_of(
             sections.append(blast)
         if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
             sections.append(touchdown)
-        if ground := ground_section(run):
-            sections.append(ground)
+        if motion := motion_section(run):
+            sections.append(motion)
     elif run.results is None:
         sections.append(logged_section(run))
     if stages is not None:

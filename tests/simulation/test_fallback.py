@@ -7,8 +7,12 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
+from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.core.ground_motion.record import integrated
 from bridge_demolition_addon.core.results.summary import summarise
+from bridge_demolition_addon.core.timing.timeline import Timeline
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.tools.ground_motion import keep_ground_motion, move_with_ground
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
@@ -78,3 +82,14 @@ def test_scene_is_left_as_it_was(strange_blender, tmp_path):
     assert blocks.world.time_scale == 1.0
     graph = strange_blender.context.view_layer.depsgraph
     assert graph.scene_eval.rigidbody_world.time_scale == 1.0
+
+
+def test_ground_that_moves_is_refused(strange_blender, tmp_path):
+    blocks = Blocks()
+    blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
+    blocks.block((0, 0, 0.5), 10.0)
+    record = integrated(np.array([0.0, 1.0, 2.0]), np.ones((3, 3)))
+    keep_ground_motion(blocks.scene, record)
+    move_with_ground(blocks.scene, record, 0.0, 2, Timeline.of(1.0 / 24.0, 1.0, ()))
+    with pytest.raises(SimulationError, match="a ground that moves needs Blender's memory"):
+        blocks.play(tmp_path, 3)

@@ -10,7 +10,7 @@ from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.report.document.blocks import DataTable, Picture
 from bridge_demolition_addon.report.run_folder import read_run
-from bridge_demolition_addon.report.sections.ground import ground_section
+from bridge_demolition_addon.report.sections.ground_motion import motion_section
 from bridge_demolition_addon.simulation.run import run_scenario
 
 SIZE_M = np.array([2.0, 3.0, 6.0])
@@ -119,7 +119,7 @@ def test_on_ground_that_is_accelerated_the_heel_lifts_off_as_winkler_has_it(run,
     late = results.frames.time_s > 1.25
     assert turns[late].mean() == pytest.approx(expected, rel=0.05)
     # A footing that is held down would turn by 16 % less.
-    section = ground_section(read_run(tmp_path / "run"))
+    section = motion_section(read_run(tmp_path / "run"))
     peaks, settled = (block for block in section.blocks if isinstance(block, DataTable))
     assert [row[0] for row in peaks.rows] == ["along"]
     assert peaks.rows[0][1] == pytest.approx(abs(values).max(), rel=1e-6)

@@ -20,7 +20,7 @@ from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Sect
 from ..run_folder import Run
 
 
-def ground_section(run: Run) -> Section | None:
+def motion_section(run: Run) -> Section | None:
     """How the ground moved and gave way; None where it did neither."""
     if run.scenario is None:
         return None
@@ -29,7 +29,7 @@ def ground_section(run: Run) -> Section | None:
         blocks += _motion_blocks(run, run.scenario.ground_motion)
     if run.scenario.foundations and run.results is not None:
         blocks += _settlement_blocks(run.results, run.scenario)
-    return Section("Ground", tuple(blocks)) if blocks else None
+    return Section("Motion of the ground, and foundations", tuple(blocks)) if blocks else None
 
 
 def _motion_blocks(run: Run, motion: GroundMotion) -> list[Block]:
