@@ -34,7 +34,7 @@ from .search_folder import is_search, read_found_search
 from .sections.blast import blast_section
 from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
-from .sections.debris import corner_table, debris_section, exclusion_section, ground_section, zone_of
+from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section
 from .sections.model import model_section
@@ -210,8 +210,8 @@ def document_of(
     sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
     if run.results is not None and len(run.results.inventory.of_kind("shard")):
         sections.append(model_section(run.results))
-        if (ground := ground_section(run)) is not None:
-            sections.append(ground)
+        if (terrain := terrain_section(run)) is not None:
+            sections.append(terrain)
         sections.append(debris_section(run, debris, trajectories=trajectories))
         sections.append(exclusion_section(zone, run, plans))
         sections.append(force_section(run))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import bpy
 import numpy as np
 
+from ..core.geometry.vectors import length
 from ..core.results.frames import Frame
 from ..core.timing.time_left import speeds_to_come
 from ..scene.time_scale import time_step_at
@@ -29,7 +28,8 @@ class Workload:
         self._steps = [time_step_at(scene, frame) for frame in range(first, last + 1)]
         self._ends_s = np.cumsum([step.frame_s for step in self._steps])
         self._farthest_m = farthest_per_substep_of(scene)
-        self._gravity_m_s2 = math.hypot(*scene.gravity) if scene.use_gravity else 0.0
+        gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
+        self._gravity_m_s2 = float(length(gravity))
 
     def to_come(self, frame: Frame) -> float:
         """Return how many sub-steps follow on a frame."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..geometry.vectors import dot
+from ..arithmetic import exponential
 
 _SECONDS_PER_MINUTE = 60
 
@@ -71,17 +71,19 @@ def speeds_to_come(
         Speeds, m/s.
     """
     times = np.asarray(after_s, float)
-    moving = dot(velocities_m_s, velocities_m_s) > _AT_REST_M_S**2
+    along_x, along_y, upwards = velocities_m_s.T
+    sideways_squared = along_x * along_x + along_y * along_y
+    moving = sideways_squared + upwards * upwards > _AT_REST_M_S * _AT_REST_M_S
     if not moving.any():
         return np.zeros(len(times))
     fall_m = (heights_m - heights_m.min())[moving]
-    upwards = velocities_m_s[moving, 2]
-    sideways_squared = dot(velocities_m_s, velocities_m_s)[moving] - upwards**2
-    lands_s = (upwards + np.sqrt(upwards**2 + 2.0 * gravity_m_s2 * fall_m)) / gravity_m_s2
+    upwards, sideways_squared = upwards[moving], sideways_squared[moving]
+    lands_s = (upwards + np.sqrt(upwards * upwards + 2.0 * gravity_m_s2 * fall_m)) / gravity_m_s2
     looked_at = np.unique(np.linspace(0, len(times) - 1, _MOST_TIMES).round().astype(int))
     flown_s = np.minimum(times[looked_at, None], lands_s)
-    speeds = np.sqrt(sideways_squared + (upwards - gravity_m_s2 * flown_s) ** 2)
-    slowed = np.exp(-(times[looked_at, None] - flown_s) / _SLOWING_S)
+    climbs = upwards - gravity_m_s2 * flown_s
+    speeds = np.sqrt(sideways_squared + climbs * climbs)
+    slowed = exponential((flown_s - times[looked_at, None]) / _SLOWING_S)
     return np.interp(times, times[looked_at], (speeds * slowed).max(axis=1))
 
 

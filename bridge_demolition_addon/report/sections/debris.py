@@ -154,7 +154,7 @@ def _debris_blocks(
     ]
 
 
-def ground_section(run: Run) -> Section | None:
+def terrain_section(run: Run) -> Section | None:
     """Return what the ground is; None where it is flat and nothing went through it."""
     results = without_removed(run.results)[0]
     under, ground = bodies_under_ground(results), results.ground()
