@@ -171,7 +171,7 @@ def terrain_section(run: Run) -> Section | None:
             "sub-steps: set time.farthest_per_substep_m to a part of the smallest shard."
         )
         blocks.append(Paragraph(words, is_notice=True))
-    return Section("Ground", tuple(blocks)) if blocks else None
+    return Section("Terrain", tuple(blocks)) if blocks else None
 
 
 def _on_surfaces(results: Results, debris: Debris) -> list[Block]:
