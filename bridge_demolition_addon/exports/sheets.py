@@ -80,7 +80,8 @@ def check_sheets() -> None:
     """
     if find_spec("xlsxwriter") is None:
         raise MissingLibraryError(
-            "a workbook is written by XlsxWriter, which is not installed: pip install 'bridge-demolition-addon[sheets]'"
+            "a workbook is written by XlsxWriter, which this Python does not have: pip install "
+            "'bridge-demolition-addon[sheets]', or use bda export where that is installed"
         )
 
 
