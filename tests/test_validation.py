@@ -75,7 +75,7 @@ def test_a_beam_that_loses_a_support_needs_the_moments_of_limit_analysis(blender
 def test_a_pier_topples_by_the_impulse_of_a_charge(blender, tmp_path, share, topples):
     import toppling_charge
 
-    _, angles = toppling_charge.leans(tmp_path, share, duration_s=2.5, substeps=20)
+    _, angles = toppling_charge.leans(tmp_path, share, duration_s=1.7, substeps=20)
     assert (angles[-1] > toppling_charge.SLENDERNESS) == topples
 
 
