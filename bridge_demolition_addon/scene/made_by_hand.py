@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple, replace
+from dataclasses import astuple, fields, replace
 from typing import Any
 
 import bpy
@@ -16,9 +16,11 @@ from .connections.breaking_settings import breaking_of
 from .connections.breaking_thresholds import kept_breaking_force
 from .connections.constraints import connections_of
 from .connections.elasticity import damping_ratio_of, is_elastic
+from .connections.soil import soil_of
 from .structural_changes import changes_of, loads_of
 from .time_scale import curves_of
 from .tools.ball import lifts_of
+from .tools.ground_motion import ground_motion_of
 
 _AS_BUILT = "bda_as_built"
 
@@ -93,6 +95,11 @@ def _parts(scene: bpy.types.Scene) -> Iterator[tuple[str, dict[str, Any]]]:
     )
     yield "removals, saw cuts and weakenings", {"planned": repr(changes_of(scene))}
     yield "loads", {"planned": repr(loads_of(scene))}
+    if motion := ground_motion_of(scene):
+        record = motion.record
+        yield "the motion of the ground", {"record": np.column_stack((record.times_s, record.accelerations_m_s2))}
+    if soil := soil_of(connections):
+        yield "soil under footings", {each.name: getattr(soil, each.name) for each in fields(soil)}
 
 
 def _strengths(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object]) -> dict[str, Any]:

@@ -63,6 +63,7 @@ def test_last_event():
     # The ball is let go at 0.5 s and falls 5 m, for 1.0098 s.
     assert last_event_s(I235) == pytest.approx(0.5 + np.sqrt(10.0 / 9.80665))
     assert last_event_s(replace(I235, ball=None)) == 0.0
+    assert last_event_s(replace(I235, ball=None), motion_end_s=7.0) == 7.0
     assert last_event_s(replace(I235, saw_cuts=[SawCut(time_s=3, point_m=(6, 0, 5), normal=(1, 0, 0))])) == 3.0
     explosive = read_scenario(EXAMPLES / "single_span_explosives.toml")
     detonations = [explosive.blast.start_s + charge.delay_s for charge in explosive.charges]
