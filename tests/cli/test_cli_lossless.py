@@ -63,11 +63,13 @@ def whole_results(folder):
 def test_a_second_run_does_not_write_to_the_folder_of_the_first(tmp_path):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
     first = started(path, output)
+    first.send_signal(signal.SIGSTOP)  # or it would leave a thousand frames
     status, printed, complained = run_bda("run", path, "--output", output, "--no-pictures", "--overwrite")
     assert (status, printed) == (2, "")
     assert complained.startswith(f"bda: error: {output}: is being written to by process {first.pid} on ")
     assert run_bda("report", output)[0] == 2
     first.send_signal(signal.SIGINT)
+    first.send_signal(signal.SIGCONT)
     assert outcome(first)[0] == 130
     assert not whole_results(output)["completed"]
     assert not (output / "run.lock").exists()

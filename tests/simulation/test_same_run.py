@@ -46,8 +46,7 @@ MACHINES = (
     Machine("Prescott", ("pni",), 1, NUMPY_AS_OLD | C_LIBRARY_AS_OLD),
     Machine("Nehalem", ("sse4_2",), 2, C_LIBRARY_AS_OLD),
     Machine("Sandybridge", ("avx",), 1, NUMPY_AS_OLD),
-    Machine("Haswell", ("avx2", "fma"), 2),
-    Machine("Zen", ("avx2", "fma"), 1),
+    Machine("Haswell", ("avx2", "fma"), 1),  # and for Zen, of which numpy has no kernels of its own
     Machine("SkylakeX", ("avx512f", "avx512cd", "avx512bw", "avx512dq", "avx512vl"), 2, C_LIBRARY_AS_OLD),
 )
 

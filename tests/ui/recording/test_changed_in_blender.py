@@ -14,7 +14,7 @@ from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.ui.scenario.built import Change, changed_in_blender
 
-FRAMES = 20
+FRAMES, SHARDS = 20, 12
 
 
 def of_kind(scene, kind):
@@ -107,6 +107,7 @@ def built(extension, settings, tmp_path):
     settings.scenario_path = str(SMALL)
     extension.ops.bda.load_scenario()
     settings.scenario.time.duration_s = (FRAMES - 2) / 24
+    settings.scenario.fracture.shards = SHARDS
     extension.ops.bda.build_scenario()
     settings.output_directory, settings.overwrite = str(tmp_path / "results"), True
     return extension
