@@ -91,8 +91,11 @@ def draw_ground(axes: Axes, ground: RecordedGround) -> None:
     left, right, low, high = (*axes.get_xlim(), *axes.get_ylim())
     for each in ground.surfaces:
         style = {"fill": False, "edgecolor": _SURFACE_COLOURS.get(each.kind, "0.35"), "linewidth": 0.9}
-        draw_area(axes, each.plan(), linestyle="-.", zorder=0.8, **style)
-        corner = np.clip(each.plan().bounds()[:2], (left, low), (right, high))
+        area = ground.shown(each)
+        if area.is_empty():
+            continue
+        draw_area(axes, area, linestyle="-.", zorder=0.8, **style)
+        corner = np.clip(area.bounds()[:2], (left, low), (right, high))
         axes.annotate(plain(each.name), corner, fontsize=6, va="bottom", color=style["edgecolor"], annotation_clip=True)
     if ground.terrain is not None:
         x, y, heights = ground.terrain.mesh.vertices.T
@@ -101,7 +104,7 @@ def draw_ground(axes: Axes, ground: RecordedGround) -> None:
         if len(levels):
             triangles = ground.terrain.mesh.triangles
             lines = axes.tricontour(
-                x, y, triangles, heights, levels=levels, colors=_CONTOUR, linewidths=0.5, zorder=0.7
+                x, y, triangles, heights, levels=levels, colors=_CONTOUR, linewidths=0.5, linestyles="solid", zorder=0.7
             )
             axes.clabel(lines, fmt="%g m", fontsize=5)
     axes.set(xlim=(left, right), ylim=(low, high))

@@ -31,8 +31,6 @@ from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_
 from ..core.structure.face_bars import layers_of_members
 from ..core.structure.model import Model
 from ..core.terrain.built import BuiltGround, told
-from ..core.terrain.recorded import NamedSurface
-from ..core.terrain.surface import Surface
 from ..core.units import STANDARD_GRAVITY_M_S2
 from .arguments import naming
 
@@ -122,9 +120,9 @@ def _ground_facts(ground: BuiltGround) -> Iterator[tuple[str, str]]:
     """Yield what the terrain became, and what lies on it."""
     if ground.facts:
         yield from told(ground.facts)
-    for each in ground.surfaces:
-        area = NamedSurface(each.settings.name, each.settings.kind, Surface(each.mesh)).plan().area()
-        yield each.settings.name, f"{each.settings.kind}, {area:.1f} m² in plan"
+    recorded = ground.recorded()
+    for each in recorded.surfaces:
+        yield each.name, f"{each.kind}, {recorded.shown(each).area():.1f} m² in plan"
 
 
 def _member_facts(members: Sequence[Member]) -> Iterator[tuple[str, str]]:

@@ -43,7 +43,7 @@ def test_flat_ground_has_none():
 
 
 def test_surfaces_are_outlined_and_named():
-    square = np.array([[0, 0, 1], [8, 0, 1], [8, 8, 1], [0, 8, 1]], float)
+    square = np.array([[0, 0, 20], [8, 0, 20], [8, 8, 20], [0, 8, 20]], float)
     river = NamedSurface("river <1> $2$", "water", Surface(TriangleMesh(square, TWO)))
     axes = shown(replace(SLOPE, surfaces=(river,)))
     (outline,) = axes.patches

@@ -44,9 +44,11 @@ def debris_on_surfaces(results: Results, debris: Debris) -> tuple[SurfaceDebris,
     places = results.frames.positions_m[-1, debris.bodies]
     found = []
     for each in debris.ground.surfaces:
-        on_it = places[:, 2] >= each.surface.heights_at(places[:, :2]) - MOVED_M  # nan beside it
+        level = each.surface.heights_at(places[:, :2])  # nan beside it
+        # Water lies below the ground beyond its shores.
+        on_it = (places[:, 2] >= level - MOVED_M) & (level >= debris.ground.heights_at(places[:, :2]))
         mass = float(debris.masses_kg[on_it].sum())
-        covered = float((debris.area ^ each.plan()).area())
+        covered = float((debris.area ^ debris.ground.shown(each)).area())
         found.append(SurfaceDebris(each.name, each.kind, debris.bodies[on_it], mass, covered))
     return tuple(found)
 

@@ -104,7 +104,9 @@ class Piers(Table):
     columns: int = key("Columns of one pier, spread evenly across the road.", default=1, at_least=1, at_most=1000)
     column_length_m: float = key("Size of a column along the road.", **SIZE)
     column_width_m: float = key("Size of a column across the road.", **SIZE)
-    height_m: float = key("Height of a column above the ground.", **SIZE)
+    height_m: float = key(
+        "Height of a column above the ground; where that is not flat, of its top above height 0.", **SIZE
+    )
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the piers"), default=None, unit="kg/m³", above=0)
 
     def _check_together(self) -> None:

@@ -13,6 +13,7 @@ from ..geometry.mesh import TriangleMesh
 from ..scenario import Scenario
 from .levelling import Levelled, levelled
 from .placed import Terrain, terrain_of
+from .recorded import NamedSurface, RecordedGround
 from .surface import Surface
 from .surfaces import BuiltSurface, built_surfaces
 from .thinning import Grid, thinned
@@ -92,6 +93,11 @@ class BuiltGround:
     def is_plain(self) -> bool:
         """Whether it is flat, with nothing on it."""
         return self.terrain is None and not self.surfaces
+
+    def recorded(self) -> RecordedGround:
+        """Return the ground as the results of a run have it."""
+        surfaces = (NamedSurface(each.settings.name, each.settings.kind, Surface(each.mesh)) for each in self.surfaces)
+        return RecordedGround(self.terrain, tuple(surfaces))
 
     def heights_at(self, places_m: np.ndarray) -> np.ndarray:
         """Heights (n,) of the ground at places (n, 2), m; nan beyond its edge."""

@@ -10,6 +10,9 @@ from manifold3d import CrossSection, FillRule
 from ..geometry.plan_areas import signed_area
 from .surface import Surface
 
+_LEVEL_M = 1e-4
+"""Heights that differ by less are one: those of a kilometre in single precision do."""
+
 
 @dataclass(frozen=True, slots=True)
 class NamedSurface:
@@ -27,12 +30,17 @@ class NamedSurface:
     kind: str
     surface: Surface
 
+    @property
+    def level_m(self) -> float | None:
+        """Height of its upper side, m; None where that is not level."""
+        corners = self.surface.mesh.corners
+        up = signed_area(corners[:, :, :2]) > 0.0
+        heights = corners[up, :, 2]
+        return float(heights.max()) if len(heights) and np.ptp(heights) <= _LEVEL_M else None
+
     def plan(self) -> CrossSection:
-        """What it covers in plan."""
-        corners = self.surface.mesh.corners[:, :, :2]
-        areas = signed_area(corners)
-        corners = np.where((areas < 0.0)[:, None, None], corners[:, ::-1], corners)  # those of undersides as well
-        return CrossSection(list(corners[areas != 0.0]), FillRule.NonZero)
+        """What it covers in plan, above the ground or below it."""
+        return _covered(self.surface.mesh.corners[:, :, :2])
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +63,16 @@ class RecordedGround:
         """Whether it is at height 0 everywhere."""
         return self.terrain is None and not self.surfaces
 
+    def shown(self, surface: NamedSurface) -> CrossSection:
+        """What a surface covers in plan where it lies above the terrain: of water, up to its shores.
+
+        Of a surface that is not level it is all of its plan.
+        """
+        plan, level = surface.plan(), surface.level_m
+        if self.terrain is None or level is None:
+            return plan
+        return plan - _covered_above(self.terrain.mesh.corners, level, np.array(plan.bounds()).reshape(2, 2))
+
     def heights_at(self, places_m: np.ndarray) -> np.ndarray:
         """Heights (...) of ground and surfaces at places (..., 2), m; beyond its edge, that of its lowest place."""
         places = np.asarray(places_m, float)
@@ -66,3 +84,29 @@ class RecordedGround:
         for each in self.surfaces:
             heights = np.fmax(heights, each.surface.heights_at(flat))
         return heights.reshape(places.shape[:-1])
+
+
+def _covered(corners: np.ndarray) -> CrossSection:
+    """What triangles (t, 3, 2) cover in plan, whichever side of them is up."""
+    areas = signed_area(corners)
+    corners = np.where((areas < 0.0)[:, None, None], corners[:, ::-1], corners)
+    return CrossSection(list(corners[areas != 0.0]), FillRule.NonZero)
+
+
+def _covered_above(corners: np.ndarray, level_m: float, bounds_m: np.ndarray) -> CrossSection:
+    """What the parts of triangles (t, 3, 3) above a level cover in plan, of those that meet a box (2, 2)."""
+    plan = corners[:, :, :2]
+    meets = (plan.max(axis=1) >= bounds_m[0]).all(axis=1) & (plan.min(axis=1) <= bounds_m[1]).all(axis=1)
+    parts = []
+    for triangle in corners[meets & (corners[:, :, 2].max(axis=1) > level_m)]:
+        above = triangle[:, 2] > level_m
+        outline = []
+        for row in range(3):
+            here, there = triangle[row], triangle[(row + 1) % 3]
+            if above[row]:
+                outline.append(here[:2])
+            if above[row] != above[(row + 1) % 3]:
+                share = (level_m - here[2]) / (there[2] - here[2])
+                outline.append(here[:2] + share * (there[:2] - here[:2]))
+        parts.append(np.array(outline))
+    return CrossSection(parts, FillRule.NonZero)

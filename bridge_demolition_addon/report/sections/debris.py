@@ -162,7 +162,7 @@ def terrain_section(run: Run) -> Section | None:
     if run.summary and run.summary.get("terrain"):
         blocks.append(facts("Ground", told(facts_from(run.summary["terrain"])), "terrain"))
     if ground.surfaces:
-        rows = [(each.name, f"{each.kind}, {each.plan().area():.1f} m² in plan") for each in ground.surfaces]
+        rows = [(each.name, f"{each.kind}, {ground.shown(each).area():.1f} m² in plan") for each in ground.surfaces]
         blocks.append(facts("Surfaces on the ground", rows, "surfaces"))
     if len(under):
         words = (

@@ -28,12 +28,15 @@ _DECIMALS = 3
 
 @cache
 def numbers_in_row(item: Field) -> int:
-    """Return how many numbers a row of a key's list has; 0 for a key without rows."""
+    """Return how many numbers a row of a key's list has; 0 for a key without rows.
+
+    Numbers without a unit have none: those of a place on a map have more digits than Blender's single precision.
+    """
     if not holds_many(item) or get_args(value_type(item))[-1] is not Ellipsis:
         return 0
     kind = get_args(value_type(item))[0]
     if kind is float:
-        return 1
+        return 1 if key_of(item).unit else 0
     kinds = get_args(kind)
     return len(kinds) if kinds and set(kinds) == {float} else 0
 

@@ -90,6 +90,11 @@ def test_debris_on_the_water_is_counted_apart():
     assert (river.name, river.kind, river.bodies.tolist()) == ("river", "water", [0, 1])
     assert river.mass_kg == 3000.0
     assert river.covered_m2 == pytest.approx(2.0)
+    # The ground is at the water's height of 2 m where x is 16: there is the shore, and of its 20 m by 30 m it has 14.
+    ground = results.ground()
+    assert ground.shown(ground.surfaces[0]).area() == pytest.approx(14.0 * 30.0, rel=1e-6)
+    on_the_bank = fallen([on_slope(0.0, 6.0)], [on_slope(12.0, 0.5)])  # over the outline of the water, above its shore
+    assert not len(debris_on_surfaces(on_the_bank, debris_of(on_the_bank))[0].bodies)
     # On the water and on what floats on it: heights above the water, not above its bottom.
     assert debris_of(results).highest_m == pytest.approx(2.0)
 
