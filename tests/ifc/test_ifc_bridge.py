@@ -118,13 +118,22 @@ def test_a_unit_that_the_user_tells_counts(tmp_path):
     assert any("cm" in each for each in bridge.notes)
 
 
-def test_far_from_the_origin_and_turned(tmp_path):
+@pytest.mark.parametrize("turn_deg", [35.0, 90.0, -60.0])
+def test_far_from_the_origin_and_turned(turn_deg, tmp_path):
     """As far off as in a file that was reported, 6581 km, where single precision keeps half a metre."""
-    bridge = read(whole_bridge(offset_m=(4_500_000.0, 4_800_000.0, 312.0), turn_deg=35.0), tmp_path)
+    bridge = read(whole_bridge(offset_m=(4_500_000.0, 4_800_000.0, 312.0), turn_deg=turn_deg), tmp_path)
     assert volumes(bridge) == pytest.approx(VOLUMES_M3, rel=EXACT)
     bounds = member(bridge, "Carriageway").solid.bounds
     assert bounds == pytest.approx(np.array([(0, -2, 4.4), (21, 2, 4.6)]), abs=1e-6)
+    assert member(bridge, "Footing 1").solid.bounds[:, 0] == pytest.approx((-1.0, 2.0), abs=1e-6)
+    assert member(bridge, "Girder left").solid.bounds[:, 1] == pytest.approx((0.8, 1.2), abs=1e-6)
     assert bridge.ground_m == pytest.approx(312.0, abs=1e-6)
+
+
+def test_a_road_that_leads_against_x_is_walked_from_its_other_end(tmp_path):
+    bridge = read(whole_bridge(turn_deg=180.0), tmp_path)
+    assert member(bridge, "Footing 3").solid.bounds[:, 0] == pytest.approx((-1.0, 2.0), abs=1e-6)
+    assert member(bridge, "Girder left").solid.bounds[:, 1] == pytest.approx((-1.2, -0.8), abs=1e-6)
 
 
 def test_the_ground_cuts_what_is_buried(tmp_path):

@@ -24,8 +24,10 @@ def plain(**options):
 
 @pytest.mark.parametrize("unit", ["METRE", "MILLI"])
 def test_by_map_conversion_to_utm(unit, tmp_path):
-    """The bridge begins there, where the grid's north is 1.61° × sin 43.6°, the convergence, east of true north."""
-    made = plain(unit=unit, offset_m=(0.5, 0.0, 0.0)).map_conversion("EPSG:32617", 630_084.0, 4_833_438.0, 30.0)
+    """The bridge begins there, 1 km along x from what is converted; grid north is 1.61° × sin 43.6° east of north."""
+    turn = math.radians(30.0)
+    origin = 630_084.0 - 1000.0 * math.cos(turn), 4_833_438.0 - 1000.0 * math.sin(turn)
+    made = plain(unit=unit, offset_m=(1000.5, 0.0, 0.0)).map_conversion("EPSG:32617", *origin, 30.0)
     site, source = site_of(made, tmp_path)
     assert (site.latitude_deg, site.longitude_deg) == pytest.approx(CN_TOWER_DEG, abs=2e-5)
     convergence = (CN_TOWER_DEG[1] + 81.0) * math.sin(math.radians(CN_TOWER_DEG[0]))
