@@ -7,6 +7,7 @@ from manifold3d import CrossSection
 from scipy.stats import beta, norm
 
 from bridge_demolition_addon.core.geometry.plan_areas import outlines
+from bridge_demolition_addon.core.statistics.proportions import upper_limit
 from bridge_demolition_addon.core.study.probability_map import probability_map
 
 RUNS = 400
@@ -46,7 +47,8 @@ def test_the_limit_at_a_place_holds_in_as_many_studies_as_promised():
     maps = [
         probability_map([strip(each) for each in generator.normal(10.0, 2.0, 59)], CONFIDENCE) for _ in range(studies)
     ]
-    limits = [each.upper_limits[0, round(place_m / each.cells.side_m)] for each in maps]
+    hits = [each.hits[0, round(place_m / each.cells.side_m)] for each in maps]
+    limits = upper_limit(np.arange(59 + 1), 59, CONFIDENCE)[hits]  # as the limits of cells are, see above
     tolerance = 3.3 * np.sqrt(CONFIDENCE * (1.0 - CONFIDENCE) / studies)
     assert np.mean(limits >= norm.sf(place_m, 10.0, 2.0)) >= CONFIDENCE - tolerance
 
