@@ -170,6 +170,7 @@ def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
         draw_area(axes, debris.area, facecolor="0.7", edgecolor="0.3", linewidth=0.4, label="footprint of the debris")
         style = {"fill": False, "edgecolor": "black", "linewidth": 1.2, "linestyle": "--"}
         draw_area(axes, debris.outline, label="bridge before", **style)
+        draw_ground(axes, debris.ground)
     for axes in panels.flat[len(runs) :]:
         axes.remove()
     handles, labels = panels.flat[0].get_legend_handles_labels()

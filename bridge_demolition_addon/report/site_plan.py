@@ -21,10 +21,22 @@ _CLOSED = 1
 _MOST_LETTERS = 31
 
 
-def write_dxf(path: Path, layers: Mapping[str, CrossSection]) -> None:
+CONTOUR_LAYER = "CONTOURS"
+
+
+def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.ndarray | None = None) -> None:
     """Write areas as closed polylines, one layer each, in metres and in the scenario's own axes.
 
     The format is that of AutoCAD release 12, which everything reads.
+
+    Parameters
+    ----------
+    path
+        File to write.
+    layers
+        Areas by the names of their layers.
+    contours_m : (s, 2, 3) float, optional
+        Contour lines of the ground, for a layer of their own, each at its height.
     """
     lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1009", "0", "ENDSEC"]
     lines += ["0", "SECTION", "2", "ENTITIES"]
@@ -34,6 +46,11 @@ def write_dxf(path: Path, layers: Mapping[str, CrossSection]) -> None:
             for x, y in ring:
                 lines += ["0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0"]
             lines += ["0", "SEQEND", "8", layer]
+    for ends in [] if contours_m is None else contours_m:
+        lines += ["0", "LINE", "8", CONTOUR_LAYER]
+        for number, place in enumerate(ends):
+            for axis, value in enumerate(place, start=1):
+                lines += [f"{axis}{number}", f"{value:.4f}"]
     lines += ["0", "ENDSEC", "0", "EOF"]
     write_whole_text(path, "\n".join(lines) + "\n", encoding="ascii", newline="\r\n")
 

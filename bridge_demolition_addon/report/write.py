@@ -9,6 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
 from manifold3d import CrossSection
 
 from ..core.debris.exclusion import ExclusionZone
@@ -24,6 +25,7 @@ from ..core.stages.stages import criticality, stages_of
 from ..core.stages.standing import StandingBridge
 from ..core.stages.tables import write_tables as write_stage_tables
 from ..core.study.files import PLAN_DXF, PLAN_GEOJSON, REPORT_FOLDER
+from ..core.terrain.contour_lines import contour_lines
 from .comparison import comparison
 from .document.blocks import DataTable, Document, Listing, Section, write_tables
 from .document.drawings import drawings
@@ -287,12 +289,31 @@ def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
         "designed drop": zone.drop,
         "bridge": zone.plan,
     }
-    return _write_areas(areas, run.scenario.site, target / DXF_FILE, target / GEOJSON_FILE)
+    contours = _contours_around(run, zone)
+    return _write_areas(areas, run.scenario.site, target / DXF_FILE, target / GEOJSON_FILE, contours)
 
 
-def _write_areas(areas: Mapping[str, CrossSection], site: Site | None, dxf: Path, geojson: Path) -> list[Path]:
+def _contours_around(run: Run, zone: ExclusionZone) -> np.ndarray | None:
+    """Contour lines (s, 2, 3) of the ground in and around an exclusion zone, m; None where the ground is flat."""
+    terrain = run.results.ground().terrain
+    if terrain is None:
+        return None
+    low, high = np.array(zone.bounds_m).reshape(2, 2)
+    room, corners = (high - low) / 2.0, terrain.mesh.corners
+    plan = corners[:, :, :2]
+    near = (plan.max(axis=1) >= low - room).all(axis=1) & (plan.min(axis=1) <= high + room).all(axis=1)
+    return contour_lines(corners[near])
+
+
+def _write_areas(
+    areas: Mapping[str, CrossSection],
+    site: Site | None,
+    dxf: Path,
+    geojson: Path,
+    contours_m: np.ndarray | None = None,
+) -> list[Path]:
     """Write areas for a site plan, and return the files; in degrees only where the site is known."""
-    write_dxf(dxf, areas)
+    write_dxf(dxf, areas, contours_m)
     if site is None:
         return [dxf]
     write_geojson(geojson, areas, site)

@@ -128,3 +128,13 @@ def test_geojson_has_closed_rings_and_holes(tmp_path):
             area = np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
             assert (area > 0) == (number == 0)  # RFC 7946: outer rings anticlockwise, holes clockwise
         assert np.abs(np.array(part[0]) - (-93.6, 41.6)).max() < 0.001
+
+
+def test_contour_lines_are_in_a_layer_of_their_own_at_their_heights(tmp_path):
+    line = np.array([[[1.0, -2.0, 5.0], [3.5, 4.0, 5.0]]])
+    write_dxf(tmp_path / "plan.dxf", {"bridge": SQUARE}, line)
+    text = (tmp_path / "plan.dxf").read_text(encoding="ascii").split()
+    start = text.index("LINE")
+    assert text[start - 1 : start + 3] == ["0", "LINE", "8", "CONTOURS"]
+    pairs = dict(zip(text[start + 3 : start + 15 : 2], map(float, text[start + 4 : start + 15 : 2]), strict=True))
+    assert pairs == {"10": 1.0, "20": -2.0, "30": 5.0, "11": 3.5, "21": 4.0, "31": 5.0}

@@ -5,6 +5,7 @@ import pytest
 
 from bridge_demolition_addon.core.geometry.mesh import triangle_areas_and_normals
 from bridge_demolition_addon.core.geometry.vectors import cross_2d
+from bridge_demolition_addon.core.terrain.contour_lines import contour_lines
 from bridge_demolition_addon.core.terrain.surface import Surface
 from bridge_demolition_addon.core.terrain.thinning import Grid, thinned
 
@@ -75,3 +76,15 @@ def test_a_surface_has_the_height_of_its_highest_triangle_and_none_beside_it():
     found = surface.heights_at(np.array([[0.3, -0.7], [1.0, 1.0], [1.1, 0.0], [-50.0, 0.0]]))
     np.testing.assert_array_equal(found, [4.5, 4.5, np.nan, np.nan])
     assert triangle_areas_and_normals(surface.mesh.corners)[0].sum() == pytest.approx(16.0)
+
+
+def test_contour_lines_are_where_a_plane_has_their_height():
+    """A plane that rises by 1 in 4 over 32 m: 8 m of height, every metre of it, at multiples of 4 m along x."""
+    grid = grid_of(lambda x, y: 0.25 * (x + 10.0) + 0.5)
+    lines = contour_lines(thinned(grid, 0.01, none_kept(grid), 8.0).corners)
+    np.testing.assert_allclose(lines[..., 2], 0.25 * (lines[..., 0] + 10.0) + 0.5, atol=1e-12)
+    assert set(np.unique(lines[..., 2].round(9))) == set(np.arange(1.0, 9.0))
+    # Each runs across the whole site, 32 m.
+    lengths = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
+    assert lengths.sum() == pytest.approx(8 * CELLS * STEP)
+    assert not len(contour_lines(thinned(grid_of(SHAPES["flat"]), 0.01, none_kept(grid), 8.0).corners))
