@@ -85,6 +85,10 @@ BUTTONS = {
     "export_run": 0.1,
     "make_report": 0.1,
     "render_contours": 0.3,
+    "render_run": 0.3,
+    "check_stages": 0.5,
+    "show_utilisation": 1,
+    "import_ifc": 0.5,
 }
 """How often each button is pressed. Those are not that open a window of the system: `open_...`."""
 
@@ -229,6 +233,7 @@ class BlenderPlayer(Player):
                 "is_upright": random.random() < 0.5,
                 "place_m": [random.choice((-5.0, 0.0, 3.7, 1e6)) for _ in range(3)],
             },
+            "import_ifc": lambda: {"filepath": self._path(random)},
             "go_to_body": lambda: {"body": random.choice(names), "frame": random.randrange(LONGEST_FRAMES)},
         }
         return arguments[button]() if button in arguments else {}
