@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import ConvexHull, QhullError
 
-from ..core.geometry.hulls import THINNEST
 from ..core.geometry.mesh import TriangleMesh
 from ..core.geometry.rotations import carried_points
-from ..core.geometry.solids import from_manifold, hull
-from ..core.geometry.vectors import transformed_back
+from ..core.geometry.vectors import dot, transformed_back
 from ..core.results.arrays import Results
 from ..core.results.frames import Frame
 from ..core.results.inventory import Inventory
@@ -28,11 +27,20 @@ def body_meshes(inventory: Inventory) -> list[TriangleMesh]:
 def _mesh(vertices: np.ndarray, triangles: np.ndarray) -> TriangleMesh:
     if len(triangles):
         return TriangleMesh(vertices, triangles)
-    if len(vertices) >= 4:
-        mesh = from_manifold(hull(vertices))
-        if len(mesh.triangles) and mesh.volume > THINNEST * mesh.cube_volume:
-            return mesh
-    return TriangleMesh(vertices, _NO_TRIANGLES)
+    try:
+        return _hull(vertices)
+    except (QhullError, ValueError):  # fewer than four vertices, or all of them in one plane
+        return TriangleMesh(vertices, _NO_TRIANGLES)
+
+
+def _hull(vertices: np.ndarray) -> TriangleMesh:
+    """Return the convex hull, by Qhull: it gives the same triangles each time, as the engine of solids does not."""
+    found = ConvexHull(vertices)
+    rows, triangles = np.unique(found.simplices, return_inverse=True)
+    triangles, corners = triangles.reshape(-1, 3), vertices[found.simplices]
+    inwards = dot(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), found.equations[:, :3]) < 0.0
+    triangles[inwards] = triangles[inwards, ::-1]
+    return TriangleMesh(vertices[rows], triangles)
 
 
 class ConnectionPlaces:
