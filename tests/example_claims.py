@@ -112,7 +112,7 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "piers_moved_m": (0.0, 0.1),  # 0.00 to 0.03
         "abutments_moved_m": (0.0, 0.0),
     },
-    "two_spans_13m_ball": {  # the test plays 3.1 s of 5 s
+    "two_spans_13m_ball": {
         # Decks that lie loose tremble; and slivers of faces.
         "moved_before_m": (0.0, 0.2),  # 0.01 to 0.09 over 20 seeds
         "broken_before_share": (0.0, 0.04),  # 0.00 to 0.01

@@ -10,7 +10,7 @@ MASS_KG = 196_000.0
 
 @pytest.fixture(scope="module")
 def ball(tmp_path_factory):
-    return run_example(example("two_spans_13m_ball", 3.1), tmp_path_factory.mktemp("ball"))
+    return run_example(example("two_spans_13m_ball"), tmp_path_factory.mktemp("ball"))
 
 
 @pytest.fixture(scope="module")
