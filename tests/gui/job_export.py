@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run is exported from the menu of the panel Results, and what this Blender cannot write is told."""
+
+from habits import build
+from panels import Panels
+from person import Person, Steps
+from traces import recording_runs, something_goes_on
+
+BELOW_PX = 26
+"""From the button above the menu to the menu."""
+
+
+def steps(person: Person) -> Steps:
+    yield from person.open_sidebar()
+    panels = Panels(person)
+    yield from build(person)
+    results = person.folder / "results"
+    person.scene.bda.output_directory = str(results)
+    person.scene.bda.pictures_of_run = False
+    yield from person.click("bda.run")
+    yield from person.wait_for("it runs", recording_runs, 20.0)
+    yield from person.wait_for("it is over", lambda: not something_goes_on(), 120.0)
+    person.take_reports()
+    yield from panels.show_only("Results")
+    yield from choose(person, "glTF", 2)
+    yield from person.wait_for("the model is there", (results / "export.glb").is_file, 60.0)
+    yield from person.wait_for("and it is over", lambda: not something_goes_on(), 20.0)
+    person.expect_reports("the file is named", f"Animated Model (glTF): {results / 'export.glb'}")
+    yield from choose(person, "ParaView", 0)
+    yield from person.wait_for("the series is there", (results / "export" / "bodies.pvd").is_file, 60.0)
+    yield from person.wait_for("and it is over", lambda: not something_goes_on(), 20.0)
+    person.take_reports()
+
+
+def choose(person: Person, name: str, number: int) -> Steps:
+    """Open the menu below *Draw Charts*, and take a format of it by the keyboard."""
+    yield from person.hover("bda.draw_charts")
+    x, y = person.mouse
+    yield from person.move(x, y - BELOW_PX)
+    yield 0.3
+    yield from person.press("LEFTMOUSE")
+    yield 1.0
+    yield from person.picture(f"menu_{name}")
+    yield from person.press("HOME")
+    for _ in range(number):
+        yield from person.press("DOWN_ARROW")
+    yield from person.press("RET")
+    yield 0.5
