@@ -55,7 +55,7 @@ def _abutments(bridge: Bridge, axes: tuple[float, float], ground: GroundHeight) 
 def _foot(name: str, x_m: float, y_m: float, top_m: float, ground: GroundHeight) -> float:
     """Height of the ground under a member, m."""
     foot = ground(name, x_m, y_m)
-    if foot > top_m - _SHORTEST_M:
+    if foot > max(top_m - _SHORTEST_M, 0.0):  # on level ground the keys say how high a pier has to be
         raise GeometryError(
             f"The ground is at {foot:.2f} m under {name}, whose top is at {top_m:.2f} m; make the bridge higher, or "
             "give ground.origin another height."
