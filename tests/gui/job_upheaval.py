@@ -43,6 +43,7 @@ def prepare(person: Person, company: str, number: int) -> None:
             bpy.ops.preferences.addon_enable(module=EXTENSION)
             person.scene.bda.scenario_path = str(SCENARIO)
             bpy.ops.bda.build_scenario()
+            bpy.ops.bda.toggle_symbols()  # what is hidden cannot be chosen
             bpy.ops.ed.undo_push(message="built")
             bpy.ops.wm.save_as_mainfile(filepath=str(person.folder / "built.blend"))
         person.scene.frame_set(1)
