@@ -64,9 +64,9 @@ class Blocks:
             constraint.breaking_threshold = self.time.step.impulse(breaking_force_newton)
         return connection
 
-    def play(self, folder: Path, frames: int, *, every_substep: bool = True) -> Results:
+    def play(self, folder: Path, frames: int, *, every_substep: bool = True, contacts: bool = False) -> Results:
         """Simulate and record, from the start frame on."""
-        recording = Recording(self.scene, folder, every_substep=every_substep)
+        recording = Recording(self.scene, folder, every_substep=every_substep, contacts=contacts)
         start_recording(recording)
         for frame in range(self.scene.frame_start, self.scene.frame_start + frames + 2):
             self.scene.frame_set(frame)

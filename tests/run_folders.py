@@ -99,12 +99,15 @@ def keep_run(folder, results, scenario=TOLD, *, completed=True):
 
 def stream_run(folder, results, frames=None):
     """The stream of a run that goes on or was killed, with as many of the frames of these results."""
-    stream = FrameStream(folder, results.reading, results.inventory)
+    contacts = results.contacts
+    stream = FrameStream(folder, results.reading, results.inventory, contacts=contacts is not None)
     times, balls = results.frames.time_s, results.balls
     for row in range(len(times) if frames is None else frames):
         first, last = np.searchsorted(balls.times_s, [times[max(row - 1, 0)], times[row]], side="right")
         substeps = (values[first:last] for values in (balls.times_s, balls.impulses_ns, balls.velocities_m_s))
-        stream.append(results.frames[row], BallHistory(balls.bodies, *substeps))
+        frame = results.frames[row]
+        touching = contacts.of_frame(frame.number) if contacts else None
+        stream.append(frame, BallHistory(balls.bodies, *substeps), touching)
     return stream
 
 

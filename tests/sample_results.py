@@ -7,7 +7,7 @@ import numpy as np
 from bridge_demolition_addon.core.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from bridge_demolition_addon.core.mechanics.work import FrameWork
 from bridge_demolition_addon.core.results.arrays import Results
-from bridge_demolition_addon.core.results.frames import BallHistory, Frame, FrameSeries
+from bridge_demolition_addon.core.results.frames import BallHistory, ContactHistory, Frame, FrameSeries
 from bridge_demolition_addon.core.results.inventory import Inventory
 
 G = 9.80665
@@ -92,6 +92,20 @@ def _work(step: int) -> FrameWork:
     """The solver makes 200 J in the last frame, three quarters of it for *lower*."""
     made = np.array([0.0, 50.0, 150.0, 0.0]) * (step == 4)
     return FrameWork(1000.0, 0.0, 0.0, 1.0, 500.0, made.sum(), 0.0, 0.0, made)
+
+
+def with_contacts(results: Results) -> Results:
+    """The same recording with contacts of its first two bodies: one in its second frame, three in its last."""
+    numbers = results.frames.number[[1, -1, -1, -1]]
+    contacts = ContactHistory(
+        frames=numbers,
+        bodies=np.array([[0, 1], [1, 0], [0, 1], [0, 1]]),
+        places_m=np.arange(12.0).reshape(4, 3),
+        normals=np.array([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]),
+        normal_impulses_ns=np.array([2.0, 3.0, 4.0, 0.5]),
+        friction_impulses_ns=np.array([[1.5, 0.0, 0.0], [0.0, 4.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+    )
+    return replace(results, contacts=contacts)
 
 
 def changed(results: Results, **arrays: np.ndarray) -> Results:

@@ -27,7 +27,7 @@ class Format:
     ending: str = ""
 
 
-PARAVIEW = Format("paraview", "ParaView", "a folder with series of all bodies, centres and connections")
+PARAVIEW = Format("paraview", "ParaView", "a folder with series of bodies, centres, connections and contacts")
 XLSX = Format("xlsx", "Spreadsheet (XLSX)", "all tables in one workbook", ".xlsx")
 GLTF = Format("gltf", "Animated Model (glTF)", "an animated model, which browsers show", ".glb")
 USD = Format("usd", "USD", "an animated stage, in double precision", ".usdc")

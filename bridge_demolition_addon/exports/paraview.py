@@ -1,4 +1,4 @@
-"""A run as three series for ParaView: surfaces of all bodies, their centres, and their connections."""
+"""A run as series for ParaView: surfaces of all bodies, their centres, their connections and their contacts."""
 
 from __future__ import annotations
 
@@ -13,14 +13,19 @@ from ..core.geometry.rotations import carried_points
 from ..core.geometry.vectors import length
 from ..core.results.arrays import Results
 from ..core.results.energy import kinetic_energies, moments_of_inertia
-from ..core.results.frames import Frame
+from ..core.results.frames import ContactHistory, Frame
 from .progress import Progress
 from .shapes import ConnectionPlaces, body_meshes
 from .vtu import POINT, TRIANGLE, Topology, data_array, write_series, write_vtu
 
 FRAME_FOLDER = "frames"
-BODIES, CENTRES, CONNECTIONS = "bodies", "centres", "connections"
+BODIES, CENTRES, CONNECTIONS, CONTACTS = "bodies", "centres", "connections", "contacts"
 """Names of the series, and of the tables of names."""
+
+WITHOUT_CONTACTS = (
+    f"no {CONTACTS}.pvd, as the run did not record where bodies touched: put contacts = true under [recording] in its "
+    "scenario, and run it again"
+)
 
 _Writer = Callable[[Path, Frame], None]
 
@@ -42,6 +47,10 @@ def write_paraview(results: Results, folder: Path, progress: Progress) -> None:
     writers: dict[str, _Writer] = {BODIES: _Surfaces(results).write, CENTRES: _Centres(results).write}
     if len(results.inventory.pairs):
         writers[CONNECTIONS] = _Connections(results).write
+    if results.contacts is None:
+        progress.stage(WITHOUT_CONTACTS)
+    else:
+        writers[CONTACTS] = _Contacts(results.contacts).write
     files: dict[str, list[str]] = {name: [] for name in writers}
     for row in range(len(results.frames)):
         frame = results.frames[row]
@@ -159,6 +168,29 @@ class _Connections:
             "peak_force_n": _single(loads.connection_peaks_n),
         }
         write_vtu(path, self._topology, self._places.at(frame), known, self._fixed)
+
+
+class _Contacts:
+    """A point for each contact in the last sub-step of a frame."""
+
+    def __init__(self, contacts: ContactHistory):
+        self._contacts = contacts
+
+    def write(self, path: Path, frame: Frame) -> None:
+        """Write a frame."""
+        contacts = self._contacts.of_frame(int(frame.number))
+        first, second = contacts.bodies.T.astype(np.int32)
+        impulses_ns = contacts.impulses_ns
+        known = {
+            "first_body": first,
+            "second_body": second,
+            "normal": _single(contacts.normals),
+            "impulse_ns": _single(impulses_ns),
+            "impulse_magnitude_ns": _single(length(impulses_ns)),
+            "normal_impulse_ns": _single(contacts.normal_impulses_ns),
+            "friction_impulse_ns": _single(contacts.friction_impulses_ns),
+        }
+        write_vtu(path, Topology(np.arange(len(contacts))[:, None], POINT), contacts.places_m, known)
 
 
 def _write_names(results: Results, folder: Path) -> None:

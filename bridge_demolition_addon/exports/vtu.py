@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
+from math import prod
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -16,6 +17,9 @@ POINT, TRIANGLE = 1, 5
 _TYPES = {"f4": "Float32", "f8": "Float64", "i4": "Int32", "i8": "Int64", "u1": "UInt8"}
 _FAST = 1
 """Level of zlib: higher ones take several times as long for a tenth less."""
+
+_VTKS_BLOCK = 32768
+"""Bytes of a block as VTK writes it, which its files name also where there is none."""
 
 _HEAD = '<?xml version="1.0"?>\n<VTKFile type="{}" version="1.0" byte_order="LittleEndian" header_type="UInt64"{}>\n'
 
@@ -90,9 +94,10 @@ def data_array(name: str, values: np.ndarray) -> str:
     """Return an array (c, …) as an element of such a file."""
     kind = values.dtype.newbyteorder("<")
     content = np.ascontiguousarray(values, kind).tobytes()
-    packed = zlib.compress(content, _FAST)
-    sizes = np.array([1, len(content), 0, len(packed)], "<u8").tobytes()  # one block, none of them cut short
-    components = f' NumberOfComponents="{values[0].size}"' if values.ndim > 1 else ""
+    packed = zlib.compress(content, _FAST) if content else b""
+    # One block, none of them cut short; or none, as VTK itself writes it.
+    sizes = np.array([1, len(content), 0, len(packed)] if content else [0, _VTKS_BLOCK, 0], "<u8").tobytes()
+    components = f' NumberOfComponents="{prod(values.shape[1:])}"' if values.ndim > 1 else ""
     return (
         f'<DataArray type="{_TYPES[kind.str[1:]]}" Name={quoteattr(name)}{components} format="binary">'
         f"{b64encode(sizes).decode()}{b64encode(packed).decode()}</DataArray>\n"

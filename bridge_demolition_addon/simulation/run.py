@@ -235,7 +235,8 @@ def _simulate(
     A scene that is stopped at rest ends with the frame in which it is.
     """
     rest = rest_watch(scenario, ground_motion_of(scene)) if scenario.time.stop_at_rest else None
-    recording = Recording(scene, folder, every_substep=scenario.recording.every_substep)
+    asked = scenario.recording
+    recording = Recording(scene, folder, every_substep=asked.every_substep, contacts=asked.contacts)
     playing = Playing(recording, stop_at=rest)
     try:
         while not playing.finished and not (signals and recording.recorded_frames):

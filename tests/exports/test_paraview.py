@@ -8,11 +8,11 @@ import meshio
 import numpy as np
 import pytest
 from exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
-from sample_results import hanging_chain
+from sample_results import hanging_chain, with_contacts
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results.energy import energy_of
-from bridge_demolition_addon.exports.paraview import write_paraview
+from bridge_demolition_addon.exports.paraview import WITHOUT_CONTACTS, write_paraview
 
 
 @pytest.fixture(scope="module")
@@ -25,8 +25,14 @@ def written(tmp_path_factory):
 
 def series(folder, name):
     """Times and meshes of a series."""
+    times, files = files_of_series(folder, name)
+    return times, [meshio.read(file) for file in files]
+
+
+def files_of_series(folder, name):
+    """Its times and files."""
     sets = ElementTree.parse(folder / f"{name}.pvd").findall("./Collection/DataSet")
-    return [float(each.get("timestep")) for each in sets], [meshio.read(folder / each.get("file")) for each in sets]
+    return [float(each.get("timestep")) for each in sets], [folder / each.get("file") for each in sets]
 
 
 def of_cells(mesh, name):
@@ -109,6 +115,38 @@ def test_loads_speeds_and_connections_are_those_of_the_hanging_chain(tmp_path):
     assert of_cells(connections[4], "intact").tolist() == [1, 0]
     assert of_cells(meshes[3], "intact_connections").tolist() == [1, 2, 1, 0]
     assert of_cells(meshes[4], "intact_connections").tolist() == [1, 1, 0, 0]
+
+
+def test_contacts_are_points_with_their_bodies_and_impulses(tmp_path):
+    write_paraview(with_contacts(hanging_chain()), tmp_path, Silence())
+    times, files = files_of_series(tmp_path, "contacts")
+    assert times == pytest.approx(0.04 * np.arange(5))
+    pieces = [ElementTree.parse(file).find("./UnstructuredGrid/Piece") for file in files]
+    assert [piece.get("NumberOfPoints") for piece in pieces] == ["0", "1", "0", "0", "3"]
+    assert [piece.get("NumberOfCells") for piece in pieces] == ["0", "1", "0", "0", "3"]
+    assert len(meshio.read(files[1]).points) == 1  # it reads no files without any cells
+    last = meshio.read(files[-1])
+    assert last.points.tolist() == [[3, 4, 5], [6, 7, 8], [9, 10, 11]]
+    assert of_cells(last, "first_body").tolist() == [1, 0, 0] and of_cells(last, "second_body").tolist() == [0, 1, 1]
+    assert of_cells(last, "impulse_ns").tolist() == [[0, 4, 3], [3, 0, -4], [0.5, 0, 0]]
+    assert of_cells(last, "impulse_magnitude_ns").tolist() == [5, 5, 0.5]  # 3, 4 and 5
+
+
+class Listening(Silence):
+    """Keeps what is said."""
+
+    def __init__(self):
+        self.said = []
+
+    def stage(self, text):
+        self.said.append(text)
+
+
+def test_a_run_that_recorded_no_contacts_says_how_to_get_them(tmp_path):
+    listening = Listening()
+    write_paraview(hanging_chain(), tmp_path, listening)
+    assert WITHOUT_CONTACTS in listening.said and "contacts = true under [recording]" in WITHOUT_CONTACTS
+    assert not (tmp_path / "contacts.pvd").exists()
 
 
 def test_energies_of_bodies_add_up_to_that_of_the_run(written):

@@ -22,8 +22,8 @@ from ..reading import check_file
 from ..terrain.recorded import NamedSurface, RecordedGround
 from ..terrain.surface import Surface
 from .checks import check_arrays
-from .files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
-from .frames import BallHistory, Frame, FrameSeries
+from .files import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
+from .frames import BallHistory, ContactHistory, Frame, FrameSeries
 from .inventory import Inventory
 
 _Part = TypeVar("_Part")
@@ -51,6 +51,14 @@ _STORED_NAMES = {
         "times_s": "ball_times_s",
         "impulses_ns": "ball_impulses_ns",
         "velocities_m_s": "ball_velocities_m_s",
+    },
+    ContactHistory: {
+        "frames": "contact_frames",
+        "bodies": "contact_bodies",
+        "places_m": "contact_places_m",
+        "normals": "contact_normals",
+        "normal_impulses_ns": "contact_normal_impulses_ns",
+        "friction_impulses_ns": "contact_friction_impulses_ns",
     },
 }
 """What arrays are called in the files, where not as here. Files of earlier versions have these names."""
@@ -88,17 +96,21 @@ class Results:
         Motion and loads.
     balls : BallHistory
         Hits of the balls.
+    contacts : ContactHistory or None
+        Contacts in the last sub-step of each frame; None where they were not recorded.
     """
 
     reading: str
     inventory: Inventory
     frames: FrameSeries
     balls: BallHistory
+    contacts: ContactHistory | None = None
 
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Results:
         """Results from what `arrays` gives."""
-        return cls(str(arrays["reading"]), _part(Inventory, arrays), frames_of(arrays), balls_of(arrays))
+        parts = _part(Inventory, arrays), frames_of(arrays), balls_of(arrays), contacts_of(arrays)
+        return cls(str(arrays["reading"]), *parts)
 
     def arrays(self) -> dict[str, np.ndarray]:
         """All arrays by their names in the file."""
@@ -180,16 +192,27 @@ def balls_of(arrays: Mapping[str, np.ndarray]) -> BallHistory:
     return _part(BallHistory, arrays)
 
 
+def contacts_of(arrays: Mapping[str, np.ndarray]) -> ContactHistory | None:
+    """Return the contacts in arrays by their names in the files; None where they were not recorded."""
+    return _part(ContactHistory, arrays) if "contact_frames" in arrays else None
+
+
+def contacts_until(rows: np.ndarray, frame: int) -> ContactHistory:
+    """Return the contacts in rows of a table up to one of Blender's frames: later ones have no whole frame."""
+    until = np.searchsorted(rows["contact_frames"], frame, side="right")
+    return _part(ContactHistory, columns(rows[:until]))
+
+
 def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
     """Return the arrays (k, …) of rows (k,) by their names."""
     return {name: rows[name] for name in rows.dtype.names}
 
 
 def _left_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Return the arrays that a run has left on its way; of the sub-steps, those of whole frames."""
+    """Return the arrays that a run has left on its way; of sub-steps and contacts, those of whole frames."""
     frames, inventory, balls = stored_rows(path), path.with_name(INVENTORY_FILE), path.with_name(BALLS_FILE)
     check_file(inventory)
-    arrays = read_archive(inventory) | columns(frames)
+    arrays = read_archive(inventory) | columns(frames) | _left_contacts(path.with_name(CONTACTS_FILE), frames)
     if not balls.exists():
         return arrays | dict(named_arrays(BallHistory.unknown()))
     check_file(balls)
@@ -198,6 +221,13 @@ def _left_arrays(path: Path) -> dict[str, np.ndarray]:
         return arrays | dict(named_arrays(BallHistory.unknown()))
     end_s = frames["times_s"][-1] if len(frames) else 0.0
     return arrays | columns(substeps[: np.searchsorted(substeps["ball_times_s"], end_s, side="right")])
+
+
+def _left_contacts(path: Path, frames: np.ndarray) -> dict[str, np.ndarray]:
+    if not path.exists() or not len(frames):
+        return {}
+    check_file(path)
+    return dict(named_arrays(contacts_until(stored_rows(path), frames["frames"][-1])))
 
 
 def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> _Part:

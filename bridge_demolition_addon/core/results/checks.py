@@ -73,9 +73,15 @@ _SHAPES = {
     "ball_times_s": ("f", "s"),
     "ball_impulses_ns": ("f", "sb3"),
     "ball_velocities_m_s": ("f", "sb3"),
+    "contact_frames": ("i", "c"),
+    "contact_bodies": ("i", "c2"),
+    "contact_places_m": ("f", "c3"),
+    "contact_normals": ("f", "c3"),
+    "contact_normal_impulses_ns": ("f", "c"),
+    "contact_friction_impulses_ns": ("f", "c3"),
 }
 """Kind and shape of every array by its name in the file, with the letters of `Results`' parts: n bodies, m connections,
-k frames, v vertices, t triangles, b balls, s sub-steps."""
+k frames, v vertices, t triangles, b balls, s sub-steps, c contacts."""
 
 _KINDS = {"U": ("texts", "U"), "i": ("whole numbers", "iu"), "f": ("fractions", "f"), "b": ("true or false", "b")}
 
@@ -92,6 +98,10 @@ _KNOWN = (
     "points_m",
     "areas_m2",
     "ball_times_s",
+    "contact_places_m",
+    "contact_normals",
+    "contact_normal_impulses_ns",
+    "contact_friction_impulses_ns",
 )
 """Arrays in which every number is known; in others, nan stands for what was not recorded."""
 
@@ -120,6 +130,7 @@ def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
     if total != len(arrays["vertices_m"]):
         raise OutputError(f"vertex_counts: add up to {total}, expected {len(arrays['vertices_m'])}, as in vertices_m")
     _check_triangles(arrays)
+    _check_contacts(arrays)
 
 
 def checked_summary(summary: Any) -> dict[str, Any]:
@@ -159,6 +170,16 @@ def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
     most = np.repeat(arrays["vertex_counts"], counts)[:, None]
     if not ((triangles >= 0) & (triangles < most)).all():
         raise OutputError("triangles: expected rows of the vertices of their bodies")
+
+
+def _check_contacts(arrays: Mapping[str, np.ndarray]) -> None:
+    """See that contacts, which only runs have that were asked for them, are of bodies that there are, in order."""
+    if "contact_frames" not in arrays:
+        return
+    _expect("contact_frames", np.diff(arrays["contact_frames"]), lambda each: each >= 0, "numbers that do not fall")
+    bodies = len(arrays["body_names"])
+    wanted = f"whole numbers from 0 to {bodies - 1}"
+    _expect("contact_bodies", arrays["contact_bodies"], lambda each: (each >= 0) & (each < bodies), wanted)
 
 
 def _check_kind(name: str, array: np.ndarray, kind: str) -> None:

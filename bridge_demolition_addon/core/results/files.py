@@ -3,6 +3,7 @@
 SUMMARY_FILE = "summary.json"
 RESULTS_FILE = "results.npz"
 FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.npy", "results_inventory.npz"
+CONTACTS_FILE = "results_contacts.npy"
 """What grows while a run goes on; taken away once the results are whole, and left by a run that is killed."""
 
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
@@ -37,6 +38,7 @@ RESULT_FILES = (
     RESULTS_FILE,
     FRAMES_FILE,
     BALLS_FILE,
+    CONTACTS_FILE,
     INVENTORY_FILE,
     FORCE_CHART,
     BLEND_FILE,

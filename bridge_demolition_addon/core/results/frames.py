@@ -97,6 +97,53 @@ class BallHistory:
         return cls(np.zeros(0, int), np.zeros(0), np.zeros((0, 0, 3)), np.zeros((0, 0, 3)))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactHistory:
+    """The c contact points that carried a load in the last sub-steps of frames.
+
+    Attributes
+    ----------
+    frames : (c,) int
+        Blender's frame of each, in ascending order.
+    bodies : (c, 2) int
+        First and second body.
+    places_m : (c, 3) float
+        Where they touched as the sub-step began, on the second body.
+    normals : (c, 3) float
+        Unit vectors from the second body to the first.
+    normal_impulses_ns : (c,) float
+        Impulses in the sub-step along the normals, on the first bodies; the second ones get the opposite.
+    friction_impulses_ns : (c, 3) float
+        Impulses of friction on the first bodies.
+    """
+
+    frames: np.ndarray
+    bodies: np.ndarray
+    places_m: np.ndarray
+    normals: np.ndarray
+    normal_impulses_ns: np.ndarray
+    friction_impulses_ns: np.ndarray
+
+    @classmethod
+    def none(cls) -> ContactHistory:
+        """Return no contacts."""
+        vectors = np.zeros((0, 3))
+        return cls(np.zeros(0, int), np.zeros((0, 2), int), vectors, vectors, np.zeros(0), vectors)
+
+    @property
+    def impulses_ns(self) -> np.ndarray:
+        """Whole impulses (c, 3) on the first bodies."""
+        return self.normal_impulses_ns[:, None] * self.normals + self.friction_impulses_ns
+
+    def of_frame(self, number: int) -> ContactHistory:
+        """Return the contacts of one of Blender's frames."""
+        first, last = np.searchsorted(self.frames, (number, number + 1))
+        return ContactHistory(*(getattr(self, each.name)[first:last] for each in fields(self)))
+
+    def __len__(self) -> int:
+        return len(self.frames)
+
+
 def _stacked(parts: Sequence[Any]) -> Any:
     """Numbers, arrays, or dataclasses of them: the same with one more axis in front."""
     if not is_dataclass(parts[0]):

@@ -10,9 +10,9 @@ import numpy as np
 from ..array_files.archive import write_archive
 from ..array_files.table import GrowingTable
 from ..errors import writing
-from .arrays import Results, balls_of, columns, frames_of, named_arrays
-from .files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
-from .frames import BallHistory, Frame
+from .arrays import Results, balls_of, columns, contacts_until, frames_of, named_arrays
+from .files import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_FILE
+from .frames import BallHistory, ContactHistory, Frame
 from .inventory import Inventory
 
 _FRACTIONS = np.float32
@@ -30,6 +30,8 @@ class FrameStream(Sequence[Frame]):
         As that of `Results`.
     inventory : Inventory
         Bodies and connections.
+    contacts : bool
+        Whether contacts are kept as well.
 
     Raises
     ------
@@ -37,14 +39,16 @@ class FrameStream(Sequence[Frame]):
         The folder cannot be written to.
     """
 
-    def __init__(self, folder: Path, reading: str, inventory: Inventory):
+    def __init__(self, folder: Path, reading: str, inventory: Inventory, *, contacts: bool = False):
         self._folder, self._reading, self._inventory = folder, reading, inventory
+        self._has_contacts = contacts
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._frames: GrowingTable | None = None
         self._substeps: GrowingTable | None = None
+        self._contacts: GrowingTable | None = None
         known = dict(named_arrays(inventory)) | {"reading": np.array(reading), "balls": self._balls}
         with writing(folder):
-            for name in (FRAMES_FILE, BALLS_FILE):
+            for name in (FRAMES_FILE, BALLS_FILE, CONTACTS_FILE):
                 (folder / name).unlink(missing_ok=True)
             write_archive(folder / INVENTORY_FILE, known)
 
@@ -57,8 +61,8 @@ class FrameStream(Sequence[Frame]):
             return [self[each] for each in range(len(self))[row]]
         return frames_of(columns(self._frames.row(range(len(self))[row])))[0]
 
-    def append(self, frame: Frame, balls: BallHistory) -> None:
-        """Add a frame, and what hit the balls in its sub-steps.
+    def append(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
+        """Add a frame, what hit the balls in its sub-steps, and its contacts, where there are any and they are kept.
 
         Raises
         ------
@@ -70,6 +74,8 @@ class FrameStream(Sequence[Frame]):
             self._begin(arrays)
         if len(balls.times_s):  # first, so that no whole frame is without them
             self._substeps.append(_rows(_substeps(balls), self._substeps.row_type))
+        if self._contacts is not None and contacts:
+            self._contacts.append(_rows(dict(named_arrays(contacts)), self._contacts.row_type))
         self._frames.append(_rows(arrays, self._frames.row_type))
 
     def results(self) -> Results:
@@ -77,7 +83,10 @@ class FrameStream(Sequence[Frame]):
         balls = BallHistory.unknown()
         if self._substeps:
             balls = balls_of(columns(self._substeps.rows()) | {"balls": self._balls})
-        return Results(self._reading, self._inventory, frames_of(columns(self._frames.rows())), balls)
+        frames, contacts = frames_of(columns(self._frames.rows())), None
+        if self._contacts is not None:
+            contacts = contacts_until(self._contacts.rows(), frames.number[-1])
+        return Results(self._reading, self._inventory, frames, balls, contacts)
 
     def remove(self) -> None:
         """Take the files away; what is in them can be read as long as the stream is there."""
@@ -97,6 +106,9 @@ class FrameStream(Sequence[Frame]):
             nothing = np.zeros((0, len(self._balls), 3))
             substeps = _substeps(BallHistory(self._balls, np.zeros(0), nothing, nothing))
             self._substeps = GrowingTable(self._folder / BALLS_FILE, _row_type(substeps, np.float64))
+        if self._has_contacts:
+            row_type = _row_type(dict(named_arrays(ContactHistory.none())), _FRACTIONS)
+            self._contacts = GrowingTable(self._folder / CONTACTS_FILE, row_type)
         self._frames = GrowingTable(self._folder / FRAMES_FILE, _row_type(arrays, _FRACTIONS))
 
     def _remove_inventory(self) -> None:
@@ -105,7 +117,7 @@ class FrameStream(Sequence[Frame]):
 
     @property
     def _tables(self) -> list[GrowingTable]:
-        return [table for table in (self._frames, self._substeps) if table is not None]
+        return [table for table in (self._frames, self._substeps, self._contacts) if table is not None]
 
 
 def _substeps(balls: BallHistory) -> dict[str, np.ndarray]:

@@ -19,6 +19,11 @@ class RecordingSettings(Table):
         "last one of each frame, which is faster and misses most of an impact.",
         default=True,
     )
+    contacts: bool = key(
+        "Whether the contacts of the last sub-step of each frame are kept: where bodies touched, and the impulses there. "
+        "Each takes 72 bytes a frame. Studies record none.",
+        default=False,
+    )
 
 
 class CameraKind(StrEnum):

@@ -13,7 +13,7 @@ from ...core.errors import LayoutError
 from ...core.mechanics.frame_loads import FrameLoads
 from ...core.mechanics.member_sections import MemberSections, kinds_of
 from ...core.mechanics.work import FrameWork, Motion, WorkAccumulator
-from ...core.results.frames import BallHistory, Frame
+from ...core.results.frames import BallHistory, ContactHistory, Frame
 from ...core.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
@@ -155,6 +155,20 @@ class BulletReader:
     def take_ball_history(self) -> BallHistory:
         """Return what hit the balls since this was asked last."""
         return self._substeps.take_ball_history()
+
+    def take_contacts(self, frame: int) -> ContactHistory:
+        """Return the contacts in the last sub-step since this was asked last, which is that of a frame."""
+        contacts = self._substeps.take_last_contacts()
+        if contacts is None:
+            return ContactHistory.none()
+        return ContactHistory(
+            np.full(len(contacts), frame),
+            contacts.pairs,
+            contacts.places_m,
+            contacts.normals,
+            contacts.normal_impulses_ns,
+            contacts.tangential_impulses_ns,
+        )
 
     @property
     def seconds(self) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
@@ -68,6 +69,16 @@ class LoadReader:
     def snapshot(self) -> Snapshot:
         """Return what Bullet holds after the last sub-step."""
         return self._snapshots.take()
+
+    def contacts(self, snapshot: Snapshot) -> Contacts:
+        """Return the contacts in a snapshot.
+
+        Raises
+        ------
+        LayoutError
+            Memory was not as expected.
+        """
+        return self._snapshots.contacts([snapshot])
 
     def loads(self, snapshots: Sequence[Snapshot], bodies: BodyStates, substeps_s: np.ndarray) -> SubstepLoads:
         """Return the loads of sub-steps.

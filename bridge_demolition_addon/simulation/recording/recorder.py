@@ -17,7 +17,7 @@ from ...core.errors import LayoutError, OutputError, SimulationError
 from ...core.geometry.vectors import dot
 from ...core.results.arrays import Results
 from ...core.results.fingerprint import built_digest
-from ...core.results.frames import BallHistory, Frame
+from ...core.results.frames import BallHistory, ContactHistory, Frame
 from ...core.results.inventory import Inventory
 from ...core.results.stream import FrameStream
 from ...scene.bodies import bodies_of
@@ -60,6 +60,8 @@ class Recording:
     loads : bool
         Whether loads and work are recorded and logs written. Without them a run takes less time and comes to the same:
         motion and breaking have the same bits.
+    contacts : bool
+        Whether the contacts of the last sub-step of each frame are kept, where loads are.
 
     Raises
     ------
@@ -97,6 +99,7 @@ class Recording:
         every_substep: bool = True,
         log_files: LogFiles | None = None,
         loads: bool = True,
+        contacts: bool = False,
     ):
         check_recordable(scene)
         rewrite_thresholds(scene)  # the step may have changed since the scene was built
@@ -107,6 +110,7 @@ class Recording:
         self.distrust: LayoutError | None = None
         self._every_substep = every_substep
         self._log_files, self.has_loads = log_files or LogFiles(), loads
+        self._has_contacts = contacts and loads
         self._seconds = 0.0
         self._bodies, self._connections = bodies_of(scene), connections_of(scene)
         check_blast(scene, self._bodies)
@@ -336,6 +340,11 @@ class Recording:
                 "removals, saw cuts and weakenings need Blender's memory, which is not as expected "
                 f"({self.distrust}): take them out of the scenario, or run it in another Blender"
             )
+        if self._has_contacts:
+            raise SimulationError(
+                f"contacts need Blender's memory, which is not as expected ({self.distrust}): switch "
+                "recording.contacts off in the scenario, or run it in another Blender"
+            )
         self.inventory = take_inventory(self._bodies, ())
         self._momentum = MomentumReader(self.scene, self._bodies, self.inventory)
         self._begin_blast(None)
@@ -347,7 +356,7 @@ class Recording:
         self.forget()
         self._blast = Blast(self.scene, self._bodies, self.inventory, world) if goes_off(self.scene) else None
         self.built_digest = self._digest()
-        self._stream = FrameStream(self.folder, self._reading, self.inventory)
+        self._stream = FrameStream(self.folder, self._reading, self.inventory, contacts=self._has_contacts)
         if self.has_loads:
             charges = [charge.name for charge in self._blast.charges] if self._blast else ()
             self._logs = Logs(self.folder, self.inventory, charges, self._log_files)
@@ -465,7 +474,8 @@ class Recording:
             self._keep(self._reader.read_first_frame(0.0 if held else substep), BallHistory.unknown())
         elif substep > 0.0:
             frame, breaks = self._reader.read_frame(substep)
-            self._keep(frame, self._reader.take_ball_history())
+            contacts = self._reader.take_contacts(frame.number) if self._has_contacts else None
+            self._keep(frame, self._reader.take_ball_history(), contacts)
             if self._logs:
                 self._logs.write_breaks(frame.number, breaks)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
@@ -498,14 +508,14 @@ class Recording:
             raise SimulationError("bodies that begin with a velocity need the timeline played from its start frame")
         self.world.set_velocities(moving, velocities[moving], spins[moving])
 
-    def _keep(self, frame: Frame, balls: BallHistory) -> None:
-        """Keep and log a frame, with what exploded and what hit the balls in it."""
+    def _keep(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
+        """Keep and log a frame, with what exploded, what hit the balls and what touched in it."""
         frame_s = frame.time_s - (self._last.time_s if self._last else 0.0)
         exploded = self._blast is not None and frame_s > 0.0
         if exploded:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
             frame = replace(frame, blast_impulses_ns=impulses)
-        self._stream.append(frame, balls)
+        self._stream.append(frame, balls, contacts)
         self._last = frame
         if self._logs:
             self._logs.write_frame(frame)

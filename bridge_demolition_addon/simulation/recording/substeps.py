@@ -15,6 +15,7 @@ from functools import partial
 
 import numpy as np
 
+from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
 from ...core.arithmetic import power
@@ -201,6 +202,7 @@ class SubstepRecorder:
         self._shards = np.flatnonzero((inventory.body_kinds == "shard") & can_move)
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
+        self._last_snapshot: Snapshot | None = None
 
     def before_frame(self, substeps: int) -> None:
         """Know how many sub-steps Blender takes in the coming frame."""
@@ -343,6 +345,17 @@ class SubstepRecorder:
         self._hits.clear()
         return BallHistory(self._balls, times, impulses, velocities)
 
+    def take_last_contacts(self) -> Contacts | None:
+        """Return the contacts in the last sub-step since this was asked last; None where there was none.
+
+        Raises
+        ------
+        LayoutError
+            Bullet's memory was not as expected.
+        """
+        snapshot, self._last_snapshot = self._last_snapshot, None
+        return None if snapshot is None else self._reader.contacts(snapshot)
+
     def _record(self, substep_s: float) -> None:
         self.elapsed_s += substep_s
         self._substeps += 1
@@ -357,6 +370,7 @@ class SubstepRecorder:
         self._intact = intact
         stored_j = self._elastic.stored_j(intact) if self._elastic else None
         foreseen, self._foreseen = self._foreseen, []
+        self._last_snapshot = snapshot
         self._waiting.append(_Substep(snapshot, substep_s, self.elapsed_s, ties_n, broken, stored_j, foreseen))
         self._let_collide(intact)
 

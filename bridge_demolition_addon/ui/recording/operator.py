@@ -117,7 +117,13 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     folder = absolute(settings.output_directory) if settings.output_directory else new_folder(title)
     if taken := {forces, debris} & {folder, *folder.parents}:
         raise OutputError(f"{taken.pop()}: expected a file for the log, found the folder of the results")
-    recording = Recording(scene, folder, every_substep=table.every_substep, log_files=LogFiles(forces, debris))
+    recording = Recording(
+        scene,
+        folder,
+        every_substep=table.every_substep,
+        log_files=LogFiles(forces, debris),
+        contacts=table.contacts,
+    )
     check_folder(folder, overwrite=settings.overwrite)
     _let_go_of(folder, scene)
     lock = prepare_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left

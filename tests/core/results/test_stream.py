@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from run_folders import flying_shards, stream_run
-from sample_results import hanging_chain, without_connections
+from sample_results import hanging_chain, with_contacts, without_connections
 
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results.arrays import load_results, results_in
 from bridge_demolition_addon.core.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
 from bridge_demolition_addon.core.results.fingerprint import result_digest
-from bridge_demolition_addon.core.results.frames import BallHistory
+from bridge_demolition_addon.core.results.frames import BallHistory, ContactHistory
 from bridge_demolition_addon.core.results.stream import FrameStream
 
 NEVER_FALLS_SHORT = 1e-6
@@ -26,8 +26,9 @@ RUNS = pytest.mark.parametrize(
         without_connections(hanging_chain()),
         flying_shards(),
         replace(hanging_chain(), balls=BallHistory.unknown()),
+        with_contacts(hanging_chain()),
     ],
-    ids=["chain", "loose", "flying", "no ball"],
+    ids=["chain", "loose", "flying", "no ball", "contacts"],
 )
 
 
@@ -82,6 +83,30 @@ def test_what_is_left_of_a_run_that_was_killed_is_read(tmp_path, cut):
     # Ten sub-steps in each frame but the first.
     assert len(left.balls.times_s) == 10 * (frames - 1) and left.balls.bodies.tolist() == [3]
     assert left.balls.times_s[-1] == pytest.approx(left.frames.time_s[-1])
+
+
+def test_contacts_of_a_run_that_was_killed_are_those_of_whole_frames(tmp_path):
+    run = with_contacts(hanging_chain())
+    stream_run(tmp_path, run)
+    path = tmp_path / FRAMES_FILE
+    with path.open("rb+") as file:
+        file.truncate(path.stat().st_size - 1)
+    left = load_results(tmp_path).contacts
+    assert left.frames.tolist() == [3] and left.normal_impulses_ns.tolist() == [2.0]
+
+
+def test_a_run_without_contacts_leaves_none_of_one_before_it(tmp_path):
+    stream_run(tmp_path, with_contacts(hanging_chain()))
+    stream = stream_run(tmp_path, hanging_chain())
+    assert stream.results().contacts is None and load_results(tmp_path).contacts is None
+
+
+def test_contacts_that_were_asked_for_and_of_which_there_were_none_are_kept_as_none(tmp_path):
+    run = replace(hanging_chain(), contacts=ContactHistory.none())
+    stream = stream_run(tmp_path, run)
+    stream.results().save(tmp_path / RESULTS_FILE)
+    for results in (stream.results(), load_results(tmp_path), load_results(tmp_path / FRAMES_FILE)):
+        assert len(results.contacts) == 0 and results.contacts.bodies.shape == (0, 2)
 
 
 def test_whole_results_come_before_what_was_left(tmp_path):
