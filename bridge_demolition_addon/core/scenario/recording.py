@@ -20,8 +20,8 @@ class RecordingSettings(Table):
         default=True,
     )
     contacts: bool = key(
-        "Whether the contacts of the last sub-step of each frame are kept: where bodies touched, and the impulses there. "
-        "Each takes 72 bytes a frame. Studies record none.",
+        "Whether the contacts of the last sub-step of each frame are kept: where bodies touched, and the impulses "
+        "there. Each takes 72 bytes a frame. Studies record none.",
         default=False,
     )
 

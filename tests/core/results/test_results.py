@@ -4,7 +4,17 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from sample_results import FRAME_S, GRAVITY, SUBSTEP_S, SUBSTEPS, G, hanging_chain, without_connections
+from sample_results import (
+    FRAME_S,
+    GRAVITY,
+    SUBSTEP_S,
+    SUBSTEPS,
+    G,
+    changed,
+    hanging_chain,
+    with_contacts,
+    without_connections,
+)
 
 from bridge_demolition_addon.core.errors import OutputError
 from bridge_demolition_addon.core.results.arrays import load_results
@@ -232,3 +242,19 @@ def test_other_files_are_refused(tmp_path, write):
     write(path)
     with pytest.raises(OutputError, match=r"results\.npz: expected the results of a run"):
         load_results(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "said"),
+    [
+        ("contact_bodies", np.array([[0, 1], [1, 0], [0, 4], [0, 1]]), "expected whole numbers from 0 to 3"),
+        ("contact_bodies", np.array([[0, 1], [1, 0], [-1, 0], [0, 1]]), "expected whole numbers from 0 to 3"),
+        ("contact_frames", np.array([3, 6, 5, 6]), "expected numbers that do not fall"),
+        ("contact_places_m", np.full((4, 3), np.nan), "expected numbers of at most"),
+        ("contact_normals", np.zeros((3, 3)), "expected a length of 4, as in contact_frames"),
+    ],
+)
+def test_contacts_that_no_run_writes_are_refused(tmp_path, name, values, said):
+    changed(with_contacts(hanging_chain()), **{name: values}).save(tmp_path / "results.npz")
+    with pytest.raises(OutputError, match=f"{name}: {said}"):
+        load_results(tmp_path)

@@ -21,8 +21,8 @@ LOWER_KG, UPPER_KG = 100.0, 50.0
 LOWER_M, UPPER_M = np.array((2.0, -1.0, 0.5)), np.array((2.2, -0.9, 1.25))
 FRAMES = 24
 
-SURFACE_M = 1e-3
-"""A body at rest sinks in until Bullet pushes back: the solver leaves some tenths of a millimetre."""
+SHARE = 1e-4
+"""Of a weight, and of 1 m: what the solver's iterations leave of an imbalance after a second at rest. Measured: 2e-8."""
 
 
 def stack(**time):
@@ -60,11 +60,10 @@ def test_contacts_of_a_stack_bear_its_weight_below_its_centres(blender, tmp_path
     )
     for upper, lower, mass_kg, centre_m, face_m, half_m, height_m in cases:
         places, impulses = between(results, upper, lower)
-        assert impulses.sum(axis=0) == pytest.approx((0.0, 0.0, mass_kg * weight_ns), abs=0.01 * mass_kg * weight_ns)
-        assert places[:, 2] == pytest.approx(height_m, abs=2 * SURFACE_M)
-        assert (abs(places[:, :2] - face_m[:2]) <= np.array(half_m) + SURFACE_M).all()
-        # 1 % of the larger half of the face, as of the weight: no moment is left.
-        assert middle(places, impulses) == pytest.approx(centre_m[:2], abs=0.01)
+        assert impulses.sum(axis=0) == pytest.approx((0.0, 0.0, mass_kg * weight_ns), abs=SHARE * mass_kg * weight_ns)
+        assert places[:, 2] == pytest.approx(height_m, abs=SHARE)
+        assert (abs(places[:, :2] - face_m[:2]) <= np.array(half_m) + SHARE).all()
+        assert middle(places, impulses) == pytest.approx(centre_m[:2], abs=SHARE)  # no moment is left
 
 
 def test_friction_and_pressure_on_a_slope_are_those_of_statics(blender, tmp_path):
@@ -78,14 +77,13 @@ def test_friction_and_pressure_on_a_slope_are_those_of_statics(blender, tmp_path
     weight_ns = mass_kg * STANDARD_GRAVITY_M_S2 * results.frames.substep_s[-1]
     places, impulses = between(results, 1, 0)
     wanted = weight_ns * np.array((-sin(slope), 0.0, cos(slope)))
-    assert impulses.sum(axis=0) == pytest.approx(wanted, abs=0.01 * weight_ns)
+    assert impulses.sum(axis=0) == pytest.approx(wanted, abs=SHARE * weight_ns)
     last = results.contacts.of_frame(results.frames.number[-1])
-    assert last.normal_impulses_ns.sum() == pytest.approx(weight_ns * cos(slope), rel=0.01)
+    assert last.normal_impulses_ns.sum() == pytest.approx(weight_ns * cos(slope), rel=SHARE)
     assert abs(last.normals[:, 2]) == pytest.approx(1.0)
     assert abs(last.friction_impulses_ns[:, 2]).max() < 1e-6 * weight_ns
     centre = results.frames.positions_m[-1, 1]
-    # 1 % of the face's half width, and of the height of the centre.
-    assert middle(places, impulses) == pytest.approx((centre[0] + centre[2] * tan(slope), centre[1]), abs=0.01)
+    assert middle(places, impulses) == pytest.approx((centre[0] + centre[2] * tan(slope), centre[1]), abs=SHARE)
 
 
 def test_contacts_change_nothing_else_and_are_read_back(blender, tmp_path):
