@@ -22,7 +22,7 @@ LOWER_M, UPPER_M = np.array((2.0, -1.0, 0.5)), np.array((2.2, -0.9, 1.25))
 FRAMES = 24
 
 SHARE = 1e-4
-"""Of a weight, and of 1 m: what the solver's iterations leave of an imbalance after a second at rest. Measured: 2e-8."""
+"""Of a weight, and of 1 m: what the solver's iterations leave of an imbalance at rest. Measured: 2e-8."""
 
 
 def stack(**time):
