@@ -10,6 +10,7 @@ from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.core.scenario import RecordingSettings
 from bridge_demolition_addon.core.scenario.file import read_scenario
 from bridge_demolition_addon.core.sequence.checked_model import checked_model
 
@@ -17,7 +18,7 @@ SAME_RUN = TESTS / "simulation" / "same_run"
 EVERYTHING = read_scenario(TESTS / "simulation" / "everything.toml")
 SCENARIOS = {
     "a force breaks it": SHORT_RUN,
-    "by the frame": replace(SHORT_RUN, recording=replace(SHORT_RUN.recording, every_substep=False)),
+    "by the frame": replace(SHORT_RUN, recording=RecordingSettings(every_substep=False, contacts=True)),
     "strength, bars, saw cut and charge": EVERYTHING,
     "elastic": replace(
         EVERYTHING,
@@ -61,6 +62,23 @@ def test_what_was_not_read_is_not_known(both):
     _, (results, summary) = both
     assert np.isnan(results.frames.loads.body_peak_sums_n).all() and np.isnan(results.frames.work.made_j).all()
     assert summary["energy"] is None and summary["largest_force_sum"] is None
+    assert results.contacts is None
+
+
+def test_contacts_are_kept_where_they_are_asked_for_and_add_up_to_the_loads_of_their_bodies(both):
+    (results, _), _ = both
+    if results.reading == "every sub-step":
+        assert results.contacts is None
+        return
+    contacts, frames = results.contacts, results.frames
+    sums = np.zeros(frames.positions_m.shape)
+    rows = np.searchsorted(frames.number, contacts.frames)
+    for side, sign in ((0, 1.0), (1, -1.0)):
+        np.add.at(sums, (rows, contacts.bodies[:, side]), sign * contacts.impulses_ns)
+    assert len(contacts)
+    # Seven digits of each of the contacts that act on a body, some of them against each other.
+    most = contacts.normal_impulses_ns.max()
+    np.testing.assert_allclose(frames.loads.body_contact_impulses_ns, sums, rtol=0.0, atol=1e-5 * most)
 
 
 def test_it_leaves_nothing_behind(blender, tmp_path):

@@ -123,11 +123,13 @@ def test_a_folder_is_no_file_for_a_log(built, settings, tmp_path):
     assert settings.force_log_path == ""
 
 
-def test_loads_are_read_as_often_as_the_panel_says(built, settings, tmp_path):
+def test_loads_are_read_as_often_as_the_panel_says_and_contacts_are_kept(built, settings, tmp_path):
     settings.scenario.recording.every_substep = False
+    settings.scenario.recording.contacts = True
     record(built)
     summary = json.loads((tmp_path / "results" / "summary.json").read_text())
     assert summary["reading"] == "last sub-step of each frame"
+    assert load_results(tmp_path / "results").contacts is not None
 
 
 def test_a_wrong_value_of_the_blast_is_refused_before_anything_is_made(built, settings, tmp_path):
