@@ -4,6 +4,7 @@
 import re
 import sys
 import tomllib
+from collections import Counter
 from itertools import chain
 from xml.etree import ElementTree
 
@@ -92,3 +93,9 @@ def test_no_folder_has_more_modules_than_one_takes_in_at_a_glance():
         folder.relative_to(ROOT): sum(path.stem != "__init__" for path in folder.glob("*.py")) for folder in folders
     }
     assert {folder: count for folder, count in counts.items() if count > 15} == {}
+
+
+def test_no_two_test_modules_have_one_name():
+    """pytest would import one of them alone, and end with an error over the other."""
+    names = Counter(path.name for path in (ROOT / "tests").rglob("test_*.py"))
+    assert {name for name, count in names.items() if count > 1} == set()
