@@ -6,6 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from arches import LOOSE_JOINTS
 from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block, prism
@@ -81,20 +82,7 @@ member = "springer"
 
 [fracture]
 shards = {COUNT + 2}
-
-[connections]
-type = "FIXED"
-method = "face"
-breaking_force_n = 1e12
-
-[[connections.between]]
-members = ["voussoir", "voussoir"]
-none = true
-
-[[connections.between]]
-members = ["voussoir", "springer"]
-none = true
-{RIGID_BODIES.format(friction=0.9, ground=0.9)}"""
+{LOOSE_JOINTS}{RIGID_BODIES.format(friction=0.9, ground=0.9)}"""
     results = simulated(folder, f"thickness_{thickness:.3f}", scenario, meshes)
     names = results.inventory.body_members
     crown = [int(np.flatnonzero(names == f"voussoir {row:02d}")[0]) for row in (COUNT // 2 - 1, COUNT // 2)]

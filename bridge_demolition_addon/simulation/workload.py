@@ -8,6 +8,7 @@ import numpy as np
 from ..core.geometry.vectors import length
 from ..core.results.frames import Frame
 from ..core.timing.time_left import speeds_to_come
+from ..core.timing.time_step import substeps_within
 from ..scene.time_scale import time_step_at
 from ..scene.world import farthest_per_substep_of
 
@@ -25,8 +26,10 @@ class Workload:
 
     def __init__(self, scene: bpy.types.Scene, first: int, last: int) -> None:
         self._first = first
-        self._steps = [time_step_at(scene, frame) for frame in range(first, last + 1)]
-        self._ends_s = np.cumsum([step.frame_s for step in self._steps])
+        steps = [time_step_at(scene, frame) for frame in range(first, last + 1)]
+        self._frames_s = np.array([step.frame_s for step in steps])
+        self._fewest = np.array([step.substeps_per_frame for step in steps])
+        self._ends_s = np.cumsum(self._frames_s)
         self._farthest_m = farthest_per_substep_of(scene)
         gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
         self._gravity_m_s2 = float(length(gravity))
@@ -34,11 +37,9 @@ class Workload:
     def to_come(self, frame: Frame) -> float:
         """Return how many sub-steps follow on a frame."""
         rows = slice(frame.number + 1 - self._first, None)
-        steps = self._steps[rows]
-        if self._farthest_m is None or not steps or not self._gravity_m_s2:
-            return float(sum(step.substeps_per_frame for step in steps))
-        after_s = self._ends_s[rows] - self._ends_s[rows][0]
-        heights_m, velocities_m_s = frame.positions_m[:, 2], frame.velocities_m_s
-        speeds = speeds_to_come(heights_m, velocities_m_s, self._gravity_m_s2, after_s).tolist()
-        pairs = zip(steps, speeds, strict=True)
-        return float(sum(step.substeps_within(self._farthest_m, speed, self._gravity_m_s2) for step, speed in pairs))
+        frames_s, fewest, ends_s = self._frames_s[rows], self._fewest[rows], self._ends_s[rows]
+        if self._farthest_m is None or not len(fewest) or not self._gravity_m_s2:
+            return float(fewest.sum())
+        after_s = ends_s - ends_s[0]
+        speeds = speeds_to_come(frame.positions_m[:, 2], frame.velocities_m_s, self._gravity_m_s2, after_s)
+        return float(substeps_within(frames_s, fewest, self._farthest_m, speeds, self._gravity_m_s2).sum())

@@ -38,6 +38,7 @@ class Course:
     left_s: float | None = None
     share: float = 0.0
     _began_s: float = field(default_factory=time.perf_counter)
+    _stepped_s: float = field(default_factory=time.perf_counter)
     _pace: Pace = field(default_factory=Pace)
 
     @property
@@ -49,7 +50,9 @@ class Course:
 
     def step(self) -> None:
         """Note that one more step is done, of those that take alike long."""
-        self._pace.note(time.perf_counter() - self._began_s - sum(self._pace.took_s))
+        now = time.perf_counter()
+        self._pace.note(now - self._stepped_s)
+        self._stepped_s = now
         self.share = len(self._pace.took_s) / self.total
         self.left_s = self._pace.left_s(self.total - len(self._pace.took_s))
 

@@ -159,11 +159,14 @@ class RenderingAction(Refusing):
         course.show(context)
         self._timer = manager.event_timer_add(_TICK_S, window=context.window)
         manager.modal_handler_add(self)
+        _at_work[:] = [self]
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if self not in _at_work:  # the extension was switched off
+            return {"CANCELLED"}
         if event.type == "ESC":
-            self._end(context)
+            self.stop(context)
             done = round(self._course.share * self._total)
             messages.tell(self, "WARNING", f"Stopped after {done} of {self._total} pictures")
             return {"CANCELLED"}
@@ -174,17 +177,19 @@ class RenderingAction(Refusing):
                 self._course.step()
                 course.show(context)
                 return {"RUNNING_MODAL"}
-            self._end(context)
+            self.stop(context)
             return self.finish()
         except (DemolitionError, OSError) as error:
-            self._end(context)
+            self.stop(context)
             return refused(self, error)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Called by Blender where it ends the work itself, as it does before another file is loaded."""
-        self._end(context)
+        self.stop(context)
 
-    def _end(self, context: bpy.types.Context) -> None:
+    def stop(self, context: bpy.types.Context) -> None:
+        """End the rendering where it is, and leave the scene as it was."""
+        _at_work.clear()
         self._pictures.close()
         context.window_manager.event_timer_remove(self._timer)
         course.end(context)
@@ -196,7 +201,7 @@ def _what_goes_on() -> str:
     return f"{going_on.what} goes on: wait for it, or stop it with Esc" if going_on else ""
 
 
-_at_work: list[LongAction] = []
+_at_work: list[LongAction | RenderingAction] = []
 """The one that goes on, if any does."""
 
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 FRAME_NOISE = 1e-6
 """Part of a frame that rounding may add to a duration without a frame being added for it."""
 
@@ -55,8 +58,7 @@ class TimeStep:
         int
             At least `substeps_per_frame`, at most `MOST_SUBSTEPS`.
         """
-        way_m = (speed_m_s + acceleration_m_s2 * self.frame_s) * self.frame_s
-        return max(self.substeps_per_frame, math.ceil(min(way_m / farthest_m, MOST_SUBSTEPS)))
+        return int(substeps_within(self.frame_s, self.substeps_per_frame, farthest_m, speed_m_s, acceleration_m_s2))
 
     def impulse(self, force_newton: float) -> float:
         """Impulse of a steady force over one sub-step, N·s: the unit of Blender's breaking threshold."""
@@ -65,6 +67,15 @@ class TimeStep:
     def frames(self, duration_s: float) -> int:
         """Whole frames that cover a simulated duration."""
         return frames_over(self.frame_s, duration_s)
+
+
+def substeps_within(
+    frame_s: ArrayLike, fewest: ArrayLike, farthest_m: float, speed_m_s: ArrayLike, acceleration_m_s2: float
+) -> np.ndarray:
+    """Return sub-steps as `TimeStep.substeps_within`, of frames of these lengths that have so many at least."""
+    frame_s = np.asarray(frame_s, float)
+    way_m = (speed_m_s + acceleration_m_s2 * frame_s) * frame_s
+    return np.maximum(fewest, np.ceil(np.minimum(way_m / farthest_m, MOST_SUBSTEPS)))
 
 
 def frames_over(frame_s: float, duration_s: float) -> int:
