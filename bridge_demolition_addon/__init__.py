@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .core.results.arrays import Results
-    from .core.scenario import Scenario
+    from .model.results.arrays import Results
+    from .model.scenario import Scenario
 
 __all__ = ["load_results", "read_scenario", "run"]
 
@@ -52,7 +52,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
     5000.0
     >>> heavier = replace(scenario, ball=replace(scenario.ball, mass_kg=8000.0))
     """
-    from .core.scenario.file import read_scenario as read
+    from .model.scenario.file import read_scenario as read
 
     return read(path)
 
@@ -109,7 +109,7 @@ def load_results(folder: str | PathLike[str]) -> Results:
     DemolitionError
         There are none, or they are damaged.
     """
-    from .core.results.arrays import load_results as load
+    from .model.results.arrays import load_results as load
 
     return load(Path(folder))
 
@@ -127,7 +127,7 @@ def unregister() -> None:
 
 
 def _interface() -> tuple:
-    # The engineering in `core` and the checks of the command line work where there is no Blender to import.
+    # The engineering and the checks of the command line work where there is no Blender to import.
     from .simulation import blender_events
     from .ui import registration, scene_settings
     from .ui.contours import decorator, view

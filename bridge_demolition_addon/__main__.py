@@ -4,7 +4,7 @@ import os
 import sys
 from typing import NoReturn
 
-from .core.signals import interrupted_afterwards
+from .system.signals import interrupted_afterwards
 
 INTERRUPTED = 130
 

@@ -19,11 +19,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from bench_deck import DECK
 
-from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.explosion import Explosion
-from bridge_demolition_addon.core.blast.settings import Apply, BlastSettings
-from bridge_demolition_addon.core.scenario import FractureSettings
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.blast.explosion import Explosion
+from bridge_demolition_addon.model.blast.settings import Apply, BlastSettings
+from bridge_demolition_addon.model.scenario import FractureSettings
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.blast.charges import create_charges
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
 from bridge_demolition_addon.scene.blast.settings import keep_blast

@@ -18,11 +18,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.mechanics.joint import Joint
-from bridge_demolition_addon.core.scenario import Ground, ShardSettings, TimeSettings
-from bridge_demolition_addon.core.structure.connections import Connections
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.structure.connections import Connections
+from bridge_demolition_addon.model.scenario import Ground, ShardSettings, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_flat_ground, create_shards
 from bridge_demolition_addon.scene.connections.constraints import create_connections
 from bridge_demolition_addon.scene.connections.joints import set_joints

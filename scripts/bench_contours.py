@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import bench_recording as bench
 import bpy
 
-from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity
+from bridge_demolition_addon.display.contours import ContourSettings, Quantity
 from bridge_demolition_addon.simulation.blender_events import contours_of
 
 ROUNDS = 3

@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.scenario import (
+from bridge_demolition_addon.model.scenario import (
     Bridge,
     ConnectionSettings,
     Deck,

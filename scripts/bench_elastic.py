@@ -21,9 +21,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from bench_deck import DECK
 
-from bridge_demolition_addon.core.elasticity import structure
-from bridge_demolition_addon.core.scenario import ConnectionSettings
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.engineering.elasticity import structure
+from bridge_demolition_addon.model.scenario import ConnectionSettings
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.connections.elasticity import damping_ratio_of, forget_elasticity, keep_elasticity
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.world import START_FRAME

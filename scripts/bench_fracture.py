@@ -17,8 +17,8 @@ from manifold3d import Manifold
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.fracture.shards import fracture
-from bridge_demolition_addon.core.geometry.solids import box, to_manifold
+from bridge_demolition_addon.engineering.fracture.shards import fracture
+from bridge_demolition_addon.engineering.geometry.solids import box, to_manifold
 
 DECK_M = (30.0, 12.0, 1.0)
 SHARD_COUNTS = (200, 1000, 3000)

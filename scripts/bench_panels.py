@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 import bridge_demolition_addon
-from bridge_demolition_addon.core.blast.charges import Charge
+from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.scene.blast.charges import create_charges
 from bridge_demolition_addon.ui.registration import classes
 from bridge_demolition_addon.ui.sidebar import SidebarPanel

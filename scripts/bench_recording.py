@@ -28,7 +28,7 @@ from bench_deck import DECK
 
 from bridge_demolition_addon.bullet.snapshots import SnapshotTaker
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition

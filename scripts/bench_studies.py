@@ -21,8 +21,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.study.draws import draw_of
-from bridge_demolition_addon.core.study.file import read_study
+from bridge_demolition_addon.model.study.draws import draw_of
+from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.studies.draw_process import Limits
 from bridge_demolition_addon.studies.folder import StudyFolder
 from bridge_demolition_addon.studies.local import LocalProcesses
@@ -131,7 +131,7 @@ def _play_bare(way: str, path: str) -> None:
     """Play all draws of a study with nothing recorded, and print the time of their steps."""
     import bpy
 
-    from bridge_demolition_addon.core.sequence.checked_model import checked_model
+    from bridge_demolition_addon.model.sequence.checked_model import checked_model
     from bridge_demolition_addon.scene.demolition import build_demolition
 
     study, seconds = read_study(path), np.zeros(2)

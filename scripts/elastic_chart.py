@@ -41,8 +41,8 @@ def measured(iterations: int, stiffness: str) -> tuple[float, float]:
     import bpy
     from blocks import Blocks
 
-    from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, section_stiffness
-    from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+    from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
+    from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
     from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 
     bpy.ops.wm.read_factory_settings(use_empty=True)

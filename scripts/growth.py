@@ -18,8 +18,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.core.scenario.connections import MATERIAL_OF_LARGE_MODELS
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.connections import MATERIAL_OF_LARGE_MODELS
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
@@ -66,7 +66,7 @@ def growth_of(shards: int) -> Growth:
     """Build, simulate and save the bridge in so many shards, in this process."""
     import bpy
 
-    from bridge_demolition_addon.core.sequence.checked_model import checked_model
+    from bridge_demolition_addon.model.sequence.checked_model import checked_model
     from bridge_demolition_addon.scene.demolition import build_demolition
     from bridge_demolition_addon.scene.world import keep_played_frames
     from bridge_demolition_addon.simulation.playback import Playing

@@ -14,9 +14,9 @@ from scipy.special import ndtr
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from bridge_demolition_addon.core.optimise.rounds import CONFIRMATION, SEARCH, Rounds  # noqa: E402
-from bridge_demolition_addon.core.optimise.settings import OptimiseSettings, Quantity  # noqa: E402
-from bridge_demolition_addon.core.study.criteria import Criterion  # noqa: E402
+from bridge_demolition_addon.model.optimise.rounds import CONFIRMATION, SEARCH, Rounds  # noqa: E402
+from bridge_demolition_addon.model.optimise.settings import OptimiseSettings, Quantity  # noqa: E402
+from bridge_demolition_addon.model.study.criteria import Criterion  # noqa: E402
 from bridge_demolition_addon.studies.proposals import OptunaProposals  # noqa: E402
 
 REPETITIONS = 100

@@ -15,9 +15,9 @@ from scipy.special import ndtr, ndtri
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from bridge_demolition_addon.core.search.bisection import median_interval  # noqa: E402
-from bridge_demolition_addon.core.search.neyer import NeyerTest  # noqa: E402
-from bridge_demolition_addon.core.search.probit import Trials, fitted, limit  # noqa: E402
+from bridge_demolition_addon.engineering.search.bisection import median_interval  # noqa: E402
+from bridge_demolition_addon.engineering.search.neyer import NeyerTest  # noqa: E402
+from bridge_demolition_addon.engineering.search.probit import Trials, fitted, limit  # noqa: E402
 
 CONFIDENCE, PROBABILITY, GUESS = 0.95, 0.9, 0.1
 

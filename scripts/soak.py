@@ -15,8 +15,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.files import RESULTS_FILE, SUMMARY_FILE
-from bridge_demolition_addon.core.scenario.file import scenario_from_text
+from bridge_demolition_addon.model.results.files import RESULTS_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
 
 FRAMES, PARTS = 10_000, 10
 SCENARIO = """

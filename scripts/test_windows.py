@@ -17,8 +17,8 @@ import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from bridge_demolition_addon.core.results.arrays import load_results, named_arrays
-from bridge_demolition_addon.core.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.results.arrays import load_results, named_arrays
+from bridge_demolition_addon.model.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, SUMMARY_FILE
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
@@ -28,8 +28,8 @@ SIMULATED_S = 1.8
 TESTS = (
     "tests/bullet",
     "tests/cli/test_process_end.py",
-    "tests/core/array_files",
-    "tests/core/results/test_stream.py",
+    "tests/system/array_files",
+    "tests/model/results/test_stream.py",
     "tests/simulation/test_elastic_connections.py",
     "tests/simulation/test_results_folder.py",
     "tests/simulation/test_settling.py",

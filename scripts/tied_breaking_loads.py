@@ -21,8 +21,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bridge_demolition_addon.core.results.arrays import Results
-    from bridge_demolition_addon.core.scenario import Scenario
+    from bridge_demolition_addon.model.results.arrays import Results
+    from bridge_demolition_addon.model.scenario import Scenario
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
@@ -121,9 +121,9 @@ def measured(shards: int, seed: int) -> float:
     """Load at which a slab comes down, over that of plastic theory."""
     import numpy as np
 
-    from bridge_demolition_addon.core.mechanics.strength import MATERIALS
-    from bridge_demolition_addon.core.scenario.file import read_scenario
-    from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+    from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+    from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+    from bridge_demolition_addon.model.scenario.file import read_scenario
 
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -152,7 +152,7 @@ def played(scenario: Scenario, folder: Path) -> Results:
     """Results of a scenario whose gravity grows."""
     import bpy
 
-    from bridge_demolition_addon.core.sequence.checked_model import checked_model
+    from bridge_demolition_addon.model.sequence.checked_model import checked_model
     from bridge_demolition_addon.scene.demolition import build_demolition
     from bridge_demolition_addon.simulation.playback import Playing
     from bridge_demolition_addon.simulation.recording.recorder import Recording

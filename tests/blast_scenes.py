@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from blocks import Blocks
 
-from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.settings import BlastSettings
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.blast.settings import BlastSettings
 from bridge_demolition_addon.scene.blast.charges import create_charges
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
 from bridge_demolition_addon.scene.blast.settings import keep_blast

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import bpy
 
-from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.results.arrays import Results
-from bridge_demolition_addon.core.scenario import TimeSettings
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.model.results.arrays import Results
+from bridge_demolition_addon.model.scenario import TimeSettings
 from bridge_demolition_addon.scene.world import create_world
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

@@ -53,7 +53,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with what takes long, so that no process is left alone with it at the end: all but arrays and formulas."""
-    items.sort(key=lambda item: "core" in item.path.parts)
+    items.sort(key=lambda item: bool({"engineering", "model", "system"} & set(item.path.parts)))
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

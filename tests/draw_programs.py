@@ -6,7 +6,7 @@ from dataclasses import replace
 from places import ROOT, TESTS
 from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 VERSIONS = {"program": "of tests"}
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bridge_demolition_addon.core.elasticity.equilibrium import Equilibrium, equilibrium
-from bridge_demolition_addon.core.elasticity.joint_rows import JointFrames, joint_places
-from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, section_stiffness
-from bridge_demolition_addon.core.elasticity.structure import stressed
+from bridge_demolition_addon.engineering.elasticity.equilibrium import Equilibrium, equilibrium
+from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_places
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
+from bridge_demolition_addon.engineering.elasticity.structure import stressed
 
 CONCRETE = ElasticModuli(30e9, 0.2)
 DENSITY_KG_M3 = 2400.0

@@ -6,9 +6,9 @@ import numpy as np
 from places import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.arrays import Results, load_results
-from bridge_demolition_addon.core.scenario import Scenario
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.results.arrays import Results, load_results
+from bridge_demolition_addon.model.scenario import Scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from run_folders import flying_shards, keep_run
 
-from bridge_demolition_addon.core.results.frames import BallHistory
+from bridge_demolition_addon.model.results.frames import BallHistory
 
 SMALLEST_M = 1e-6
 """What places of a run may differ by in another program."""

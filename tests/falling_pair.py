@@ -5,7 +5,7 @@ import csv
 import numpy as np
 from blocks import Blocks
 
-from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.simulation import blender_events
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import trimesh
 
-from bridge_demolition_addon.core.geometry.mesh import TriangleMesh, joined_meshes
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, joined_meshes
 
 
 def mesh(vertices, triangles) -> TriangleMesh:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bridge_demolition_addon.core.results.arrays import Results
+from bridge_demolition_addon.model.results.arrays import Results
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float) / 2.0
 

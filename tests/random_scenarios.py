@@ -9,9 +9,9 @@ from typing import Any, get_args, get_origin
 
 import numpy as np
 
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.scenario import Scenario
-from bridge_demolition_addon.core.schema import Key, Table, holds_many, subtable_class
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario import Scenario
+from bridge_demolition_addon.model.schema import Key, Table, holds_many, subtable_class
 
 _TRIES = 40
 _TEXTS = ("deck", "pier 1", 'a "quoted", text', "Brücke ×2", "pier cap", "#1 = [2]", "\\")

@@ -7,11 +7,11 @@ import numpy as np
 from moving_boxes import moving_boxes
 from scenarios import I235
 
-from bridge_demolition_addon.core.results.frames import BallHistory
-from bridge_demolition_addon.core.results.stream import FrameStream
-from bridge_demolition_addon.core.results.summary import summarise
-from bridge_demolition_addon.core.scenario import BlastSettings, Charge, Exclusion, Neighbour, Site, Zone
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.model.results.frames import BallHistory
+from bridge_demolition_addon.model.results.stream import FrameStream
+from bridge_demolition_addon.model.results.summary import summarise
+from bridge_demolition_addon.model.scenario import BlastSettings, Charge, Exclusion, Neighbour, Site, Zone
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 G = 9.80665
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from places import I235_FILE
 
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 I235 = read_scenario(I235_FILE)
 """One span of the I-235 bridge, broken by a ball."""

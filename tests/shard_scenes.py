@@ -5,12 +5,12 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from bridge_demolition_addon.core.fracture.shards import fracture
-from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.mechanics.joint import Joint
-from bridge_demolition_addon.core.scenario import ShardSettings, TimeSettings
-from bridge_demolition_addon.core.structure.connections import connect, neighbours_by_face
-from bridge_demolition_addon.core.structure.face_sections import second_moments
+from bridge_demolition_addon.engineering.fracture.shards import fracture
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.structure.connections import connect, neighbours_by_face
+from bridge_demolition_addon.engineering.structure.face_sections import second_moments
+from bridge_demolition_addon.model.scenario import ShardSettings, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_shards
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.constraints import create_connections

@@ -3,12 +3,12 @@
 import numpy as np
 import trimesh
 
-from bridge_demolition_addon.core.mechanics.strength import MATERIALS
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
-from bridge_demolition_addon.core.stages.stages import stages_of
-from bridge_demolition_addon.core.stages.standing import StandingBridge
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.stages.stages import stages_of
+from bridge_demolition_addon.model.stages.standing import StandingBridge
 
 DEPTH_M, WIDTH_M, BLOCK_M, HEIGHT_M = 0.5, 1.0, 0.5, 10.0
 DENSITY_KG_M3 = 2400.0

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 TABLES = ("runs.csv", "runs.xlsx", "study.json")
 

@@ -7,20 +7,20 @@ import numpy as np
 from manifold3d import CrossSection
 from places import EXAMPLES
 
-from bridge_demolition_addon.core.array_files.archive import write_archive
-from bridge_demolition_addon.core.geometry.plan_areas import outlines, united
-from bridge_demolition_addon.core.scenario import Exclusion, Neighbour, Site, Zone
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.study.criteria import Criterion
-from bridge_demolition_addon.core.study.draws import draw_of, inputs_of
-from bridge_demolition_addon.core.study.file import study_of
-from bridge_demolition_addon.core.study.files import OUTLINES_FILE, RUNS_FILE
-from bridge_demolition_addon.core.study.outcome import Outlines
-from bridge_demolition_addon.core.study.runs_table import Row, RunsTable, write_runs
-from bridge_demolition_addon.core.study.settings import StudySettings, Vary
+from bridge_demolition_addon.engineering.geometry.plan_areas import outlines, united
+from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Site, Zone
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.study.criteria import Criterion
+from bridge_demolition_addon.model.study.draws import draw_of, inputs_of
+from bridge_demolition_addon.model.study.file import study_of
+from bridge_demolition_addon.model.study.files import OUTLINES_FILE, RUNS_FILE
+from bridge_demolition_addon.model.study.outcome import Outlines
+from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, write_runs
+from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 from bridge_demolition_addon.report.study.study_runs import StudyRuns
 from bridge_demolition_addon.studies.draw_process import End
 from bridge_demolition_addon.studies.folder import StudyFolder
+from bridge_demolition_addon.system.array_files.archive import write_archive
 
 _EXPLOSIVES = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
 

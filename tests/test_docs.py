@@ -65,7 +65,7 @@ def test_a_link_that_leads_nowhere_is_found(tmp_path):
 
 
 def named_paths(text):
-    """Paths of the project in a text, wherever they stand: `core/units.py`, `scripts/test`, `examples/i235_*.toml`."""
+    """Paths of the project in a text, wherever they stand: `engineering/units.py`, `scripts/test`."""
     found = re.findall(rf"(?<![\w./])(?:{FOLDERS})/[\w./*]*[\w*]", text)
     return [path for path in found if "NAME" not in path]
 
@@ -77,8 +77,10 @@ def test_every_path_in_the_text_is_there(document):
 
 
 def test_paths_are_found_in_a_text():
-    text = "`core/units.py` [a](../core/b.py) runs/core/c, `scripts/test tests/core -k x`, examples/i235_*.toml."
-    assert named_paths(text) == ["core/units.py", "scripts/test", "tests/core", "examples/i235_*.toml"]
+    text = (
+        "`engineering/units.py` [a](../model/b.py) runs/model/c, `scripts/test tests/model -k x`, examples/i235_*.toml."
+    )
+    assert named_paths(text) == ["engineering/units.py", "scripts/test", "tests/model", "examples/i235_*.toml"]
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)

@@ -61,8 +61,8 @@ def value_of(text):
 
 def scenario_tables():
     """Every table of a scenario by its name, and whether there may be many of it."""
-    from bridge_demolition_addon.core.scenario import Scenario
-    from bridge_demolition_addon.core.schema import holds_many, subtable_class, subtable_fields
+    from bridge_demolition_addon.model.scenario import Scenario
+    from bridge_demolition_addon.model.schema import holds_many, subtable_class, subtable_fields
 
     def gather(table_class, many):
         yield table_class.table, (table_class, many)
@@ -74,7 +74,7 @@ def scenario_tables():
 
 def scenario_keys():
     """The table of every key, and its field there."""
-    from bridge_demolition_addon.core.schema import key_fields
+    from bridge_demolition_addon.model.schema import key_fields
 
     tables = scenario_tables().items()
     return {
@@ -116,7 +116,7 @@ def test_every_name_of_the_appendix_is_there():
 
 
 def test_every_key_is_one_and_its_link_leads_to_its_table():
-    from bridge_demolition_addon.core.schema import checked
+    from bridge_demolition_addon.model.schema import checked
 
     keys, named = scenario_keys(), [each.partition(" = ") for each in named_keys(TEXT)]
     assert len(named) > 50

@@ -13,9 +13,9 @@ import pytest
 from places import ROOT
 
 import bridge_demolition_addon
-from bridge_demolition_addon.core.errors import DemolitionError
-from bridge_demolition_addon.core.results.checks import check_arrays
+from bridge_demolition_addon.errors import DemolitionError
 from bridge_demolition_addon.exports.sheets import unit_of
+from bridge_demolition_addon.model.results.checks import check_arrays
 
 DOCUMENT = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
 NOTEBOOK = ROOT / "docs" / "results.ipynb"

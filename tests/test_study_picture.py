@@ -11,9 +11,9 @@ sys.path.insert(0, str(ROOT / "scripts"))
 
 import study_picture
 
-from bridge_demolition_addon.core.study.file import read_study
-from bridge_demolition_addon.core.study.runs_table import REACH, read_runs
-from bridge_demolition_addon.core.study.statements import reach_limit
+from bridge_demolition_addon.model.study.file import read_study
+from bridge_demolition_addon.model.study.runs_table import REACH, read_runs
+from bridge_demolition_addon.model.study.statements import reach_limit
 
 
 @pytest.fixture(scope="module")

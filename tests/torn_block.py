@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from bridge_demolition_addon.core.elasticity.steel_bars import Steel
-from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
+from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))

@@ -7,8 +7,8 @@ import numpy as np
 from case import PUBLISHED, Case, Comparison, Found
 from matplotlib.figure import Figure
 
-from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.receptors import loads_at
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.blast.receptors import loads_at
 
 SCALED_DISTANCES = ((20.0, 0.1), (40.0, 0.05), (100.0, 0.05), (150.0, 0.05))
 """Distance by the cube root of the mass, m/kg^(1/3), and tolerance."""

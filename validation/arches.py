@@ -12,8 +12,8 @@ from case import RIGID_BODIES, simulated
 from scipy.optimize import linprog
 from solids import prism
 
-from bridge_demolition_addon.core.results.arrays import Results
-from bridge_demolition_addon.core.results.energy import energy_of
+from bridge_demolition_addon.model.results.arrays import Results
+from bridge_demolition_addon.model.results.energy import energy_of
 
 G = 9.80665
 FRICTION = 0.6

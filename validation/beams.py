@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from solids import block
 
-from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.core.results.arrays import Results
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.model.results.arrays import Results
 
 DENSITY_KG_M3 = 2400.0
 

@@ -8,8 +8,8 @@ from beams import Beam, middle_m
 from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 
-from bridge_demolition_addon.core.blast.pulses import Pulses, blast_pulses, impulse_between
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.blast.pulses import Pulses, blast_pulses, impulse_between
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 STRIP = Beam(4.0, 1.0, 0.1, 14.0, "top", 0.08, 150.0, 500.0, 40.0, 3.5)
 STAND_OFF_M, CHARGES_KG = 12.0, (15.0, 25.0, 35.0)

@@ -10,9 +10,9 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.core.results.arrays import Results, load_results
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.model.results.arrays import Results, load_results
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 EXACT, PUBLISHED, MEASURED = "Exact answers", "Published formulas", "Measurements"
 GROUPS = (EXACT, PUBLISHED, MEASURED)
@@ -79,7 +79,7 @@ class Case:
 
 def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, TriangleMesh]) -> Results:
     """Write a scenario and its meshes into a folder, so that anyone can run it, run it, and return the results."""
-    from bridge_demolition_addon.core.bridge.mesh_files import exported
+    from bridge_demolition_addon.model.bridge.mesh_files import exported
     from bridge_demolition_addon.simulation.run import run_scenario
 
     place = folder / name

@@ -10,7 +10,7 @@ from beams import Beam, middle_m
 from case import PUBLISHED, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 BEAM = Beam(3.0, 0.2, 0.25, 2.0, "bottom", 0.21, 402.0, 420.0, 40.0, 0.1)
 MASSES_KG, SPEEDS_M_S = (150.0, 300.0, 600.0), (3.0, 4.0, 5.0, 6.0)

@@ -9,7 +9,7 @@ from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 LENGTH_M, SIDE_M, FOOT_M, LEAN_DEG = 20.0, 0.1, 3.0, 3.0
 ABOVE_HORIZONTAL_DEG = (47.4, 48.4)

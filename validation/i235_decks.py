@@ -9,9 +9,9 @@ import numpy as np
 from case import MEASURED, Case, Comparison, Found
 from matplotlib.figure import Figure
 
-from bridge_demolition_addon.core.results.arrays import Results
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.results.arrays import Results
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.structure.model import build_model
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 SEEDS = range(1, 21)

@@ -8,7 +8,7 @@ from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 SPAN_M, WIDTH_M, HEIGHT_M, BOTTOM_M, DENSITY_KG_M3 = 6.0, 0.4, 0.5, 3.0, 2400.0
 COVER_M, YIELD_N_MM2, COMPRESSION_N_MM2 = 0.05, 500.0, 40.0

@@ -9,7 +9,7 @@ from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 WIDTH_M, HEIGHT_M, DEPTH_M = 1.0, 4.0, 1.0
 RADIUS_M = math.hypot(WIDTH_M, HEIGHT_M) / 2.0

@@ -8,7 +8,7 @@ from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 FRICTIONS, SPEED_M_S = (0.3, 0.6, 0.9), 5.0
 

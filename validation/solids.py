@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 
 
 def block(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:

@@ -9,8 +9,8 @@ from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-from bridge_demolition_addon.core.blast.pulses import blast_pulses
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.blast.pulses import blast_pulses
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 WIDTH_M, HEIGHT_M, DEPTH_M, DENSITY_KG_M3 = 1.0, 4.0, 2.0, 2400.0
 MASS_KG = DENSITY_KG_M3 * WIDTH_M * HEIGHT_M * DEPTH_M

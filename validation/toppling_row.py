@@ -9,7 +9,7 @@ from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2 as G
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 HEIGHT_M, WIDTH_M, COUNT, STEADY = 3.0, 1.5, 18, 12
 ROWS = ((0.3, 1.0), (0.3, 1.4), (0.5, 1.2))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 from .layout import SLEEPING, Layout
 from .memory import Places, gather_integers, write_doubles
 

@@ -11,16 +11,8 @@ from collections.abc import Iterable
 import bpy
 import numpy as np
 
-from ..core.errors import LayoutError
-from .layout import (
-    ACTIVATION_STATES,
-    CONSTRAINT_TYPES,
-    DRAWING_SIZE,
-    FIRST_STEP_S,
-    RIGID_BODY,
-    WARM_STARTING,
-    Layout,
-)
+from ..errors import LayoutError
+from .layout import ACTIVATION_STATES, CONSTRAINT_TYPES, DRAWING_SIZE, FIRST_STEP_S, RIGID_BODY, WARM_STARTING, Layout
 from .memory import read, read_pointer, read_value
 
 _LONGEST_S = 1e9

@@ -13,7 +13,7 @@ from collections import defaultdict
 
 import numpy as np
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 from .layout import Layout
 from .memory import gather_pointers, read, read_pointer, read_value, write_pointers
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout
 from .memory import gather_doubles, read, read_value, write_doubles, write_integers
 

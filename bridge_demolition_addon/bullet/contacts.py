@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..core.errors import LayoutError
-from ..core.geometry.vectors import dot, length
+from ..engineering.geometry.vectors import dot, length
+from ..errors import LayoutError
 from .layout import Layout
 from .memory import (
     Places,

@@ -13,7 +13,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 from ..scene.world import evaluated_scenes
 from .memory import read, read_pointer, write_pointers
 

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 
 _LOWEST = 4096
 _HIGHEST = 2**47

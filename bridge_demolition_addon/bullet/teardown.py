@@ -16,7 +16,7 @@ import itertools
 import bpy
 import numpy as np
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 from .collision_pairs import let_collide
 from .layout import Layout
 from .memory import read, read_pointer, read_value, write_integers, write_pointers

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..core.errors import LayoutError
+from ..errors import LayoutError
 from ..scene.world import evaluated_scenes
 from . import checks
 from .layout import platform_layout

@@ -15,8 +15,8 @@ from enum import Enum
 import bpy
 import numpy as np
 
-from ..core.errors import LayoutError, SimulationError
-from ..core.results.removed_shards import OUT_OF_REACH_M
+from ..errors import LayoutError, SimulationError
+from ..model.results.removed_shards import OUT_OF_REACH_M
 from ..scene.world import scene_time_step
 from . import checks
 from .body_motion import BodyMotionReader

@@ -14,14 +14,14 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from ..core.blast.charge_sizing import smallest_charge_for_overpressure
-from ..core.blast.charges import Charge
-from ..core.blast.damage import distinct_thresholds, ring_radii
-from ..core.blast.models import BlastModel, blast_wave
-from ..core.blast.pulses import Pulses, blast_pulses, pressure_at
-from ..core.blast.wave import AMBIENT_PRESSURE_PA, Burst
-from ..core.disk import whole_file
-from ..core.errors import OutputError
+from ..engineering.blast.charge_sizing import smallest_charge_for_overpressure
+from ..engineering.blast.models import BlastModel, blast_wave
+from ..engineering.blast.pulses import Pulses, blast_pulses, pressure_at
+from ..engineering.blast.wave import AMBIENT_PRESSURE_PA, Burst
+from ..errors import OutputError
+from ..model.blast.charges import Charge
+from ..model.blast.damage import distinct_thresholds, ring_radii
+from ..system.disk import whole_file
 from .style import blank_figure, lay_out
 
 SPAN_M = 20.0

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import FigureBase
 
-from ..core.blast.charges import Charge
-from ..core.blast.damage import distinct_thresholds, ring_radii
-from ..core.blast.models import BlastModel
-from ..core.blast.receptors import PlaceLoads, peak_overpressures
-from ..core.scenario import Neighbour
-from ..core.terrain.recorded import RecordedGround
+from ..engineering.blast.models import BlastModel
+from ..engineering.terrain.recorded import RecordedGround
+from ..model.blast.charges import Charge
+from ..model.blast.damage import distinct_thresholds, ring_radii
+from ..model.blast.receptors import PlaceLoads, peak_overpressures
+from ..model.scenario import Neighbour
 from .plan_maps import LEVEL_GROUND, draw_area, draw_ground
 from .style import DASHES, SHADES, line_style, plain
 

@@ -8,10 +8,10 @@ from textwrap import wrap
 import numpy as np
 from matplotlib.image import imread, imsave
 
-from ..core.disk import whole_file
-from ..core.display.colour_bar import colour_bar
-from ..core.display.colour_scale import colours
-from ..core.display.contours import ContourFrame, ContourSettings
+from ..display.colour_bar import colour_bar
+from ..display.colour_scale import colours
+from ..display.contours import ContourFrame, ContourSettings
+from ..system.disk import whole_file
 from .style import POINTS_PER_INCH, blank_figure
 
 _DPI = 100.0

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..core.disk import whole_file
-from ..core.results.arrays import Results
-from ..core.results.force_history import largest_on_a_shard
+from ..model.results.arrays import Results
+from ..model.results.force_history import largest_on_a_shard
+from ..system.disk import whole_file
 from .style import blank_figure, lay_out, plain
 
 

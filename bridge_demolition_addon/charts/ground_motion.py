@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import FigureBase
 
-from ..core.ground_motion.record import GroundRecord
-from ..core.ground_motion.response_spectrum import design_spectrum, response_spectrum
-from ..core.ground_motion.settings import DIRECTIONS, DesignSpectrum
+from ..engineering.ground_motion.record import GroundRecord
+from ..model.ground_motion.response_spectrum import design_spectrum, response_spectrum
+from ..model.ground_motion.settings import DIRECTIONS, DesignSpectrum
 from .style import line_style
 
 _PERIODS_S = 0.05 * 80.0 ** np.linspace(0.0, 1.0, 120)

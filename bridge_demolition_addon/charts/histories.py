@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 
-from ..core.results.arrays import Results
-from ..core.results.collapse import Span
-from ..core.results.energy import Energy
-from ..core.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
+from ..model.results.arrays import Results
+from ..model.results.collapse import Span
+from ..model.results.energy import Energy
+from ..model.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
 from .style import line_style, plain
 
 _MOST_KINDS = 7

@@ -15,13 +15,13 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import MaxNLocator
 
-from ..core.debris.exclusion import ExclusionZone
-from ..core.debris.footprint import plan_hulls
-from ..core.debris.throws import Debris, HeightMap
-from ..core.geometry.plan_areas import outlines
-from ..core.results.arrays import Results
-from ..core.scenario import Zone
-from ..core.terrain.recorded import RecordedGround
+from ..engineering.geometry.plan_areas import outlines
+from ..engineering.terrain.recorded import RecordedGround
+from ..model.debris.exclusion import ExclusionZone
+from ..model.debris.footprint import plan_hulls
+from ..model.debris.throws import Debris, HeightMap
+from ..model.results.arrays import Results
+from ..model.scenario import Zone
 from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, plain
 
 NAMED_THROWS = 5

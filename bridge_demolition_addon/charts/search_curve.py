@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 from matplotlib.ticker import PercentFormatter
 
-from ..core.disk import whole_file
-from ..core.search.conclusions import Answer
-from ..core.search.curve import SearchCurve
-from ..core.search.file import Search
+from ..model.search.conclusions import Answer
+from ..model.search.curve import SearchCurve
+from ..model.search.file import Search
+from ..system.disk import whole_file
 from .style import blank_figure, line_style, plain
 
 _HEIGHT_OF_DOTS = 0.06

@@ -8,9 +8,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import FigureBase
 
-from ..core.debris.footprint import corners_at
-from ..core.geometry.plan_areas import outlines
-from ..core.results.arrays import Results
+from ..engineering.geometry.plan_areas import outlines
+from ..model.debris.footprint import corners_at
+from ..model.results.arrays import Results
 
 DECADES = 2.0
 """What is stressed less than the largest by more than so many powers of ten is as light as can be."""

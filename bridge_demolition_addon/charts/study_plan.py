@@ -8,8 +8,8 @@ import numpy as np
 from manifold3d import CrossSection
 from matplotlib.figure import FigureBase
 
-from ..core.geometry.plan_areas import outlines
-from ..core.scenario import Neighbour, Zone
+from ..engineering.geometry.plan_areas import outlines
+from ..model.scenario import Neighbour, Zone
 from .blast_maps import name_neighbour
 from .plan_maps import draw_area, draw_zones, fit, name_zones, plan_axes
 from .study_charts import LIMIT_COLOUR

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import FigureBase
 
-from ..core.disk import whole_file
-from ..core.optimise.candidates_table import Tried
-from ..core.optimise.settings import OptimiseSettings
+from ..model.optimise.candidates_table import Tried
+from ..model.optimise.settings import OptimiseSettings
+from ..system.disk import whole_file
 from .style import blank_figure, line_style
 
 

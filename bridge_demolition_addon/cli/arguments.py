@@ -5,9 +5,9 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..core.blast.models import BlastModel
-from ..core.blast.wave import Burst
-from ..core.errors import BlastError, GeometryError, ScenarioError
+from ..engineering.blast.models import BlastModel
+from ..engineering.blast.wave import Burst
+from ..errors import BlastError, GeometryError, ScenarioError
 
 SMALLEST, LARGEST = 1e-6, 1e9
 """What a mass, a distance or a load on the command line has to lie between."""

@@ -4,23 +4,23 @@ import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..core.blast.charge_sizing import (
+from ..engineering.blast.charge_sizing import (
     smallest_charge_for_impulse,
     smallest_charge_for_overpressure,
     stand_off_for_overpressure,
 )
-from ..core.blast.charges import EXPLOSIVES, Explosive, explosive_named
-from ..core.blast.damage import THRESHOLDS
-from ..core.blast.models import blast_wave
-from ..core.blast.vibration import (
+from ..engineering.blast.models import blast_wave
+from ..engineering.blast.vibration import (
     DAMAGE_LIMIT_M_S,
     GROUNDS,
     charge_per_delay,
     distance_for_velocity,
     peak_particle_velocity,
 )
-from ..core.blast.wave import scaled_distance
-from ..core.errors import BlastError
+from ..engineering.blast.wave import scaled_distance
+from ..errors import BlastError
+from ..model.blast.charges import EXPLOSIVES, Explosive, explosive_named
+from ..model.blast.damage import THRESHOLDS
 from .arguments import add_blast_options, quantity
 
 VIBRATION_DISTANCES_M = (10.0, 20.0, 50.0, 100.0, 200.0)

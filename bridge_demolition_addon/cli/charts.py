@@ -4,9 +4,9 @@ import argparse
 from functools import partial
 from pathlib import Path
 
-from ..core.blast.charges import LARGEST_CHARGE_KG
-from ..core.blast.models import BlastModel
-from ..core.blast.wave import Burst
+from ..engineering.blast.models import BlastModel
+from ..engineering.blast.wave import Burst
+from ..model.blast.charges import LARGEST_CHARGE_KG
 from .arguments import add_blast_options, quantity
 
 

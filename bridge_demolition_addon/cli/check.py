@@ -5,33 +5,25 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..core.bridge import deck_top
-from ..core.bridge.member import Member, mean_density
-from ..core.bridge.preparation import prepared_members
-from ..core.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
-from ..core.ground_motion.settings import DIRECTIONS
-from ..core.mechanics.bar_layers import AXES, SIDES
-from ..core.mechanics.joint import Joint
-from ..core.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
-from ..core.scenario import (
-    Ball,
-    BallCable,
-    Bridge,
-    ConnectionBetween,
-    ConnectionSettings,
-    Scenario,
-    TimeSettings,
-)
-from ..core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
-from ..core.scenario.file import read_scenario
-from ..core.sequence.checked_model import checked_model
-from ..core.sequence.loads import placed_on_model
-from ..core.stages.made_elastic import made_elastic
-from ..core.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
-from ..core.structure.face_bars import layers_of_members
-from ..core.structure.model import Model
-from ..core.terrain.built import BuiltGround, told
-from ..core.units import STANDARD_GRAVITY_M_S2
+from ..engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ..engineering.mechanics.joint import Joint
+from ..engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
+from ..engineering.units import STANDARD_GRAVITY_M_S2
+from ..model.bridge import deck_top
+from ..model.bridge.member import Member, mean_density
+from ..model.bridge.preparation import prepared_members
+from ..model.ground_motion.settings import DIRECTIONS
+from ..model.materials.bar_layers import AXES, SIDES
+from ..model.scenario import Ball, BallCable, Bridge, ConnectionBetween, ConnectionSettings, Scenario, TimeSettings
+from ..model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
+from ..model.scenario.file import read_scenario
+from ..model.sequence.checked_model import checked_model
+from ..model.sequence.loads import placed_on_model
+from ..model.stages.made_elastic import made_elastic
+from ..model.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
+from ..model.structure.face_bars import layers_of_members
+from ..model.structure.model import Model
+from ..model.terrain.built import BuiltGround, told
 from .arguments import naming
 
 MOST_FIELDS = 300

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import NoReturn
 
-from ..core.errors import (
+from ..errors import (
     BlastError,
     ClusterError,
     DemolitionError,
@@ -18,7 +18,7 @@ from ..core.errors import (
     ScenarioError,
     text_of,
 )
-from ..core.signals import Interrupted, interrupt_by_system
+from ..system.signals import Interrupted, interrupt_by_system
 from . import charge, charts, check, optimise, report, run, search, stages, study
 from .console import StandardStream
 from .exchange import export, import_ifc

@@ -8,15 +8,15 @@ from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
-from ..core.errors import OutputError
-from ..core.optimise.candidates_table import Tried
-from ..core.optimise.conclusions import Best, sentences
-from ..core.optimise.file import Optimisation, read_optimisation
-from ..core.optimise.files import BEST_FILE, CANDIDATES_FILE, TRADEOFF_PICTURE, TRIALS_FILE
-from ..core.signals import Interrupted, signals_noted
+from ..errors import OutputError
+from ..model.optimise.candidates_table import Tried
+from ..model.optimise.conclusions import Best, sentences
+from ..model.optimise.file import Optimisation, read_optimisation
+from ..model.optimise.files import BEST_FILE, CANDIDATES_FILE, TRADEOFF_PICTURE, TRIALS_FILE
 from ..studies.folder import StudyFolder
 from ..studies.optimise_run import OptimiseRun
 from ..studies.proposals import OptunaProposals, check_optuna
+from ..system.signals import Interrupted, signals_noted
 from .progress import Progress, progress_on
 from .study import add_engine_options, engine_of
 

@@ -4,7 +4,7 @@ from typing import TextIO
 
 from tqdm import tqdm
 
-from ..core.timing.time_left import clock
+from ..engineering.timing.time_left import clock
 
 
 class Progress:

@@ -9,17 +9,17 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..core.errors import OutputError, SimulationError
-from ..core.results.files import RESULT_FILES
-from ..core.results.fingerprint import SHORT
-from ..core.results.summary import first_hit_s
-from ..core.scenario import Scenario
-from ..core.scenario.file import read_scenario
-from ..core.sequence.checked_model import checked_model
-from ..core.sequence.undisturbed import told_fall
-from ..core.signals import interrupted_afterwards
-from ..core.structure.model import Model
+from ..errors import OutputError, SimulationError
+from ..model.results.files import RESULT_FILES
+from ..model.results.fingerprint import SHORT
+from ..model.results.summary import first_hit_s
+from ..model.scenario import Scenario
+from ..model.scenario.file import read_scenario
+from ..model.sequence.checked_model import checked_model
+from ..model.sequence.undisturbed import told_fall
+from ..model.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
+from ..system.signals import interrupted_afterwards
 from .arguments import naming
 from .progress import Progress, progress_on
 

@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
-from ..core.errors import OutputError
-from ..core.search.conclusions import Answer, sentences
-from ..core.search.curve import curve_of, write_curve
-from ..core.search.file import Search, read_search
-from ..core.search.files import ANSWER_FILE, CURVE_FILE, CURVE_PICTURE, TRIALS_FILE
-from ..core.signals import Interrupted, signals_noted
+from ..errors import OutputError
+from ..model.search.conclusions import Answer, sentences
+from ..model.search.curve import curve_of, write_curve
+from ..model.search.file import Search, read_search
+from ..model.search.files import ANSWER_FILE, CURVE_FILE, CURVE_PICTURE, TRIALS_FILE
 from ..studies.folder import StudyFolder
 from ..studies.search_run import SearchRun
+from ..system.signals import Interrupted, signals_noted
 from .progress import Progress, progress_on
 from .study import add_engine_options, engine_of
 

@@ -8,14 +8,15 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from ..core.errors import OutputError, writing
-from ..core.scenario.file import read_scenario
-from ..core.sequence.checked_model import checked_model
-from ..core.stages.made_elastic import made_elastic
-from ..core.stages.sentences import criticality_sentences, stage_sentences
-from ..core.stages.stages import Criticality, Stage, criticality, stages_of
-from ..core.stages.standing import StandingBridge
-from ..core.stages.tables import FILES, write_tables
+from ..errors import OutputError
+from ..model.scenario.file import read_scenario
+from ..model.sequence.checked_model import checked_model
+from ..model.stages.made_elastic import made_elastic
+from ..model.stages.sentences import criticality_sentences, stage_sentences
+from ..model.stages.stages import Criticality, Stage, criticality, stages_of
+from ..model.stages.standing import StandingBridge
+from ..model.stages.tables import FILES, write_tables
+from ..system.disk import writing
 from .arguments import naming
 from .progress import progress_on
 

@@ -9,21 +9,21 @@ from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
-from ..core.errors import OutputError, SimulationError
-from ..core.signals import Interrupted, signals_noted
-from ..core.study.conclusions import Conclusions, sentences
-from ..core.study.draws import draw_of
-from ..core.study.file import Study, read_study
-from ..core.study.files import AGAIN_FOLDER, CONCLUSIONS_FILE, DRAW_FOLDER, RUNS_FILE, SHEET_FILE
-from ..core.study.runs_table import DONE, RunsTable
-from ..core.study.statements import verified_sentence
-from ..core.study.verification import chance_of_leaving, holds
+from ..errors import OutputError, SimulationError
+from ..model.study.conclusions import Conclusions, sentences
+from ..model.study.draws import draw_of
+from ..model.study.file import Study, read_study
+from ..model.study.files import AGAIN_FOLDER, CONCLUSIONS_FILE, DRAW_FOLDER, RUNS_FILE, SHEET_FILE
+from ..model.study.runs_table import DONE, RunsTable
+from ..model.study.statements import verified_sentence
+from ..model.study.verification import chance_of_leaving, holds
 from ..studies.draw_process import Limits
 from ..studies.draw_program import program_command
 from ..studies.engine import Engine
 from ..studies.folder import TRIED_AGAIN, StudyFolder, end_in, study_in, versions_of
 from ..studies.local import LocalProcesses, cores
 from ..studies.study_run import StudyRun
+from ..system.signals import Interrupted, signals_noted
 from .progress import Progress, progress_on
 from .run import run_with_everything
 from .study_check import study_facts

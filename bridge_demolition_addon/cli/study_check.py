@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..core.sequence.checked_model import checked_model
-from ..core.study.draws import inputs_of
-from ..core.study.file import Study
-from ..core.study.files import STUDY_FILE
+from ..model.sequence.checked_model import checked_model
+from ..model.study.draws import inputs_of
+from ..model.study.file import Study
+from ..model.study.files import STUDY_FILE
 from ..studies.estimate import FACTOR, seconds_by_draws, seconds_by_size
 from ..studies.folder import check_study_folder, versions_of
 

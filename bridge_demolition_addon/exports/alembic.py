@@ -8,9 +8,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ..core.errors import MissingLibraryError
-from ..core.geometry.mesh import TriangleMesh
-from ..core.results.arrays import Results
+from ..engineering.geometry.mesh import TriangleMesh
+from ..errors import MissingLibraryError
+from ..model.results.arrays import Results
 from ..scene.tools.keyframes import key_values
 from .shapes import body_meshes, quaternions
 

@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import MissingLibraryError, SimulationError
+from ..errors import MissingLibraryError, SimulationError
 from .formats import Format
 from .progress import Progress
 

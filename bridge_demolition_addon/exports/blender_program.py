@@ -9,8 +9,8 @@ import traceback
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..core.errors import MissingLibraryError
-from ..core.results.arrays import load_results
+from ..errors import MissingLibraryError
+from ..model.results.arrays import load_results
 from .blender_process import MARK
 from .formats import USD
 

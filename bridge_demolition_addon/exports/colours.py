@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..core.results.inventory import Inventory
+from ..model.results.inventory import Inventory
 
 Colour = tuple[float, float, float]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from scipy.io import savemat
 
-from ..core.errors import OutputError
-from ..core.results.arrays import Results
+from ..errors import OutputError
+from ..model.results.arrays import Results
 from .progress import Progress
 
 _MOST_BYTES = 2**31 - 1

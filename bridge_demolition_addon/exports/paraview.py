@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from ..core.geometry.rotations import carried_points
-from ..core.geometry.vectors import length
-from ..core.results.arrays import Results
-from ..core.results.energy import kinetic_energies, moments_of_inertia
-from ..core.results.frames import ContactHistory, Frame
+from ..engineering.geometry.rotations import carried_points
+from ..engineering.geometry.vectors import length
+from ..model.results.arrays import Results
+from ..model.results.energy import kinetic_energies, moments_of_inertia
+from ..model.results.frames import ContactHistory, Frame
 from .progress import Progress
 from .shapes import ConnectionPlaces, body_meshes
 from .vtu import POINT, TRIANGLE, Topology, data_array, write_series, write_vtu

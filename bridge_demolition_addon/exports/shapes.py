@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.rotations import carried_points
-from ..core.geometry.vectors import dot, transformed_back
-from ..core.results.arrays import Results
-from ..core.results.frames import Frame
-from ..core.results.inventory import Inventory
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.rotations import carried_points
+from ..engineering.geometry.vectors import dot, transformed_back
+from ..model.results.arrays import Results
+from ..model.results.frames import Frame
+from ..model.results.inventory import Inventory
 
 _NO_TRIANGLES = np.zeros((0, 3), np.int64)
 

@@ -15,11 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from ..core.errors import MissingLibraryError
-from ..core.results.arrays import Results
-from ..core.results.energy import energy_of
-from ..core.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
-from ..core.results.motion import throw
+from ..errors import MissingLibraryError
+from ..model.results.arrays import Results
+from ..model.results.energy import energy_of
+from ..model.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
+from ..model.results.motion import throw
 from .progress import Progress
 
 MOST_ROWS = 1_048_575

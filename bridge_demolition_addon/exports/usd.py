@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..core.errors import MissingLibraryError
-from ..core.geometry.mesh import TriangleMesh
-from ..core.results.arrays import Results
+from ..engineering.geometry.mesh import TriangleMesh
+from ..errors import MissingLibraryError
+from ..model.results.arrays import Results
 from .colours import colour_of, coloured_by
 from .shapes import body_meshes, needed_keys, quaternions
 

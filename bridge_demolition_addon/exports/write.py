@@ -5,9 +5,9 @@ from __future__ import annotations
 from contextlib import AbstractContextManager
 from pathlib import Path
 
-from ..core.disk import whole_file, whole_folder
-from ..core.errors import OutputError, text_of
-from ..core.results.arrays import load_results, results_in
+from ..errors import OutputError, text_of
+from ..model.results.arrays import load_results, results_in
+from ..system.disk import whole_file, whole_folder
 from . import formats
 from .blender_process import write_in_blender
 from .formats import Format

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.solids import union
-from ..core.geometry.vectors import transformed
-from ..core.scenario import ConnectionBetween
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.solids import union
+from ..engineering.geometry.vectors import transformed
+from ..model.scenario import ConnectionBetween
 from .contacts import TOUCHING_M, Contacts
 from .elements import Element
 from .library import library

@@ -9,12 +9,12 @@ from itertools import groupby
 from pathlib import Path
 from unicodedata import category
 
-from ..core.bridge.member import Member
-from ..core.errors import IfcError
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.solids import from_manifold, to_manifold
-from ..core.mechanics.materials import Material
-from ..core.scenario import (
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.solids import from_manifold, to_manifold
+from ..errors import IfcError
+from ..model.bridge.member import Member
+from ..model.materials.materials import Material
+from ..model.scenario import (
     ConnectionBetween,
     ConnectionSettings,
     FractureSettings,
@@ -23,8 +23,8 @@ from ..core.scenario import (
     Site,
     TimeSettings,
 )
-from ..core.scenario.connections import GROUND_NAME
-from ..core.schema import LINE_BREAKING_CATEGORIES
+from ..model.scenario.connections import GROUND_NAME
+from ..model.schema import LINE_BREAKING_CATEGORIES
 from .bearings import Bearing, bearing_of, bearing_rules, seated
 from .contacts import Contacts
 from .element_materials import Substance, substances

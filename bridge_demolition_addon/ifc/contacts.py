@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.solids import to_manifold
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.solids import to_manifold
 
 TOUCHING_M = 1e-4
 """Gap up to which two members touch, as where connections are made."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import IfcError
+from ..errors import IfcError
 from .elements import Element
 from .library import library
 from .materials import MaterialRow, MaterialTable

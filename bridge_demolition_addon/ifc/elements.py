@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..core.errors import IfcError
+from ..errors import IfcError
 from .kinds import ElementFacts, LeftOut, kind_of
 from .library import library
 from .settings import ImportSettings, matches

@@ -10,12 +10,12 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..core.bridge.mesh_files import exported
-from ..core.bridge.preparation import prepared_members
-from ..core.disk import write_whole_text
-from ..core.errors import GeometryError, IfcError, OutputError, ScenarioError, writing
-from ..core.scenario.file import read_scenario
-from ..core.toml_tables import tables_text
+from ..errors import GeometryError, IfcError, OutputError, ScenarioError
+from ..model.bridge.mesh_files import exported
+from ..model.bridge.preparation import prepared_members
+from ..model.scenario.file import read_scenario
+from ..model.toml_tables import tables_text
+from ..system.disk import write_whole_text, writing
 from .bridge import MESH_FOLDER, ImportedBridge, Outcome
 
 SCENARIO_FILE = "scenario.toml"

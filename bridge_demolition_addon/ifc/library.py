@@ -6,7 +6,7 @@ import importlib
 from importlib.util import find_spec
 from types import ModuleType
 
-from ..core.errors import MissingLibraryError
+from ..errors import MissingLibraryError
 
 _OLDEST = (0, 8)
 """Version from which on the settings of its geometry have names."""

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from pymap3d import enu2geodetic, geodetic2enu
 
-from ..core.map_grids import grid_of_epsg
-from ..core.scenario import Site
+from ..engineering.map_grids import grid_of_epsg
+from ..model.scenario import Site
 from .library import library
 from .placement import Placement
 from .source import IfcSource

@@ -5,12 +5,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import ClassVar
 
-from ..core.disk import whole_file
-from ..core.errors import IfcError, OutputError, ScenarioError, writing
-from ..core.mechanics.materials import MODULUS, Material
-from ..core.mechanics.strength import MATERIALS
-from ..core.schema import Table, key
-from ..core.toml_tables import document_of_file, table_of_document, toml_document
+from ..engineering.mechanics.strength import MATERIALS
+from ..errors import IfcError, OutputError, ScenarioError
+from ..model.materials.materials import MODULUS, Material
+from ..model.schema import Table, key
+from ..model.toml_tables import document_of_file, table_of_document, toml_document
+from ..system.disk import whole_file, writing
 from .settings import matches
 
 _FILE = "materials.toml"

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.errors import GeometryError, IfcError
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.repair import Repaired, repaired_solid
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.repair import Repaired, repaired_solid
+from ..errors import GeometryError, IfcError
 from .elements import Element
 from .library import library
 from .source import IfcSource

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection
 
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.rotations import turn_in_plane
-from ..core.geometry.vectors import transformed
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.rotations import turn_in_plane
+from ..engineering.geometry.vectors import transformed
 
 _ON_AXIS_RAD = 1e-7
 """Angle below which a bridge runs along an axis of its file, and its places are kept to the last digit."""

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import IfcError, UnreadableError
-from ..core.reading import MEGABYTE, check_file
+from ..errors import IfcError, UnreadableError
+from ..system.reading import MEGABYTE, check_file
 from .library import library
 from .settings import UNITS, ImportSettings
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from ..core.bridge.member import Member
-from ..core.scenario.bodies import Support
+from ..model.bridge.member import Member
+from ..model.scenario.bodies import Support
 from .contacts import TOUCHING_M, Contacts
 
 _ON_GROUND_M = 1e-3

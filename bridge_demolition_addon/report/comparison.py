@@ -9,10 +9,10 @@ from itertools import takewhile
 
 from ..charts.histories import compared_histories
 from ..charts.plan_maps import debris_maps, debris_maps_height_mm
-from ..core.debris.throws import Debris, debris_of
-from ..core.results.collapse import collapse_progress, rest_of
-from ..core.results.force_history import largest_on_a_shard
-from ..core.scenario import Ball
+from ..model.debris.throws import Debris, debris_of
+from ..model.results.collapse import collapse_progress, rest_of
+from ..model.results.force_history import largest_on_a_shard
+from ..model.scenario import Ball
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
 from .run_folder import Run

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.debris.throws import Debris, percentiles_by_mass
-from ..core.results.collapse import collapse_progress, rest_of
-from ..core.results.force_history import most_loaded
+from ..model.debris.throws import Debris, percentiles_by_mass
+from ..model.results.collapse import collapse_progress, rest_of
+from ..model.results.force_history import most_loaded
 from .run_folder import Run
 
 IMPACT = "Impact of the ball"

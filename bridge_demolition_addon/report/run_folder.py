@@ -13,13 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from ..core.debris.footprint import check_covers_ground
-from ..core.errors import OutputError, ScenarioError, UnreadableError
-from ..core.folder_lock import LOCK_FILE, writer_in
-from ..core.reading import MEGABYTE, check_file, file_text
-from ..core.results.arrays import Results, load_results, results_in
-from ..core.results.checks import checked_summary
-from ..core.results.files import (
+from ..engineering.units import STANDARD_GRAVITY_M_S2
+from ..errors import OutputError, ScenarioError, UnreadableError
+from ..model.debris.footprint import check_covers_ground
+from ..model.results.arrays import Results, load_results, results_in
+from ..model.results.checks import checked_summary
+from ..model.results.files import (
     BREAKING_LOG,
     FORCE_LOG,
     FRAMES_FILE,
@@ -29,12 +28,13 @@ from ..core.results.files import (
     SCENARIO_FILE,
     SUMMARY_FILE,
 )
-from ..core.results.removed_shards import without_removed
-from ..core.results.summary import first_hit_s, hits_of_balls, impact_of
-from ..core.scenario import Scenario
-from ..core.scenario.file import read_scenario
-from ..core.sequence.undisturbed import told_fall
-from ..core.units import STANDARD_GRAVITY_M_S2
+from ..model.results.removed_shards import without_removed
+from ..model.results.summary import first_hit_s, hits_of_balls, impact_of
+from ..model.scenario import Scenario
+from ..model.scenario.file import read_scenario
+from ..model.sequence.undisturbed import told_fall
+from ..system.folder_lock import LOCK_FILE, writer_in
+from ..system.reading import MEGABYTE, check_file, file_text
 
 MOST_SUMMARY_BYTES = 100 * MEGABYTE
 """Size up to which a summary is read, which lists every frame."""

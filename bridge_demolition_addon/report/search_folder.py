@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.errors import OutputError, ScenarioError, UnreadableError
-from ..core.reading import MEGABYTE, file_text
-from ..core.search.conclusions import Answer, answer_of
-from ..core.search.file import Search, read_search
-from ..core.search.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
-from ..core.search.probit import Trials
-from ..core.study.outcome import SUCCESS
-from ..core.study.runs_table import read_runs
+from ..engineering.search.probit import Trials
+from ..errors import OutputError, ScenarioError, UnreadableError
+from ..model.search.conclusions import Answer, answer_of
+from ..model.search.file import Search, read_search
+from ..model.search.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
+from ..model.study.outcome import SUCCESS
+from ..model.study.runs_table import read_runs
+from ..system.reading import MEGABYTE, file_text
 
 _MOST_BYTES = 10 * MEGABYTE
 _GO_ON = "go on with the command that started the search"

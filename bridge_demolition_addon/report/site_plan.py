@@ -13,9 +13,9 @@ import numpy as np
 from manifold3d import CrossSection
 from pymap3d import enu2geodetic
 
-from ..core.disk import write_whole_text
-from ..core.geometry.plan_areas import outlines, signed_area
-from ..core.scenario import Site
+from ..engineering.geometry.plan_areas import outlines, signed_area
+from ..model.scenario import Site
+from ..system.disk import write_whole_text
 
 _CLOSED = 1
 _MOST_LETTERS = 31

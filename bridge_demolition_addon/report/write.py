@@ -12,20 +12,20 @@ from typing import Protocol
 import numpy as np
 from manifold3d import CrossSection
 
-from ..core.debris.exclusion import ExclusionZone
-from ..core.debris.throws import debris_of
-from ..core.errors import OutputError, text_of
-from ..core.folder_lock import FolderLock
-from ..core.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
-from ..core.scenario import Site
-from ..core.scenario.file import scenario_text
-from ..core.sequence.checked_model import checked_model
-from ..core.stages.made_elastic import made_elastic
-from ..core.stages.stages import criticality, stages_of
-from ..core.stages.standing import StandingBridge
-from ..core.stages.tables import write_tables as write_stage_tables
-from ..core.study.files import PLAN_DXF, PLAN_GEOJSON, REPORT_FOLDER
-from ..core.terrain.contour_lines import contour_lines
+from ..engineering.terrain.contour_lines import contour_lines
+from ..errors import OutputError, text_of
+from ..model.debris.exclusion import ExclusionZone
+from ..model.debris.throws import debris_of
+from ..model.results.files import DXF_FILE, GEOJSON_FILE, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.scenario import Site
+from ..model.scenario.file import scenario_text
+from ..model.sequence.checked_model import checked_model
+from ..model.stages.made_elastic import made_elastic
+from ..model.stages.stages import criticality, stages_of
+from ..model.stages.standing import StandingBridge
+from ..model.stages.tables import write_tables as write_stage_tables
+from ..model.study.files import PLAN_DXF, PLAN_GEOJSON, REPORT_FOLDER
+from ..system.folder_lock import FolderLock
 from .comparison import comparison
 from .document.blocks import DataTable, Document, Listing, Section, write_tables
 from .document.drawings import drawings

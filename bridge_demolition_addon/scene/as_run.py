@@ -13,11 +13,11 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.errors import ScenarioError
-from ..core.scenario import Ground, Scenario
-from ..core.schema import Table
-from ..core.single_precision import as_given
-from ..core.timing.time_step import TimeStep
+from ..engineering.single_precision import as_given
+from ..engineering.timing.time_step import TimeStep
+from ..errors import ScenarioError
+from ..model.scenario import Ground, Scenario
+from ..model.schema import Table
 from .bodies import Kind, bodies_of, is_marked, kind_of, member_of
 from .demolition import FIRST_STEP_FRAME
 from .time_scale import time_is_animated, time_step_at

@@ -10,11 +10,11 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.solids import box
-from ..core.scenario import Ground, GroundSurface, ShardSettings
-from ..core.scenario.kept import values_from_text, values_text
-from ..core.terrain.built import TerrainFacts
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.solids import box
+from ..model.scenario import Ground, GroundSurface, ShardSettings
+from ..model.scenario.kept import values_from_text, values_text
+from ..model.terrain.built import TerrainFacts
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"

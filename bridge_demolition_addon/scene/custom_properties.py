@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import bpy
 
-from ..core.errors import SimulationError
-from ..core.schema import LARGEST_NUMBER
+from ..errors import SimulationError
+from ..model.schema import LARGEST_NUMBER
 
 
 def kept_numbers(holder: bpy.types.ID, name: str, default: Sequence[float]) -> tuple[float, ...]:

@@ -7,26 +7,18 @@ from contextlib import contextmanager
 
 import bpy
 
-from ..core.blast.settings import Apply
-from ..core.bridge.extent import room_around, surface_height
-from ..core.elasticity.section_stiffness import DAMPING_RATIO
-from ..core.errors import SimulationError
-from ..core.mechanics.strength import Ductility, Strength
-from ..core.scenario import Scenario
-from ..core.structure.model import Model
-from ..core.structure.start_motion import start_motions
+from ..engineering.elasticity.section_stiffness import DAMPING_RATIO
+from ..engineering.mechanics.strength import Ductility, Strength
+from ..errors import SimulationError
+from ..model.blast.settings import Apply
+from ..model.bridge.extent import room_around, surface_height
+from ..model.scenario import Scenario
+from ..model.structure.model import Model
+from ..model.structure.start_motion import start_motions
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
 from .blast.settings import keep_blast
-from .bodies import (
-    bodies_of,
-    create_flat_ground,
-    create_shards,
-    create_surface,
-    create_terrain,
-    is_marked,
-    mark_member,
-)
+from .bodies import bodies_of, create_flat_ground, create_shards, create_surface, create_terrain, is_marked, mark_member
 from .connections.breaking_settings import Breaking, keep_bars, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity

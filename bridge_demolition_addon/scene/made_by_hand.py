@@ -9,8 +9,8 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.results.fingerprint import digest
-from ..core.scenario.kept import values_from_text, values_text
+from ..model.results.fingerprint import digest
+from ..model.scenario.kept import values_from_text, values_text
 from .bodies import Kind, bodies_of, kind_of
 from .connections.breaking_settings import breaking_of
 from .connections.breaking_thresholds import kept_breaking_force

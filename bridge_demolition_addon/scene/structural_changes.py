@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ..core.geometry.vectors import transformed
-from ..core.results.inventory import Inventory
-from ..core.scenario import Change, Load, Removal, SawCut, Weakening
-from ..core.scenario.kept import tables_from_text, tables_text
-from ..core.schema import Table
-from ..core.sequence.events import Event, recorded_structure, schedule
-from ..core.sequence.loads import PlacedLoad, placed_loads
+from ..engineering.geometry.vectors import transformed
+from ..model.results.inventory import Inventory
+from ..model.scenario import Change, Load, Removal, SawCut, Weakening
+from ..model.scenario.kept import tables_from_text, tables_text
+from ..model.schema import Table
+from ..model.sequence.events import Event, recorded_structure, schedule
+from ..model.sequence.loads import PlacedLoad, placed_loads
 
 _CHANGES, _LOADS = "bda_changes", "bda_loads"
 

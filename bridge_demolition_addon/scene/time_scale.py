@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.timing.time_step import TimeStep
-from ..core.timing.timeline import Timeline
+from ..engineering.timing.time_step import TimeStep
+from ..engineering.timing.timeline import Timeline
 from .world import START_FRAME, scene_time_step
 
 _PATH = "rigidbody_world.time_scale"

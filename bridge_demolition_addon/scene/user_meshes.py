@@ -5,10 +5,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.errors import GeometryError
-from ..core.geometry.mesh import TriangleMesh
-from ..core.geometry.repair import Repaired, repaired_solid
-from ..core.geometry.vectors import transformed
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.repair import Repaired, repaired_solid
+from ..engineering.geometry.vectors import transformed
+from ..errors import GeometryError
 from .bodies import triangle_mesh
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import bpy
 
-from ..core.scenario import TimeSettings
-from ..core.timing.time_step import TimeStep
-from ..core.units import STANDARD_GRAVITY_M_S2
+from ..engineering.timing.time_step import TimeStep
+from ..engineering.units import STANDARD_GRAVITY_M_S2
+from ..model.scenario import TimeSettings
 from .custom_properties import kept_number
 
 START_FRAME = 1

@@ -10,10 +10,10 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.display.moments import moments
-from ..core.errors import OutputError
-from ..core.results.arrays import Results, load_results
-from ..core.results.files import RESULTS_FILE, SUMMARY_FILE
+from ..display.moments import moments
+from ..errors import OutputError
+from ..model.results.arrays import Results, load_results
+from ..model.results.files import RESULTS_FILE, SUMMARY_FILE
 from ..scene.blast.charges import charges_of
 from ..scene.blast.settings import blast_of
 from ..scene.rendering.markers import mark_moments

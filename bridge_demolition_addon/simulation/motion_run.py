@@ -9,11 +9,11 @@ from typing import Any
 
 import bpy
 
-from ..core.results.arrays import Results
-from ..core.scenario import Scenario
-from ..core.signals import interrupted_afterwards
-from ..core.structure.model import Model
+from ..model.results.arrays import Results
+from ..model.scenario import Scenario
+from ..model.structure.model import Model
 from ..scene.demolition import build_demolition
+from ..system.signals import interrupted_afterwards
 from .playback import play_alone
 from .recording.recorder import Recording
 from .run_summary import RunContext, rest_watch, run_summary

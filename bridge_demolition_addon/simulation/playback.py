@@ -6,9 +6,9 @@ import time
 
 import bpy
 
-from ..core.errors import SimulationError
-from ..core.sequence.rest import Rest
-from ..core.timing.time_left import Pace
+from ..engineering.timing.time_left import Pace
+from ..errors import SimulationError
+from ..model.sequence.rest import Rest
 from ..scene.world import start_over
 from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording

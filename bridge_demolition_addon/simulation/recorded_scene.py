@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import bpy
 
-from ..core.errors import DemolitionError, SimulationError
+from ..errors import DemolitionError, SimulationError
 from ..scene.bodies import is_marked
 from .crash_guards.safe_render import has_to_rest
 from .crash_guards.world_guard import WorldGuard

@@ -9,13 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..core.disk import part_of, write_whole_text
-from ..core.errors import OutputError, writing
-from ..core.folder_lock import FolderLock, check_unlocked
-from ..core.ground_motion.record import GroundRecord
-from ..core.ground_motion.record_file import record_text
-from ..core.results.arrays import Results
-from ..core.results.files import (
+from ..engineering.ground_motion.record import GroundRecord
+from ..errors import OutputError
+from ..model.ground_motion.record_file import record_text
+from ..model.results.arrays import Results
+from ..model.results.files import (
     FORCE_CHART,
     GROUND_MOTION_FILE,
     PICTURE_FOLDER,
@@ -26,9 +24,11 @@ from ..core.results.files import (
     SUMMARY_FILE,
     TABLE_FOLDER,
 )
-from ..core.results.summary import first_hit_s
-from ..core.scenario import Scenario
-from ..core.scenario.file import read_scenario, scenario_text
+from ..model.results.summary import first_hit_s
+from ..model.scenario import Scenario
+from ..model.scenario.file import read_scenario, scenario_text
+from ..system.disk import part_of, write_whole_text, writing
+from ..system.folder_lock import FolderLock, check_unlocked
 
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""

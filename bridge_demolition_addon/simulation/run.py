@@ -10,20 +10,20 @@ from typing import Any, Protocol
 
 import bpy
 
-from ..core.display.camera_targets import points_to_see
-from ..core.display.contours import ContourSettings
-from ..core.errors import DemolitionError, SimulationError, text_of
-from ..core.results.files import BLEND_FILE, FRAMES_FILE, SCENARIO_FILE
-from ..core.scenario import Scenario
-from ..core.scenario.recording import PictureSettings
-from ..core.sequence.checked_model import checked_model
-from ..core.signals import Interrupted, interrupted_afterwards, signals_noted
-from ..core.structure.model import Model
+from ..display.camera_targets import points_to_see
+from ..display.contours import ContourSettings
+from ..errors import DemolitionError, SimulationError, text_of
+from ..model.results.files import BLEND_FILE, FRAMES_FILE, SCENARIO_FILE
+from ..model.scenario import Scenario
+from ..model.scenario.recording import PictureSettings
+from ..model.sequence.checked_model import checked_model
+from ..model.structure.model import Model
 from ..scene.demolition import build_demolition
 from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_pictures
 from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
+from ..system.signals import Interrupted, interrupted_afterwards, signals_noted
 from .display.film import FilmRendering, FilmSettings
 from .display.pictures import check_camera, rendered_pictures, show_charges
 from .kept_run import keep_run, mark_run

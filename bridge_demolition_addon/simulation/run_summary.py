@@ -11,17 +11,17 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.debris.on_ground import bodies_under_ground, debris_on_surfaces
-from ..core.debris.throws import debris_of
-from ..core.debris.touchdown import landings, shaking_at
-from ..core.results.arrays import Results
-from ..core.results.fingerprint import motion_digest, result_digest
-from ..core.results.removed_shards import without_removed
-from ..core.results.summary import settling, summarise
-from ..core.scenario import Scenario
-from ..core.sequence.rest import Rest, last_event_s
-from ..core.sequence.undisturbed import fell_by_itself
-from ..core.structure.settlement import settlements
+from ..model.debris.on_ground import bodies_under_ground, debris_on_surfaces
+from ..model.debris.throws import debris_of
+from ..model.debris.touchdown import landings, shaking_at
+from ..model.results.arrays import Results
+from ..model.results.fingerprint import motion_digest, result_digest
+from ..model.results.removed_shards import without_removed
+from ..model.results.summary import settling, summarise
+from ..model.scenario import Scenario
+from ..model.sequence.rest import Rest, last_event_s
+from ..model.sequence.undisturbed import fell_by_itself
+from ..model.structure.settlement import settlements
 from ..scene.bodies import terrain_facts
 from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step

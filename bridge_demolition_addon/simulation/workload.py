@@ -5,10 +5,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.geometry.vectors import length
-from ..core.results.frames import Frame
-from ..core.timing.time_left import speeds_to_come
-from ..core.timing.time_step import substeps_within
+from ..engineering.geometry.vectors import length
+from ..engineering.timing.time_left import speeds_to_come
+from ..engineering.timing.time_step import substeps_within
+from ..model.results.frames import Frame
 from ..scene.time_scale import time_step_at
 from ..scene.world import farthest_per_substep_of
 

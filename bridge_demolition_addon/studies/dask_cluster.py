@@ -13,8 +13,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import ClusterError, SimulationError, writing
-from ..core.study.runs_table import KILLED
+from ..errors import ClusterError, SimulationError
+from ..model.study.runs_table import KILLED
+from ..system.disk import writing
 from .draw_process import DrawProcess, End, Limits
 from .draw_program import draw_command
 from .engine import Task

@@ -24,9 +24,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
-from ..core.errors import ScenarioError, SimulationError
-from ..core.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT
-from ..core.study.settings import StudySettings
+from ..errors import ScenarioError, SimulationError
+from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT
+from ..model.study.settings import StudySettings
 
 MARK = "bda-draw "
 """What begins the program's own lines on its standard output."""

@@ -14,16 +14,16 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..core.disk import whole_file
-from ..core.results.arrays import Results, load_results
-from ..core.results.files import BLEND_FILE, FORCE_CHART, RESULTS_FILE
-from ..core.scenario import Scenario
-from ..core.scenario.file import scenario_from_text
-from ..core.sequence.checked_model import checked_model
-from ..core.study.files import OUTLINES_FILE, RUN_FOLDER
-from ..core.study.outcome import outcome_of
-from ..core.study.settings import StudySettings
-from ..core.toml_tables import table_of_document, toml_document
+from ..model.results.arrays import Results, load_results
+from ..model.results.files import BLEND_FILE, FORCE_CHART, RESULTS_FILE
+from ..model.scenario import Scenario
+from ..model.scenario.file import scenario_from_text
+from ..model.sequence.checked_model import checked_model
+from ..model.study.files import OUTLINES_FILE, RUN_FOLDER
+from ..model.study.outcome import outcome_of
+from ..model.study.settings import StudySettings
+from ..model.toml_tables import table_of_document, toml_document
+from ..system.disk import whole_file
 from .service import Service
 from .versions import versions_with
 

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.errors import ScenarioError
-from ..core.scenario import Scenario
-from ..core.structure.model import Model
-from ..core.study.draws import draw_of
-from ..core.study.file import Study
-from ..core.study.files import DRAW_FOLDER
-from ..core.study.runs_table import DONE
-from ..core.units import STANDARD_GRAVITY_M_S2
+from ..engineering.units import STANDARD_GRAVITY_M_S2
+from ..errors import ScenarioError
+from ..model.scenario import Scenario
+from ..model.structure.model import Model
+from ..model.study.draws import draw_of
+from ..model.study.file import Study
+from ..model.study.files import DRAW_FOLDER
+from ..model.study.runs_table import DONE
 from .folder import end_in
 
 FACTOR = 3.0

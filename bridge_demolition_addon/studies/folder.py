@@ -14,16 +14,16 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from ..core.disk import write_whole_text
-from ..core.errors import OutputError, ScenarioError, UnreadableError, writing
-from ..core.folder_lock import LOCK_FILE, FolderLock, check_unlocked
-from ..core.optimise.file import Optimisation
-from ..core.reading import MEGABYTE, file_text
-from ..core.results.files import SCENARIO_FILE
-from ..core.search.file import Search
-from ..core.study.file import Study, read_study
-from ..core.study.files import DRAW_FOLDER, OUTCOME_FILE, STUDY_FILE, VERSIONS_FILE
-from ..core.study.runs_table import KILLED, OUT_OF_MEMORY, STATUSES
+from ..errors import OutputError, ScenarioError, UnreadableError
+from ..model.optimise.file import Optimisation
+from ..model.results.files import SCENARIO_FILE
+from ..model.search.file import Search
+from ..model.study.file import Study, read_study
+from ..model.study.files import DRAW_FOLDER, OUTCOME_FILE, STUDY_FILE, VERSIONS_FILE
+from ..model.study.runs_table import KILLED, OUT_OF_MEMORY, STATUSES
+from ..system.disk import write_whole_text, writing
+from ..system.folder_lock import LOCK_FILE, FolderLock, check_unlocked
+from ..system.reading import MEGABYTE, file_text
 from .draw_process import End
 
 _PART = ".part"

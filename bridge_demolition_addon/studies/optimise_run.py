@@ -6,18 +6,18 @@ import json
 from itertools import islice
 from typing import Any
 
-from ..core.disk import write_whole_text
-from ..core.errors import ScenarioError
-from ..core.optimise.candidates_table import Tried, tried_of, write_candidates
-from ..core.optimise.conclusions import Best, as_json, best_of
-from ..core.optimise.file import Optimisation
-from ..core.optimise.files import BEST_FILE, CANDIDATES_FILE, TRIALS_FILE
-from ..core.optimise.rounds import Proposals, Rounds, Run
-from ..core.optimise.settings import CHARGE
-from ..core.optimise.space import total_charge_kg
-from ..core.scenario.file import scenario_text
-from ..core.study.draws import Draw
-from ..core.study.runs_table import DONE, REFUSED, Row, RunsTable, write_runs
+from ..errors import ScenarioError
+from ..model.optimise.candidates_table import Tried, tried_of, write_candidates
+from ..model.optimise.conclusions import Best, as_json, best_of
+from ..model.optimise.file import Optimisation
+from ..model.optimise.files import BEST_FILE, CANDIDATES_FILE, TRIALS_FILE
+from ..model.optimise.rounds import Proposals, Rounds, Run
+from ..model.optimise.settings import CHARGE
+from ..model.optimise.space import total_charge_kg
+from ..model.scenario.file import scenario_text
+from ..model.study.draws import Draw
+from ..model.study.runs_table import DONE, REFUSED, Row, RunsTable, write_runs
+from ..system.disk import write_whole_text
 from .draw_process import End
 from .engine import Engine, Task
 from .folder import StudyFolder

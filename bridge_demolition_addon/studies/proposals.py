@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.errors import MissingLibraryError
+from ..errors import MissingLibraryError
 
 
 def check_optuna() -> str:

@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from ..core.disk import write_whole_text
-from ..core.errors import ScenarioError
-from ..core.scenario.file import scenario_text
-from ..core.search.conclusions import Answer, answer_of, reason_to_stop
-from ..core.search.file import Search
-from ..core.search.files import ANSWER_FILE, TRIALS_FILE
-from ..core.search.neyer import NeyerTest
-from ..core.search.probit import Trials
-from ..core.study.draws import Draw
-from ..core.study.outcome import SUCCESS
-from ..core.study.runs_table import REFUSED, Row, RunsTable, write_runs
+from ..engineering.search.neyer import NeyerTest
+from ..engineering.search.probit import Trials
+from ..errors import ScenarioError
+from ..model.scenario.file import scenario_text
+from ..model.search.conclusions import Answer, answer_of, reason_to_stop
+from ..model.search.file import Search
+from ..model.search.files import ANSWER_FILE, TRIALS_FILE
+from ..model.study.draws import Draw
+from ..model.study.outcome import SUCCESS
+from ..model.study.runs_table import REFUSED, Row, RunsTable, write_runs
+from ..system.disk import write_whole_text
 from .draw_process import End
 from .engine import Engine, Task
 from .folder import StudyFolder

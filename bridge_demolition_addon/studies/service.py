@@ -13,8 +13,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..core.errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
-from ..core.study.runs_table import DONE, FAILED, OUT_OF_MEMORY, REFUSED
+from ..errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
+from ..model.study.runs_table import DONE, FAILED, OUT_OF_MEMORY, REFUSED
 from .draw_process import MARK, UNWRITABLE
 
 _FIRST_TO_GO = "500"

@@ -8,15 +8,15 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
-from ..core.disk import write_whole_text
-from ..core.errors import ScenarioError
-from ..core.scenario.file import scenario_text
-from ..core.study.conclusions import Conclusions, conclusions
-from ..core.study.draws import Draw, draw_of, inputs_of
-from ..core.study.file import Study
-from ..core.study.files import CONCLUSIONS_FILE, RUNS_FILE, SHEET_FILE
-from ..core.study.runs_sheet import write_sheet
-from ..core.study.runs_table import REFUSED, Row, RunsTable, write_runs
+from ..errors import ScenarioError
+from ..model.scenario.file import scenario_text
+from ..model.study.conclusions import Conclusions, conclusions
+from ..model.study.draws import Draw, draw_of, inputs_of
+from ..model.study.file import Study
+from ..model.study.files import CONCLUSIONS_FILE, RUNS_FILE, SHEET_FILE
+from ..model.study.runs_sheet import write_sheet
+from ..model.study.runs_table import REFUSED, Row, RunsTable, write_runs
+from ..system.disk import write_whole_text
 from .draw_process import End
 from .engine import Engine, Task
 from .folder import StudyFolder

@@ -7,11 +7,11 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from ..core.errors import SimulationError
+from ..errors import SimulationError
 
 _LIBRARIES = ("numpy", "manifold3d", "qdldl", "scipy", "trimesh")
 _PACKAGE = Path(__file__).resolve().parents[1]
-_CALCULATING = ("bullet", "core", "scene", "simulation")
+_CALCULATING = ("bullet", "engineering", "model", "scene", "simulation", "system")
 """Layers of this package that decide what comes out."""
 
 _SHORT = 12

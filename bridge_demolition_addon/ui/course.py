@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ..core.timing.time_left import Pace, in_words
+from ..engineering.timing.time_left import Pace, in_words
 from .sidebar import draw_sentence, redraw_sidebars
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 
-from ..core.errors import DemolitionError
+from ..errors import DemolitionError
 from . import course, messages
 from .operators import Action, Refusing, refused
 from .turns import Turns

@@ -5,8 +5,9 @@ from pathlib import Path
 import bpy
 from bpy_extras.io_utils import ExportHelper
 
-from ..core.errors import DemolitionError, OutputError, writing
+from ..errors import DemolitionError, OutputError
 from ..simulation.blender_events import running_recording
+from ..system.disk import writing
 from . import messages
 from .sidebar import path_property
 

@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import BoolProperty, PointerProperty, StringProperty
 
-from ..core.scenario import Scenario
-from ..core.study.settings import StudySettings
+from ..model.scenario import Scenario
+from ..model.study.settings import StudySettings
 from .blast.prop import ChargeProperties
 from .contours.prop import ContourProperties
 from .ground.prop import GroundProperties

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import bpy
 
-from ..core.errors import OutputError, SimulationError
-from ..core.results.files import FORCE_CHART
+from ..errors import OutputError, SimulationError
+from ..model.results.files import FORCE_CHART
 from .operators import Action
 from .results.operator import CHARTS
 from .results.shown_run import shown_run

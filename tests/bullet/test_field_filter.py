@@ -9,7 +9,7 @@ from blast_scenes import weightless
 
 from bridge_demolition_addon.bullet import field_filter
 from bridge_demolition_addon.bullet.field_filter import ignore_fields, let_fields_act
-from bridge_demolition_addon.core.errors import LayoutError
+from bridge_demolition_addon.errors import LayoutError
 
 MASS_KG = 10.0
 

@@ -8,7 +8,7 @@ from blocks import Blocks
 
 from bridge_demolition_addon.bullet.layout import platform_layout
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
-from bridge_demolition_addon.core.errors import DemolitionError
+from bridge_demolition_addon.errors import DemolitionError
 
 GROUPS = ("blender", "body", "constraint", "world")
 

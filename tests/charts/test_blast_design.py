@@ -22,9 +22,9 @@ from bridge_demolition_addon.charts.blast_design import (
     write_charts,
 )
 from bridge_demolition_addon.charts.style import lay_out
-from bridge_demolition_addon.core.blast.models import BlastModel, blast_wave
-from bridge_demolition_addon.core.blast.wave import Burst
-from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.engineering.blast.models import BlastModel, blast_wave
+from bridge_demolition_addon.engineering.blast.wave import Burst
+from bridge_demolition_addon.errors import OutputError
 
 KPA, RATIO = ChartSettings(), ChartSettings(as_ratio=True)
 SCALED = ChartSettings(scaled=True)

@@ -10,7 +10,7 @@ from matplotlib.image import imread
 from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.charts.force_chart import plot_forces
-from bridge_demolition_addon.core.results.frames import FrameSeries
+from bridge_demolition_addon.model.results.frames import FrameSeries
 
 # Nothing acts in the first frame, in which no time passes; in the fourth, the largest is not the mean.
 SUMS_KN = np.array([0.0, 700 * G, 700 * G, 500 * G + np.hypot(200 * G, 1000), 300 * G]) / 1e3

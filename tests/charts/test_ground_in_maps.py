@@ -7,11 +7,11 @@ import pytest
 from matplotlib.figure import Figure
 
 from bridge_demolition_addon.charts.plan_maps import draw_ground, plan_axes
-from bridge_demolition_addon.core.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.core.terrain.built import TerrainFacts, facts_from, told
-from bridge_demolition_addon.core.terrain.levelling import Levelled
-from bridge_demolition_addon.core.terrain.recorded import NamedSurface, RecordedGround
-from bridge_demolition_addon.core.terrain.surface import Surface
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.engineering.terrain.levelling import Levelled
+from bridge_demolition_addon.engineering.terrain.recorded import NamedSurface, RecordedGround
+from bridge_demolition_addon.engineering.terrain.surface import Surface
+from bridge_demolition_addon.model.terrain.built import TerrainFacts, facts_from, told
 
 CORNERS = np.array([[-100, -100, 60], [100, -100, -40], [100, 100, -40], [-100, 100, 60]], float)
 TWO = np.array([[0, 1, 2], [0, 2, 3]])

@@ -17,7 +17,7 @@ from bridge_demolition_addon.charts.study_charts import (
 )
 from bridge_demolition_addon.charts.study_plan import study_plan
 from bridge_demolition_addon.charts.style import blank_figure
-from bridge_demolition_addon.core.scenario import Neighbour
+from bridge_demolition_addon.model.scenario import Neighbour
 
 REACHES_M = np.array([3.0, 1.0, np.inf, 2.0, 6.0, 4.0, 5.0, 7.0])
 

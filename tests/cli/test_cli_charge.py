@@ -5,8 +5,8 @@ import re
 import pytest
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.blast.damage import THRESHOLDS
-from bridge_demolition_addon.core.blast.models import blast_wave
+from bridge_demolition_addon.engineering.blast.models import blast_wave
+from bridge_demolition_addon.model.blast.damage import THRESHOLDS
 
 
 def printed(capsys, *arguments):

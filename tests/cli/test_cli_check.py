@@ -9,9 +9,9 @@ from scenarios import I235
 
 from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_facts
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.bridge.mesh_files import exported
-from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.scenario import (
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.model.bridge.mesh_files import exported
+from bridge_demolition_addon.model.scenario import (
     Ball,
     BallCable,
     BarLayer,
@@ -21,10 +21,10 @@ from bridge_demolition_addon.core.scenario import (
     Geometry,
     Load,
 )
-from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-from bridge_demolition_addon.core.scenario.recording import PictureSettings
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.recording import PictureSettings
+from bridge_demolition_addon.model.structure.model import build_model
 
 
 def facts(scenario, **options):

@@ -10,10 +10,10 @@ from run_folders import killed_run, stream_run
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.signals import Interrupted
+from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.exports import write
 from bridge_demolition_addon.exports.formats import FORMATS
+from bridge_demolition_addon.system.signals import Interrupted
 
 WITHOUT_BLENDER = ("paraview", "xlsx", "gltf", "mat")
 FILES = {

@@ -7,8 +7,8 @@ import pytest
 from ifc_bridges import MASS_KG, SCHEMAS, whole_bridge
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.bridge.preparation import prepared_members
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.bridge.preparation import prepared_members
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 
 @pytest.fixture

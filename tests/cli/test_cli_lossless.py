@@ -15,9 +15,9 @@ import pytest
 from processes import TIMEOUT_S, outcome, run_bda, start_bda
 from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.2))
 ENDLESS = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=2000.0))

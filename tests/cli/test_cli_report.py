@@ -8,8 +8,8 @@ from run_folders import TOLD, flying_shards, keep_run, killed_run
 from scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario import Exclusion
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario import Exclusion
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from processes import outcome, run_bda, start_bda
 from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 LOGS = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "scene.blend")
 

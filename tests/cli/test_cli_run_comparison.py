@@ -10,7 +10,7 @@ from processes import outcome, run_bda, start_bda
 from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 TEXT = scenario_text(SHORT_RUN)
 

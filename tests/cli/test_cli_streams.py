@@ -11,7 +11,7 @@ from places import I235_FILE, ROOT
 from processes import TIMEOUT_S, outcome, run_program, start_bda
 from scenarios import I235, SHORT_RUN
 
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="shells of Windows close no streams")
 

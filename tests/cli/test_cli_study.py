@@ -12,9 +12,9 @@ from scenarios import SHORT_RUN
 from study_files import study_file, tables_in
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.study.draws import draw_of
-from bridge_demolition_addon.core.study.file import read_study
-from bridge_demolition_addon.core.study.runs_table import read_runs
+from bridge_demolition_addon.model.study.draws import draw_of
+from bridge_demolition_addon.model.study.file import read_study
+from bridge_demolition_addon.model.study.runs_table import read_runs
 from bridge_demolition_addon.studies.folder import study_in
 
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.3))

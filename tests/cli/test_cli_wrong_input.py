@@ -8,7 +8,7 @@ from processes import run_bda
 from scenarios import I235
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 RIGHT = scenario_text(I235)
 

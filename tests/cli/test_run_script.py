@@ -12,7 +12,7 @@ import pytest
 from places import ROOT
 from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.scenario.file import scenario_text
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 SCRIPT = ROOT / "scripts" / "run_scenario.py"
 Run = Callable[..., subprocess.CompletedProcess[str]]

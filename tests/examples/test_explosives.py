@@ -8,7 +8,7 @@ import pytest
 from example_claims import assert_claims
 from example_runs import example, run_example
 
-from bridge_demolition_addon.core.study.outcome import outcome_of
+from bridge_demolition_addon.model.study.outcome import outcome_of
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
 SAG_M = {"single_span_explosives": 0.03, "two_spans_20m_delays": 0.03}

@@ -11,9 +11,9 @@ import pytest
 from example_claims import assert_claims
 from example_runs import ExampleRun, example, run_example
 
-from bridge_demolition_addon.core.bridge import deck_top
-from bridge_demolition_addon.core.debris.throws import debris_of
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.bridge import deck_top
+from bridge_demolition_addon.model.debris.throws import debris_of
 
 DURATION_S = 3.0
 

@@ -7,7 +7,7 @@ from exported_runs import turning_run
 from scipy.io import loadmat
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.exports import mat
 from bridge_demolition_addon.exports.mat import write_mat
 

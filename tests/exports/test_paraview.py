@@ -11,8 +11,8 @@ from exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_gro
 from sample_results import hanging_chain, with_contacts
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.energy import energy_of
 from bridge_demolition_addon.exports.paraview import WITHOUT_CONTACTS, write_paraview
+from bridge_demolition_addon.model.results.energy import energy_of
 
 
 @pytest.fixture(scope="module")

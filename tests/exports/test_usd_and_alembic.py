@@ -11,10 +11,10 @@ from pxr import Usd, UsdGeom
 from run_folders import keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import MissingLibraryError, SimulationError
-from bridge_demolition_addon.core.signals import Interrupted
+from bridge_demolition_addon.errors import MissingLibraryError, SimulationError
 from bridge_demolition_addon.exports.formats import ALEMBIC, USD
 from bridge_demolition_addon.exports.write import export_run
+from bridge_demolition_addon.system.signals import Interrupted
 
 FIRST = 2
 """Blender's frame of the first that is recorded."""

@@ -17,9 +17,9 @@ import bpy
 from places import SMALL, TESTS
 
 import bridge_demolition_addon
-from bridge_demolition_addon.core.errors import DemolitionError
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
+from bridge_demolition_addon.errors import DemolitionError
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.scene.blast.charges import create_charges
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of

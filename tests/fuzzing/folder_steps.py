@@ -18,9 +18,9 @@ from matplotlib.image import imsave
 from run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.files import (
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.files import (
     BREAKING_LOG,
     FORCE_LOG,
     PICTURE_FOLDER,

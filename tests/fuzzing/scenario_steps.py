@@ -12,9 +12,9 @@ from places import EXAMPLES, SMALL, TESTS
 from random_scenarios import varied
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.errors import DemolitionError
-from bridge_demolition_addon.core.scenario import Scenario
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.errors import DemolitionError
+from bridge_demolition_addon.model.scenario import Scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 from .sequences import Player, WrongError
 

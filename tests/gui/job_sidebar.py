@@ -65,7 +65,7 @@ def make_many(person: Person) -> Steps:
     settings.scenario.connections.use_search_radius_m = False
     yield from person.click("bda.build_scenario")
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)
-    charge = module("core.blast.charges").Charge
+    charge = module("model.blast.charges").Charge
     create = module("scene.blast.charges").create_charges
     places = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
     create(person.scene, [charge(name=f"Charge {n}", place_m=place, mass_kg=1.0) for n, place in enumerate(places, 1)])

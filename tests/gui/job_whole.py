@@ -378,7 +378,7 @@ def look_at_results(person: Person, panels: Panels) -> Steps:
     person.scene.bda.contour_peak = True
     yield 0.5
     bodies = list(person.scene.rigidbody_world.collection.all_objects)
-    shown, scale = colours(person, shown=True)[bodies.index(active)], module("core.display.colour_scale")
+    shown, scale = colours(person, shown=True)[bodies.index(active)], module("display.colour_scale")
     end = scale.linear(scale.colours(scale.ColourMap.VIRIDIS, np.ones(1)))[0]
     is_at_end = bool(abs(shown[:3] - end).max() < COLOUR_NOISE)
     person.expect("among the peaks so far that body is at the upper end of the scale", is_at_end)

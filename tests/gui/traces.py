@@ -25,7 +25,7 @@ def module(name: str) -> ModuleType:
 
 def scenario_in(file: Path) -> Any:
     """The scenario in a file."""
-    return module("core.scenario.file").read_scenario(file)
+    return module("model.scenario.file").read_scenario(file)
 
 
 def scenario_shown(scene: bpy.types.Scene) -> Any:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from ifc_bridges import DECK_KG_M3, MASS_KG, SCHEMAS, STEEL_KG_M3, VOLUMES_M3, IfcBridge, whole_bridge
 
-from bridge_demolition_addon.core.errors import IfcError
-from bridge_demolition_addon.core.geometry.solids import bodies, to_manifold, union
+from bridge_demolition_addon.engineering.geometry.solids import bodies, to_manifold, union
+from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bearings import free_motions
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.elements import Element

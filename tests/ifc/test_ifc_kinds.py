@@ -3,7 +3,7 @@
 
 import pytest
 
-from bridge_demolition_addon.core.errors import IfcError
+from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.kinds import ElementFacts, LeftOut, kind_of
 from bridge_demolition_addon.ifc.settings import ImportSettings
 

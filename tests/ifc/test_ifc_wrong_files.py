@@ -4,7 +4,7 @@
 import pytest
 from ifc_bridges import IfcBridge, whole_bridge
 
-from bridge_demolition_addon.core.errors import IfcError
+from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.ifc.source import naming_contradictions

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
 pybullet = pytest.importorskip("pybullet", reason="pybullet is not installed: its wheel is for Python 3.11 on Linux")
 

@@ -6,11 +6,11 @@ import sys
 
 import numpy as np
 
-from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.explosion import Explosion
-from bridge_demolition_addon.core.blast.models import BlastModel
-from bridge_demolition_addon.core.blast.settings import BlastSettings
-from bridge_demolition_addon.core.geometry.hulls import convex_hulls
+from bridge_demolition_addon.engineering.blast.models import BlastModel
+from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.blast.explosion import Explosion
+from bridge_demolition_addon.model.blast.settings import BlastSettings
 
 if "one core" in sys.argv[2:] and hasattr(os, "sched_setaffinity"):
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})

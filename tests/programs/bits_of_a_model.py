@@ -6,9 +6,9 @@ import sys
 
 import numpy as np
 
-from bridge_demolition_addon.core.mechanics.strength import rectangular_sections
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.engineering.mechanics.strength import rectangular_sections
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.model import build_model
 
 if "one core" in sys.argv[2:] and hasattr(os, "sched_setaffinity"):
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.simulation.run import run_scenario
 
 if "one core" in sys.argv[2:] and hasattr(os, "sched_setaffinity"):

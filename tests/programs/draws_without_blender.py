@@ -10,8 +10,8 @@ import sys
 import time
 from pathlib import Path
 
-from bridge_demolition_addon.core.errors import OutputError, ScenarioError, SimulationError
-from bridge_demolition_addon.core.scenario.file import scenario_from_text
+from bridge_demolition_addon.errors import OutputError, ScenarioError, SimulationError
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.studies.service import Service
 
 LOG = Path(sys.argv[1])

@@ -10,7 +10,7 @@ import time
 from contextlib import closing
 from pathlib import Path
 
-from bridge_demolition_addon.core.study.file import read_study
+from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.studies.draw_process import Limits
 from bridge_demolition_addon.studies.folder import StudyFolder
 from bridge_demolition_addon.studies.local import LocalProcesses

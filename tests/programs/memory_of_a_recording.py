@@ -11,7 +11,7 @@ from pathlib import Path
 
 from blocks import Blocks
 
-from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

@@ -23,20 +23,20 @@ from told_reports import compared, told
 
 from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.blast.models import BlastModel
-from bridge_demolition_addon.core.debris.throws import debris_of
-from bridge_demolition_addon.core.debris.touchdown import landings, shaking_at
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.folder_lock import FolderLock
-from bridge_demolition_addon.core.results.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
-from bridge_demolition_addon.core.scenario import BallCable, BallHit, Load
+from bridge_demolition_addon.engineering.blast.models import BlastModel
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.debris.throws import debris_of
+from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at
+from bridge_demolition_addon.model.results.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.scenario import BallCable, BallHit, Load
 from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.collapse import collapse_section
 from bridge_demolition_addon.report.sections.cover import cover_section
 from bridge_demolition_addon.report.write import write_report
+from bridge_demolition_addon.system.folder_lock import FolderLock
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PNG = b"\x89PNG\r\n\x1a\n"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from manifold3d import CrossSection
 
-from bridge_demolition_addon.core.scenario import Site
+from bridge_demolition_addon.model.scenario import Site
 from bridge_demolition_addon.report.site_plan import degrees, write_dxf, write_geojson
 
 SQUARE = CrossSection.square((10.0, 4.0))

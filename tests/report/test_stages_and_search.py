@@ -10,11 +10,11 @@ from run_folders import killed_run
 from scenarios import I235
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.scenario.file import scenario_text
-from bridge_demolition_addon.core.search.file import search_of
-from bridge_demolition_addon.core.search.settings import SearchSettings
-from bridge_demolition_addon.core.study.criteria import Criterion
-from bridge_demolition_addon.core.study.runs_table import Row, RunsTable, write_runs
+from bridge_demolition_addon.model.scenario.file import scenario_text
+from bridge_demolition_addon.model.search.file import search_of
+from bridge_demolition_addon.model.search.settings import SearchSettings
+from bridge_demolition_addon.model.study.criteria import Criterion
+from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, write_runs
 
 STAGES = """\
 stage,time_s,step,shards,not_held,not_held_kg,equipment,weight_kN,reaction_x_kN,reaction_y_kN,reaction_z_kN,\

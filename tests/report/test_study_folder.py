@@ -16,9 +16,9 @@ from study_folders import TOLD_SCENARIO, VARIED, keep_study, told_runs, told_stu
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.scenario import Zone
-from bridge_demolition_addon.core.study.runs_table import read_runs
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.scenario import Zone
+from bridge_demolition_addon.model.study.runs_table import read_runs
 from bridge_demolition_addon.report.study.study_folder import read_study_runs
 from bridge_demolition_addon.report.write import write_report, write_study_report
 

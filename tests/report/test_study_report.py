@@ -10,7 +10,7 @@ from scipy.stats import spearmanr
 from study_folders import BRIDGE, TOLD_SCENARIO, VARIED, told_debris, told_runs, told_study
 from told_reports import told_of_study
 
-from bridge_demolition_addon.core.geometry.plan_areas import outlines
+from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.report.study.influence import correlation_table
 from bridge_demolition_addon.report.study.plan import layers
 from bridge_demolition_addon.report.study.study_runs import shown

@@ -13,9 +13,9 @@ from run_folders import TOLD, flying_shards, keep_run
 from told_reports import told
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.debris.footprint import check_covers_ground
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.debris.footprint import check_covers_ground
+from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.report.run_folder import read_run
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such files")

@@ -3,9 +3,9 @@
 import pytest
 from places import SMALL, TESTS
 
-from bridge_demolition_addon.core.errors import DemolitionError
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
+from bridge_demolition_addon.errors import DemolitionError
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 EVERYTHING = TESTS / "simulation" / "everything.toml"
 WRONG = ("", "nonsense", -1, 1e300, [], [1.0], {"a": 1}, "{}", "[[1]]", "5")

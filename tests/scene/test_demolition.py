@@ -7,8 +7,8 @@ import pytest
 import trimesh
 from scenarios import I235
 
-from bridge_demolition_addon.core.structure.connections import GROUND
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.engineering.structure.connections import GROUND
+from bridge_demolition_addon.model.structure.model import build_model
 
 SCENARIO = replace(I235, fracture=replace(I235.fracture, shards=30))
 SLOW_NTSC = replace(

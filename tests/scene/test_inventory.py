@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.core.results.arrays import named_arrays
-from bridge_demolition_addon.core.structure.connections import GROUND, Connections
+from bridge_demolition_addon.engineering.structure.connections import GROUND, Connections
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.results.arrays import named_arrays
 
 # Blender keeps places, scales and masses in single precision: 24 binary digits, and a few roundings on the way.
 SINGLE = 4 * 2.0**-23
@@ -89,7 +89,7 @@ def test_masses_and_volumes_of_what_moves_and_of_what_does_not(blocks):
 
 
 def test_names_and_kinds(blocks):
-    from bridge_demolition_addon.core.scenario import Ball, Ground
+    from bridge_demolition_addon.model.scenario import Ball, Ground
     from bridge_demolition_addon.scene.bodies import create_flat_ground
     from bridge_demolition_addon.scene.tools.ball import create_ball
 

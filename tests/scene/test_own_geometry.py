@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scenarios import I235
 
-from bridge_demolition_addon.core.bridge.mesh_files import exported
-from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.scenario import Ball, FractureSettings, Geometry
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.errors import GeometryError
+from bridge_demolition_addon.model.bridge.mesh_files import exported
+from bridge_demolition_addon.model.scenario import Ball, FractureSettings, Geometry
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of, kind_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 

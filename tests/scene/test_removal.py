@@ -7,9 +7,9 @@ import pytest
 from places import EXAMPLES
 from scenarios import I235
 
-from bridge_demolition_addon.core.scenario import FractureSettings, Support
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.scenario import FractureSettings, Support
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.blast.charges import charge_objects
 from bridge_demolition_addon.scene.blast.force_fields import force_collection
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of

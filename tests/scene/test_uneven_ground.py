@@ -7,9 +7,9 @@ import pytest
 from scenarios import I235
 from terrain_files import HEIGHT, write_asc
 
-from bridge_demolition_addon.core.geometry.solids import box, sphere
-from bridge_demolition_addon.core.scenario import Ground, GroundSurface, TimeSettings
-from bridge_demolition_addon.core.terrain.thinning import Grid, thinned
+from bridge_demolition_addon.engineering.geometry.solids import box, sphere
+from bridge_demolition_addon.engineering.terrain.thinning import Grid, thinned
+from bridge_demolition_addon.model.scenario import Ground, GroundSurface, TimeSettings
 
 RADIUS, SLOPE = 0.5, 0.2
 LEVEL_M = 7.0
@@ -84,7 +84,7 @@ WATER = GroundSurface(
 @pytest.fixture
 def built(blender, tmp_path):
     """One span on a slope down to a river, in the scene, and its inventory."""
-    from bridge_demolition_addon.core.sequence.checked_model import checked_model
+    from bridge_demolition_addon.model.sequence.checked_model import checked_model
     from bridge_demolition_addon.scene.demolition import build_demolition
 
     path = write_asc(tmp_path / "slope.asc", lambda x, y: HEIGHT + 0.1 * (x - 448_350.0), count=121)
@@ -120,7 +120,7 @@ def test_what_is_run_has_the_friction_that_was_set_by_hand(built):
 
 def test_a_run_keeps_its_ground_and_the_bridge_stands_on_it(built, tmp_path):
     """For a quarter of a second: nothing breaks, and the heights are there when the results are read again."""
-    from bridge_demolition_addon.core.results.arrays import load_results
+    from bridge_demolition_addon.model.results.arrays import load_results
     from bridge_demolition_addon.simulation.motion_run import motion_run
 
     _, scenario, model = built

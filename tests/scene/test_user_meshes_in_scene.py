@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.errors import GeometryError
-from bridge_demolition_addon.core.fracture.density import painted_density
-from bridge_demolition_addon.core.geometry.mesh import triangle_areas_and_normals, volumes_and_centres
-from bridge_demolition_addon.core.geometry.solids import box
+from bridge_demolition_addon.engineering.fracture.density import painted_density
+from bridge_demolition_addon.engineering.geometry.mesh import triangle_areas_and_normals, volumes_and_centres
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.errors import GeometryError
 from bridge_demolition_addon.scene.user_meshes import painted_points, solid_of_object
 
 # Blender keeps single precision of some metres.

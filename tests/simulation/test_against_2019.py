@@ -1,6 +1,6 @@
 """Where the listing of 2019 departs from its own equations in Blender: forces, handlers, logs and fields.
 
-Its differences 1 to 6 concern formulas alone; ``tests/core/blast/test_blast_against_2019.py`` has them.
+Its differences 1 to 6 concern formulas alone; ``tests/model/blast/test_blast_against_2019.py`` has them.
 """
 
 import csv
@@ -11,7 +11,7 @@ import pytest
 from blast_scenes import IMPULSE_AT_5_PA_S, charge, set_off, weightless
 from blocks import Blocks
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.blast.force_fields import force_objects
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

@@ -15,15 +15,19 @@ from bridge_demolition_addon.bullet import world
 from bridge_demolition_addon.bullet.layout import platform_layout
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, SectionStiffness, section_stiffness
-from bridge_demolition_addon.core.mechanics.joint import Joint
-from bridge_demolition_addon.core.mechanics.strength import Strength
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario import ConnectionSettings, ShardSettings
-from bridge_demolition_addon.core.scenario.connections import ConnectionBetween
-from bridge_demolition_addon.core.structure.equilibrium import model_at_rest, sag_m
-from bridge_demolition_addon.core.structure.model import build_model
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import (
+    ElasticModuli,
+    SectionStiffness,
+    section_stiffness,
+)
+from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario import ConnectionSettings, ShardSettings
+from bridge_demolition_addon.model.scenario.connections import ConnectionBetween
+from bridge_demolition_addon.model.structure.equilibrium import model_at_rest, sag_m
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.constraints import connections_of

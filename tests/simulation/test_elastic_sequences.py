@@ -11,12 +11,12 @@ import pytest
 from blast_scenes import charge, set_off
 from blocks import Blocks
 
-from bridge_demolition_addon.core.elasticity.section_stiffness import SectionStiffness
-from bridge_demolition_addon.core.mechanics.joint import Joint, Springs
-from bridge_demolition_addon.core.mechanics.strength import Strength
-from bridge_demolition_addon.core.scenario import Jackhammer, Load, Removal, SawCut, Weakening
-from bridge_demolition_addon.core.timing.timeline import Timeline
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import SectionStiffness
+from bridge_demolition_addon.engineering.mechanics.joint import Joint, Springs
+from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.timing.timeline import Timeline
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.scenario import Jackhammer, Load, Removal, SawCut, Weakening
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking, set_strength
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity

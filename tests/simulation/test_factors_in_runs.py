@@ -4,9 +4,9 @@
 import pytest
 import trimesh
 
-from bridge_demolition_addon.core.scenario.file import scenario_from_text
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 AREA_M2 = 1.0
 LOWER_KG = 4000.0

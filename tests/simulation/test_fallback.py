@@ -7,11 +7,11 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.core.ground_motion.record import integrated
-from bridge_demolition_addon.core.results.summary import summarise
-from bridge_demolition_addon.core.timing.timeline import Timeline
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.ground_motion.record import integrated
+from bridge_demolition_addon.engineering.timing.timeline import Timeline
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.results.summary import summarise
 from bridge_demolition_addon.scene.tools.ground_motion import keep_ground_motion, move_with_ground
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

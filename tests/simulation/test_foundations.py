@@ -5,9 +5,9 @@ import pytest
 
 from bridge_demolition_addon.charts.style import blank_figure
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.report.document.blocks import DataTable, Picture
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.ground_motion import motion_section

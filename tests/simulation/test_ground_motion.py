@@ -7,13 +7,13 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.ground_motion.record import GroundRecord, integrated
-from bridge_demolition_addon.core.ground_motion.settings import GroundMotion, Sweep
-from bridge_demolition_addon.core.ground_motion.sources import ground_record
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.timing.timeline import Timeline
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.ground_motion.record import GroundRecord, integrated
+from bridge_demolition_addon.engineering.timing.timeline import Timeline
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.ground_motion.settings import GroundMotion, Sweep
+from bridge_demolition_addon.model.ground_motion.sources import ground_record
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.tools.ground_motion import keep_ground_motion, move_with_ground
 from bridge_demolition_addon.simulation.run import run_scenario
 

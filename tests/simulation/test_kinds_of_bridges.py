@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.scenario import (
+from bridge_demolition_addon.engineering.structure.connections import GROUND
+from bridge_demolition_addon.model.scenario import (
     Abutments,
     BoxGirder,
     Bridge,
@@ -19,8 +20,7 @@ from bridge_demolition_addon.core.scenario import (
     Support,
     TimeSettings,
 )
-from bridge_demolition_addon.core.structure.connections import GROUND
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

@@ -9,10 +9,10 @@ from places import TESTS
 from scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario import RecordingSettings
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario import RecordingSettings
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 SAME_RUN = TESTS / "simulation" / "same_run"
 EVERYTHING = read_scenario(TESTS / "simulation" / "everything.toml")

@@ -11,7 +11,7 @@ sys.path.insert(1, str(ROOT / "validation"))
 from beams import Beam, middle_m
 from case import RIGID_BODIES, simulated
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
 BEAM = Beam(4.0, 0.3, 0.3, 2.0, "bottom", 0.25, 1.0, 500.0, 30.0, 0.05)
 """Cracks in its middle under its own weight; its bars follow."""

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.elasticity.section_stiffness import ElasticModuli, section_stiffness
-from bridge_demolition_addon.core.elasticity.steel_bars import Steel
-from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
-from bridge_demolition_addon.core.scenario import SawCut, Weakening
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
+from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.scenario import SawCut, Weakening
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.structural_changes import keep_changes

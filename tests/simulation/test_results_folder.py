@@ -9,10 +9,10 @@ import pytest
 from matplotlib.image import imread
 from sample_results import GRAVITY, hanging_chain
 
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.files import RESULT_FILES
-from bridge_demolition_addon.core.results.summary import summarise
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.files import RESULT_FILES
+from bridge_demolition_addon.model.results.summary import summarise
 from bridge_demolition_addon.simulation.results_folder import checked_log, keep_results, prepare_folder, withdraw_folder
 
 

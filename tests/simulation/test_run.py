@@ -12,11 +12,11 @@ import pytest
 from scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.bridge import deck_underside
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.bridge import deck_underside
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 
 def run(scenario, folder, pictures=False):

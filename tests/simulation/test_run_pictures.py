@@ -8,10 +8,10 @@ from matplotlib.image import imread
 from places import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import OutputError, ScenarioError
-from bridge_demolition_addon.core.results.files import PICTURES
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-from bridge_demolition_addon.core.scenario.recording import PictureSettings
+from bridge_demolition_addon.errors import OutputError, ScenarioError
+from bridge_demolition_addon.model.results.files import PICTURES
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.recording import PictureSettings
 
 BLAST = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
 SHORT = replace(

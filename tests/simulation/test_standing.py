@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario.file import scenario_from_text
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.simulation.run import run_scenario
 
 COMMON = """

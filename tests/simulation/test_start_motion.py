@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.simulation.run import run_scenario
 
 SCENARIO = """
@@ -86,7 +86,7 @@ def test_a_spin_turns_a_member_of_many_shards_as_one(blender, write, tmp_path):
 
 
 def test_tilts_turn_about_x_and_then_about_y(write):
-    from bridge_demolition_addon.core.bridge.mesh_files import placed_mesh
+    from bridge_demolition_addon.model.bridge.mesh_files import placed_mesh
 
     mesh = placed_mesh(write("tilt_deg = [90.0, 30.0]").geometry[0])
     # Its long side stays along x by the first turn, and points down by 30° after the second.

@@ -7,8 +7,8 @@ import pytest
 from scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario import Removal
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario import Removal
 
 SMALL = replace(
     I235, ball=None, fracture=replace(I235.fracture, shards=12), removals=[Removal(time_s=0.5, members=["pier"])]

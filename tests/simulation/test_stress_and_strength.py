@@ -8,8 +8,8 @@ from blocks import Blocks
 from shard_scenes import DENSITY_KG_M3, ShardScene
 from torn_block import check_fall, torn_block
 
-from bridge_demolition_addon.core.mechanics.strength import MATERIALS, Ductility, Strength
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Ductility, Strength
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

@@ -9,10 +9,10 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet.memory import write_vectors
-from bridge_demolition_addon.core.mechanics.work import FrameWork
-from bridge_demolition_addon.core.results.energy import energy_of
-from bridge_demolition_addon.core.results.motion import throw
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.mechanics.work import FrameWork
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.results.energy import energy_of
+from bridge_demolition_addon.model.results.motion import throw
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

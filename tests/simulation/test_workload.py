@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.scenario.time import TimeSettings
+from bridge_demolition_addon.model.scenario.time import TimeSettings
 
 FRAME_S, FEWEST, FARTHEST_M, GRAVITY = 1.0 / 25.0, 4, 0.01, 9.81
 

@@ -14,8 +14,8 @@ from places import ROOT
 from processes import TIMEOUT_S, run_bda
 from study_files import study_file, tables_in
 
-from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.core.study.file import read_study
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.studies.dask_cluster import DaskCluster
 from bridge_demolition_addon.studies.draw_process import Limits
 from bridge_demolition_addon.studies.folder import StudyFolder

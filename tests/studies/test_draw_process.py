@@ -11,8 +11,8 @@ import time
 import pytest
 from draw_programs import VERSIONS, begun, program_in, request
 
-from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
-from bridge_demolition_addon.core.study.settings import StudySettings
+from bridge_demolition_addon.errors import ScenarioError, SimulationError
+from bridge_demolition_addon.model.study.settings import StudySettings
 from bridge_demolition_addon.studies.draw_process import DRAWS_PER_PROCESS, DrawProcess, Limits
 
 not_on_windows = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")

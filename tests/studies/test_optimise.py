@@ -8,8 +8,8 @@ import pytest
 import trimesh
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.optimise.file import read_optimisation
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.optimise.file import read_optimisation
 
 SCENARIO = """
 [scenario]

@@ -7,10 +7,10 @@ import pytest
 import trimesh
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.mechanics.strength import MATERIALS
-from bridge_demolition_addon.core.search.file import read_search
-from bridge_demolition_addon.core.search.neyer import NeyerTest
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+from bridge_demolition_addon.engineering.search.neyer import NeyerTest
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.search.file import read_search
 
 SIDE_M, NECK_M, GRAVITY_M_S2 = 1.0, 0.1, 9.80665
 VARIATION = 0.2

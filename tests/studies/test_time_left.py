@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 from study_files import study_file
 
-from bridge_demolition_addon.core.study.file import read_study
-from bridge_demolition_addon.core.study.runs_table import DONE
+from bridge_demolition_addon.model.study.file import read_study
+from bridge_demolition_addon.model.study.runs_table import DONE
 from bridge_demolition_addon.studies import study_run
 from bridge_demolition_addon.studies.draw_process import End
 from bridge_demolition_addon.studies.folder import StudyFolder

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from places import EXAMPLES
 
-from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
 MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT")

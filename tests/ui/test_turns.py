@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from bridge_demolition_addon.core.errors import OutputError
+from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.ui.turns import Turns
 
 PARTS = 4

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from ...core.errors import IfcError
+from ...errors import IfcError
 from ...ifc.bridge import read_bridge
 from ...ifc.folder import SCENARIO_FILE, check_new, write_bridge
 from ...ifc.materials import write_material_table

@@ -13,7 +13,7 @@ from typing import Any, Self
 
 from matplotlib.figure import FigureBase
 
-from ...core.disk import whole_file
+from ...system.disk import whole_file
 
 MISSING = "-"
 """Stands in a table where a value is not known."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
-from ...core.disk import write_whole_text
+from ...system.disk import write_whole_text
 from .blocks import Block, DataTable, Document, Listing, Model, Paragraph, Photo, Picture, Section
 from .drawings import Drawings, svg
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure
-from ...core.disk import whole_file
+from ...system.disk import whole_file
 from .blocks import Block, DataTable, Document, Listing, Model, Paragraph, Photo, Picture
 from .drawings import Drawings
 from .page import PAGE_MM, Font, Line, Page, width_mm

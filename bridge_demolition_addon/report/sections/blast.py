@@ -8,13 +8,13 @@ from functools import partial
 from manifold3d import CrossSection
 
 from ...charts.blast_maps import WIDEST_PA, neighbour_pressures, overpressure_map
-from ...core.blast.charges import Charge
-from ...core.blast.damage import THRESHOLDS, ring_radii
-from ...core.blast.models import BlastModel
-from ...core.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
-from ...core.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
-from ...core.scenario import Scenario
-from ...core.terrain.recorded import RecordedGround
+from ...engineering.blast.models import BlastModel
+from ...engineering.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
+from ...engineering.terrain.recorded import RecordedGround
+from ...model.blast.charges import Charge
+from ...model.blast.damage import THRESHOLDS, ring_radii
+from ...model.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
+from ...model.scenario import Scenario
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 

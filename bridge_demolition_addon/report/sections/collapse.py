@@ -7,10 +7,10 @@ from functools import partial
 import numpy as np
 
 from ...charts.histories import energy_history, progress_history, span_heights
-from ...core.results.arrays import Results
-from ...core.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
-from ...core.results.energy import Energy, energy_of
-from ...core.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
+from ...model.results.arrays import Results
+from ...model.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
+from ...model.results.energy import Energy, energy_of
+from ...model.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run
 

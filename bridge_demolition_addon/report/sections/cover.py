@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...core.debris.throws import Debris
-from ...core.results.arrays import Results
-from ...core.results.collapse import rest_of
-from ...core.scenario import Scenario
+from ...model.debris.throws import Debris
+from ...model.results.arrays import Results
+from ...model.results.collapse import rest_of
+from ...model.scenario import Scenario
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import Run

@@ -9,17 +9,17 @@ import numpy as np
 
 from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
-from ...core.debris.exclusion import ExclusionZone, exclusion_zone
-from ...core.debris.on_ground import bodies_under_ground, debris_on_surfaces
-from ...core.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
-from ...core.debris.zones import ZoneWatch, watch_zone
-from ...core.geometry.plan_areas import outlines
-from ...core.results.arrays import Results
-from ...core.results.motion import MOVED_M
-from ...core.results.removed_shards import without_removed
-from ...core.results.solver_energy import throws_of
-from ...core.scenario import Zone
-from ...core.terrain.built import facts_from, told
+from ...engineering.geometry.plan_areas import outlines
+from ...model.debris.exclusion import ExclusionZone, exclusion_zone
+from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
+from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
+from ...model.debris.zones import ZoneWatch, watch_zone
+from ...model.results.arrays import Results
+from ...model.results.motion import MOVED_M
+from ...model.results.removed_shards import without_removed
+from ...model.results.solver_energy import throws_of
+from ...model.scenario import Zone
+from ...model.terrain.built import facts_from, told
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...charts.histories import breaking_history, contact_force_history, load_history, logged_load_history
 from ...charts.stress_elevation import stress_elevation
-from ...core.results.arrays import Results
-from ...core.results.force_history import Peak, breaking_by_kind, contact_forces, most_loaded
+from ...model.results.arrays import Results
+from ...model.results.force_history import Peak, breaking_by_kind, contact_forces, most_loaded
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import LoggedForces, Run
 

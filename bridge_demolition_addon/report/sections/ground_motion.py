@@ -7,15 +7,15 @@ from functools import partial
 from typing import Any
 
 from ...charts.ground_motion import ground_motion_history, moving_directions, response_spectra
-from ...core.errors import ScenarioError
-from ...core.ground_motion.record import GroundRecord
-from ...core.ground_motion.record_file import read_record
-from ...core.ground_motion.settings import DIRECTIONS, GroundMotion
-from ...core.results.arrays import Results
-from ...core.results.files import GROUND_MOTION_FILE
-from ...core.scenario import Scenario
-from ...core.structure.settlement import settlements
-from ...core.units import STANDARD_GRAVITY_M_S2
+from ...engineering.ground_motion.record import GroundRecord
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...errors import ScenarioError
+from ...model.ground_motion.record_file import read_record
+from ...model.ground_motion.settings import DIRECTIONS, GroundMotion
+from ...model.results.arrays import Results
+from ...model.results.files import GROUND_MOTION_FILE
+from ...model.scenario import Scenario
+from ...model.structure.settlement import settlements
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import Run
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...core.results.arrays import Results
 from ...exports.gltf import animated_glb
+from ...model.results.arrays import Results
 from ..document.blocks import Block, Model, Paragraph, Section
 
 MOST_BYTES = 20_000_000

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import partial
 
 from ...charts.search_curve import search_curve
-from ...core.search.conclusions import sentences
-from ...core.search.curve import curve_of
+from ...model.search.conclusions import sentences
+from ...model.search.curve import curve_of
 from ..document.blocks import Column, DataTable, Paragraph, Picture, Section
 from ..search_folder import FoundSearch
 

@@ -8,9 +8,9 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...core.errors import OutputError, UnreadableError
-from ...core.reading import MEGABYTE, file_text
-from ...core.stages.tables import CRITICALITY_COLUMNS, CRITICALITY_FILE, STAGE_COLUMNS, STAGES_FILE
+from ...errors import OutputError, UnreadableError
+from ...model.stages.tables import CRITICALITY_COLUMNS, CRITICALITY_FILE, STAGE_COLUMNS, STAGES_FILE
+from ...system.reading import MEGABYTE, file_text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section
 
 _MOST_BYTES = 10 * MEGABYTE

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...core.debris.touchdown import EXPONENT, TOGETHER_S, VELOCITY_M_S, Shaking, landings, shaking_at
-from ...core.debris.vibration_limits import LIMITS, reached
-from ...core.results.arrays import Results
-from ...core.scenario import Neighbour
+from ...model.debris.touchdown import EXPONENT, TOGETHER_S, VELOCITY_M_S, Shaking, landings, shaking_at
+from ...model.debris.vibration_limits import LIMITS, reached
+from ...model.results.arrays import Results
+from ...model.scenario import Neighbour
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section
 
 

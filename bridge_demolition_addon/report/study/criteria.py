@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...core.study.criteria import Criterion
-from ...core.study.statements import Chance
+from ...model.study.criteria import Criterion
+from ...model.study.statements import Chance
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section
 from .study_runs import StudyRuns
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...core.study.file import Study
+from ...model.study.file import Study
 from ..document.blocks import Document, Listing, Paragraph, Section
 from ..sections.cover import trust_section
 from .criteria import criteria_section

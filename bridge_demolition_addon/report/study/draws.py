@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.study.runs_table import DONE, REACH, Row
+from ...model.study.runs_table import DONE, REACH, Row
 from ..document.blocks import Block, Column, DataTable, Paragraph, Photo, Section
 from .influence import correlations_of
 from .study_runs import StudyRuns, shown

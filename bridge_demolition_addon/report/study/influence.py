@@ -17,9 +17,9 @@ from ...charts.study_charts import (
     output_against_inputs,
     output_panels_height_mm,
 )
-from ...core.statistics.ranks import correlation_by_chance, rank_correlation
-from ...core.study.distributions import Distribution
-from ...core.study.file import Variation
+from ...engineering.statistics.ranks import correlation_by_chance, rank_correlation
+from ...model.study.distributions import Distribution
+from ...model.study.file import Variation
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from .study_runs import StudyRuns, shown
 

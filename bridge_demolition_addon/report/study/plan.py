@@ -10,9 +10,9 @@ from manifold3d import CrossSection
 
 from ...charts.plan_maps import map_height_mm
 from ...charts.study_plan import study_plan
-from ...core.study.probability_map import LEVELS
-from ...core.study.statements import percent, rounded_up, shape_sentence, verified_sentence
-from ...core.study.verification import zone_area
+from ...engineering.statistics.probability_map import LEVELS
+from ...model.study.statements import percent, rounded_up, shape_sentence, verified_sentence
+from ...model.study.verification import zone_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from .study_runs import StudyRuns
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from functools import partial
 
 from ...charts.study_charts import limit_over_runs, reach_distribution
-from ...core.statistics.order_limits import limits_by_runs
-from ...core.study.conclusions import sentences, words_of_inputs
-from ...core.study.runs_table import DONE
-from ...core.study.statements import LimitsAtOnce, ordinal, percent, rounded_up
+from ...engineering.statistics.order_limits import limits_by_runs
+from ...model.study.conclusions import sentences, words_of_inputs
+from ...model.study.runs_table import DONE
+from ...model.study.statements import LimitsAtOnce, ordinal, percent, rounded_up
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from .study_runs import StudyRuns, shown
 

@@ -11,12 +11,10 @@ from typing import Any
 
 from manifold3d import CrossSection
 
-from ...core.array_files.archive import read_archive
-from ...core.errors import OutputError, ScenarioError, UnreadableError
-from ...core.geometry.plan_areas import united
-from ...core.reading import MEGABYTE, check_file, file_text
-from ...core.study.file import read_study
-from ...core.study.files import (
+from ...engineering.geometry.plan_areas import united
+from ...errors import OutputError, ScenarioError, UnreadableError
+from ...model.study.file import read_study
+from ...model.study.files import (
     AGAIN_FOLDER,
     DRAW_FOLDER,
     OUTCOME_FILE,
@@ -26,8 +24,10 @@ from ...core.study.files import (
     STUDY_FILE,
     VERSIONS_FILE,
 )
-from ...core.study.outcome import Outlines
-from ...core.study.runs_table import DONE, RunsTable, cells_of, read_runs
+from ...model.study.outcome import Outlines
+from ...model.study.runs_table import DONE, RunsTable, cells_of, read_runs
+from ...system.array_files.archive import read_archive
+from ...system.reading import MEGABYTE, check_file, file_text
 from ..run_folder import pictures_in
 from .study_runs import StudyRuns
 

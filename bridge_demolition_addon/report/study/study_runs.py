@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.debris.exclusion import widened_around
-from ...core.geometry.plan_areas import outlines
-from ...core.study.conclusions import Conclusions, conclusions
-from ...core.study.criteria import Criterion
-from ...core.study.file import SEED, Study
-from ...core.study.probability_map import LEVELS, ProbabilityMap, probability_map
-from ...core.study.runs_table import REACH, RunsTable
-from ...core.study.statements import Chance
-from ...core.study.verification import chance_of_leaving, holds
+from ...engineering.geometry.plan_areas import outlines
+from ...engineering.statistics.probability_map import LEVELS, ProbabilityMap, probability_map
+from ...model.debris.exclusion import widened_around
+from ...model.study.conclusions import Conclusions, conclusions
+from ...model.study.criteria import Criterion
+from ...model.study.file import SEED, Study
+from ...model.study.runs_table import REACH, RunsTable
+from ...model.study.statements import Chance
+from ...model.study.verification import chance_of_leaving, holds
 
 
 @dataclass(frozen=True, eq=False)

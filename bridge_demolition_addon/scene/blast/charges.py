@@ -8,9 +8,9 @@ from numbers import Real
 import bpy
 from mathutils import Matrix, Vector
 
-from ...core.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
-from ...core.errors import BlastError, DemolitionError
-from ...core.geometry.solids import sphere
+from ...engineering.geometry.solids import sphere
+from ...errors import BlastError, DemolitionError
+from ...model.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 from ..rendering.materials import Surface, material_of

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.geometry.vectors import dot, length
+from ...engineering.geometry.vectors import dot, length
 
 SHARE_OF_WAY = 0.45
 """Part of the way to a neighbour that a field reaches: less than half, as the neighbour may come nearer too."""

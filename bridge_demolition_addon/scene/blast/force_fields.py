@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from ...core.errors import SimulationError
+from ...errors import SimulationError
 from ..collections import collection_for, find_collection
 from .field_reach import FieldReach
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.blast.settings import BlastSettings
-from ...core.scenario.kept import table_from_values, table_values
+from ...model.blast.settings import BlastSettings
+from ...model.scenario.kept import table_from_values, table_values
 
 _PREFIX = "bda_blast_"
 _NO_VALUE = -1.0

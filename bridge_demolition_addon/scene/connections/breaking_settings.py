@@ -8,9 +8,9 @@ from dataclasses import astuple, dataclass, fields
 import bpy
 import numpy as np
 
-from ...core.elasticity.steel_bars import USUAL_STEEL, Steel
-from ...core.mechanics.reinforcement import FaceBars
-from ...core.mechanics.strength import Ductility, Strength
+from ...engineering.elasticity.steel_bars import USUAL_STEEL, Steel
+from ...engineering.mechanics.reinforcement import FaceBars
+from ...engineering.mechanics.strength import Ductility, Strength
 from ..custom_properties import kept_number, kept_numbers
 
 _STRENGTH = "bda_strength_pa"

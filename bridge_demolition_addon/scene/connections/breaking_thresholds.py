@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.timing.time_step import TimeStep
+from ...engineering.timing.time_step import TimeStep
 from ..custom_properties import kept_number
 from ..time_scale import time_step_at
 from .constraints import connections_of

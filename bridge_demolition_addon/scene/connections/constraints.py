@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...core.structure.connections import GROUND, Connections
+from ...engineering.structure.connections import GROUND, Connections
 from ..bodies import bodies_of
 from ..custom_properties import kept_number, kept_numbers
 from ..naming import make_named, numbered_names

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...core.elasticity.section_stiffness import SectionStiffness
-from ...core.errors import SimulationError
+from ...engineering.elasticity.section_stiffness import SectionStiffness
+from ...errors import SimulationError
 from ..custom_properties import kept_number, kept_numbers
 
 _STIFFNESS = "bda_stiffness"

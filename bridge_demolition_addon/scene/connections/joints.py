@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...core.mechanics.joint import Joint, Motion
-from ...core.timing.time_step import TimeStep
+from ...engineering.mechanics.joint import Joint, Motion
+from ...engineering.timing.time_step import TimeStep
 from .breaking_settings import set_strength
 from .breaking_thresholds import set_breaking_force
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...core.foundations.footings import SoilSprings
+from ...engineering.foundations.footings import SoilSprings
 from ..custom_properties import edited
 from .breaking_settings import set_strength
 

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from ...core.display.colour_scale import linear
+from ...display.colour_scale import linear
 
 _ROLE = "bda_role"
 _MATERIALS = ("Contours", "Shaded contours")

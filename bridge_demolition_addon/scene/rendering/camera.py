@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from ...core.scenario.recording import CameraKind, PictureSettings
+from ...model.scenario.recording import CameraKind, PictureSettings
 from ..tools.keyframes import key_values
 
 _LENS_MM = 40.0

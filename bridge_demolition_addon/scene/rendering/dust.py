@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import bpy
 
-from ...core.display.dust import Puff
-from ...core.geometry.solids import sphere
+from ...display.dust import Puff
+from ...engineering.geometry.solids import sphere
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 

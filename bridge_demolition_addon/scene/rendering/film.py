@@ -10,8 +10,8 @@ from pathlib import Path
 
 import bpy
 
-from ...core.errors import OutputError
-from ...core.scenario.recording import PictureSettings
+from ...errors import OutputError
+from ...model.scenario.recording import PictureSettings
 from .plain_path import rendered_to
 from .stills import IMAGE_SETTINGS, put_back_afterwards, seen_from
 

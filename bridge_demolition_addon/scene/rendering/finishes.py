@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 import bpy
 import numpy as np
 
-from ...core.fracture.finishes import Finish, finishes
-from ...core.structure.model import Model
+from ...model.structure.finishes import Finish, finishes
+from ...model.structure.model import Model
 from ..bodies import Kind, kind_of, member_of
 from .materials import BUILT_AT, Surface, material_of
 

@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from ...core.geometry.mesh import TriangleMesh
-from ...core.geometry.vectors import transformed
-from ...core.terrain.recorded import NamedSurface, RecordedGround
-from ...core.terrain.surface import Surface
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.vectors import transformed
+from ...engineering.terrain.recorded import NamedSurface, RecordedGround
+from ...engineering.terrain.surface import Surface
 from ..bodies import bodies_of, is_uneven_ground, member_of, triangle_mesh
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from ...core.scenario.kept import values_from_text, values_text
+from ...model.scenario.kept import values_from_text, values_text
 
 _OURS = "bda_markers"
 """Property of a scene: frames and names of the markers that were made here, as markers keep no properties."""

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ...core.disk import whole_file
+from ...system.disk import whole_file
 
 
 @contextmanager

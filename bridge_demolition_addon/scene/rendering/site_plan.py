@@ -8,9 +8,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...core.errors import OutputError
-from ...core.geometry.rotations import turn_in_plane
-from ...core.geometry.vectors import transformed
+from ...engineering.geometry.rotations import turn_in_plane
+from ...engineering.geometry.vectors import transformed
+from ...errors import OutputError
 from ..collections import collection_for, find_collection
 from .ground import ground_of
 

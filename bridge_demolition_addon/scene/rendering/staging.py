@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...core.scenario.recording import PictureSettings
-from ...core.structure.model import Model
+from ...model.scenario.recording import PictureSettings
+from ...model.structure.model import Model
 from ..bodies import bodies_of
 from ..visibility import hide_symbols
 from .finishes import finish_others, finish_shards

@@ -9,8 +9,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...core.errors import OutputError
-from ...core.scenario.recording import CameraKind, PictureSettings
+from ...errors import OutputError
+from ...model.scenario.recording import CameraKind, PictureSettings
 from ..bodies import bodies_of
 from .camera import aim_camera
 from .plain_path import rendered_to

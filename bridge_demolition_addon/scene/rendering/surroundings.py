@@ -7,8 +7,8 @@ import math
 import bpy
 import numpy as np
 
-from ...core.geometry.solids import box
-from ...core.scenario.recording import PictureSettings
+from ...engineering.geometry.solids import box
+from ...model.scenario.recording import PictureSettings
 from ..bodies import SOIL, bodies_of, is_uneven_ground, mesh_of, scaled_mesh
 from ..collections import collection_for, find_collection
 from .camera import aim_camera

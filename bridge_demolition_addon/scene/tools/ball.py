@@ -8,11 +8,11 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ...core.geometry.solids import sphere
-from ...core.scenario import Ball
-from ...core.scenario.kept import values_from_text, values_text
-from ...core.sequence.tool_paths import lift_path
-from ...core.timing.timeline import Timeline
+from ...engineering.geometry.solids import sphere
+from ...engineering.timing.timeline import Timeline
+from ...model.scenario import Ball
+from ...model.scenario.kept import values_from_text, values_text
+from ...model.sequence.tool_paths import lift_path
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from ..custom_properties import edited
 from ..world import START_FRAME

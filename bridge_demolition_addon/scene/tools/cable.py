@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.geometry.solids import box
-from ...core.scenario import BallCable
+from ...engineering.geometry.solids import box
+from ...model.scenario import BallCable
 from ..bodies import Kind, create_body, mesh_of
 from ..connections.constraints import mark_cable
 

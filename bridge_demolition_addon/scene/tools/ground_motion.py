@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core.errors import SimulationError
-from ...core.ground_motion.record import GroundRecord, integrated
-from ...core.timing.timeline import Timeline
+from ...engineering.ground_motion.record import GroundRecord, integrated
+from ...engineering.timing.timeline import Timeline
+from ...errors import SimulationError
 from ..bodies import Kind, bodies_of, kind_of
 from ..custom_properties import edited, kept_number
 from .keyframes import key_values

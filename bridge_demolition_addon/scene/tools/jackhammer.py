@@ -5,10 +5,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.geometry.solids import cylinder
-from ...core.scenario import Jackhammer
-from ...core.sequence.tool_paths import chisel_tip_positions
-from ...core.timing.timeline import Timeline
+from ...engineering.geometry.solids import cylinder
+from ...engineering.timing.timeline import Timeline
+from ...model.scenario import Jackhammer
+from ...model.sequence.tool_paths import chisel_tip_positions
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from .keyframes import key_values
 

@@ -14,7 +14,7 @@ import bpy
 
 from ...bullet.time_control import stop_time
 from ...bullet.world import BulletWorld, WorldState
-from ...core.errors import DemolitionError, LayoutError
+from ...errors import DemolitionError, LayoutError
 from ...scene.bodies import bodies_of, is_marked
 from ...scene.connections.constraints import connections_of, loose_connections
 from .world_objects import WorldObjects

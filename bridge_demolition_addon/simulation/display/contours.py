@@ -8,11 +8,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.display.contours import ContourFrame, ContourSeries, ContourSettings, Quantity
-from ...core.display.stage_contours import StageContours
-from ...core.errors import ContourError
-from ...core.results.arrays import Results
-from ...core.results.frames import Frame
+from ...display.contours import ContourFrame, ContourSeries, ContourSettings, Quantity
+from ...display.stage_contours import StageContours
+from ...errors import ContourError
+from ...model.results.arrays import Results
+from ...model.results.frames import Frame
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.rendering.body_colours import paint, place, put_back, show_colours, show_materials, unpaint
 from ..recording.recorder import Recording

@@ -11,13 +11,14 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...core.display.contours import ContourSeries, ContourSettings
-from ...core.display.film_frames import film_rows
-from ...core.errors import ContourError, OutputError, writing
-from ...core.results.files import FILM_FILE, SLOW_FILM_FILE
-from ...core.scenario.recording import PictureSettings
+from ...display.contours import ContourSeries, ContourSettings
+from ...display.film_frames import film_rows
+from ...errors import ContourError, OutputError
+from ...model.results.files import FILM_FILE, SLOW_FILM_FILE
+from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from ...scene.rendering.plain_path import rendered_to
+from ...system.disk import writing
 from ..blender_events import contours_of
 
 _PICTURE = "contours_{:06d}.png"

@@ -7,14 +7,15 @@ from pathlib import Path
 
 import bpy
 
-from ...core.errors import OutputError, writing
-from ...core.results.files import PICTURE_FOLDER, PICTURES
-from ...core.scenario import Scenario
-from ...core.scenario.recording import PictureSettings
+from ...errors import OutputError
+from ...model.results.files import PICTURE_FOLDER, PICTURES
+from ...model.scenario import Scenario
+from ...model.scenario.recording import PictureSettings
 from ...scene.blast.charges import charge_objects, show_never, show_until
 from ...scene.demolition import first_frame_after
 from ...scene.rendering.stills import prepared_for_pictures, render_picture
 from ...scene.world import START_FRAME
+from ...system.disk import writing
 
 
 def check_camera(view: PictureSettings) -> None:

@@ -11,12 +11,12 @@ import numpy as np
 
 from ...bullet.field_filter import ignore_fields, let_fields_act
 from ...bullet.world import BulletWorld
-from ...core.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
-from ...core.blast.settings import Apply
-from ...core.errors import LayoutError, SimulationError
-from ...core.geometry.hulls import convex_hulls
-from ...core.geometry.vectors import length
-from ...core.results.inventory import Inventory
+from ...engineering.geometry.hulls import convex_hulls
+from ...engineering.geometry.vectors import length
+from ...errors import LayoutError, SimulationError
+from ...model.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
+from ...model.blast.settings import Apply
+from ...model.results.inventory import Inventory
 from ...scene.blast.charges import charges_of
 from ...scene.blast.field_reach import FieldReach, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields

@@ -9,12 +9,12 @@ import bpy
 import numpy as np
 
 from ...bullet.world import BulletWorld
-from ...core.errors import LayoutError
-from ...core.mechanics.frame_loads import FrameLoads
-from ...core.mechanics.member_sections import MemberSections, kinds_of
-from ...core.mechanics.work import FrameWork, Motion, WorkAccumulator
-from ...core.results.frames import BallHistory, ContactHistory, Frame
-from ...core.results.inventory import Inventory
+from ...engineering.mechanics.frame_loads import FrameLoads
+from ...engineering.mechanics.member_sections import MemberSections, kinds_of
+from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
+from ...errors import LayoutError
+from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.results.inventory import Inventory
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
 from ...scene.connections.soil import soil_of

@@ -11,17 +11,17 @@ import numpy as np
 from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import check_frames
 from ...bullet.world import BulletWorld
-from ...core.arithmetic import power
-from ...core.elasticity.cracks import CORNERS, Cracks, corner_places, corner_shares
-from ...core.elasticity.equilibrium import Equilibrium, equilibrium
-from ...core.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
-from ...core.elasticity.section_stiffness import SectionStiffness, in_frames
-from ...core.elasticity.structure import BodyStates, ElasticStructure
-from ...core.foundations.footings import Footings, SoilSprings
-from ...core.geometry.vectors import transformed_back
-from ...core.mechanics.section_forces import section_axes
-from ...core.mechanics.strength import rectangular_sections
-from ...core.results.inventory import Inventory
+from ...engineering.arithmetic import power
+from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_places, corner_shares
+from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
+from ...engineering.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
+from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
+from ...engineering.elasticity.structure import BodyStates, ElasticStructure
+from ...engineering.foundations.footings import Footings, SoilSprings
+from ...engineering.geometry.vectors import transformed_back
+from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.strength import rectangular_sections
+from ...model.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
 

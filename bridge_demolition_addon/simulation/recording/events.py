@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...bullet.world import BulletWorld
-from ...core.sequence.events import Event
+from ...model.sequence.events import Event
 
 _ROUNDING = 1e-3
 """Part of a sub-step by which adding up sub-steps may be off."""

@@ -9,11 +9,11 @@ import numpy as np
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
-from ...core.geometry.rotations import axes_in_bodies, carried_axes, carried_points
-from ...core.geometry.vectors import by_component, length, taken, transformed, transformed_back
-from ...core.mechanics import forces
-from ...core.mechanics.frame_loads import Moment, SubstepLoads
-from ...core.mechanics.section_forces import SectionForces, section_axes, section_forces
+from ...engineering.geometry.rotations import axes_in_bodies, carried_axes, carried_points
+from ...engineering.geometry.vectors import by_component, length, taken, transformed, transformed_back
+from ...engineering.mechanics import forces
+from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
+from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
 
 
 class LoadReader:

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...bullet.world import BulletWorld
-from ...core.geometry.vectors import cross, transformed, transformed_back
-from ...core.sequence.loads import PlacedLoad
+from ...engineering.geometry.vectors import cross, transformed, transformed_back
+from ...model.sequence.loads import PlacedLoad
 
 
 class Loads:

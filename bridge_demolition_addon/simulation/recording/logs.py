@@ -11,16 +11,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core.blast.explosion import StepLoads
-from ...core.disk import is_in_place
-from ...core.errors import SimulationError, writing
-from ...core.geometry.vectors import dot
-from ...core.mechanics.stress import principal_stresses
-from ...core.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
-from ...core.results.frames import Frame
-from ...core.results.inventory import Inventory
-from ...core.results.motion import throw, travel
-from ...core.results.solver_energy import flies_on_solver_energy
+from ...engineering.geometry.vectors import dot
+from ...engineering.mechanics.stress import principal_stresses
+from ...errors import SimulationError
+from ...model.blast.explosion import StepLoads
+from ...model.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
+from ...model.results.frames import Frame
+from ...model.results.inventory import Inventory
+from ...model.results.motion import throw, travel
+from ...model.results.solver_energy import flies_on_solver_energy
+from ...system.disk import is_in_place, writing
 from .substeps import Breaks
 
 FORCE_COLUMNS = (

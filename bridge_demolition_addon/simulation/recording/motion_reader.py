@@ -8,12 +8,12 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...core.geometry.rotations import rotation_vectors
-from ...core.geometry.vectors import length
-from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator
-from ...core.mechanics.work import FrameWork
-from ...core.results.frames import Frame
-from ...core.results.inventory import Inventory
+from ...engineering.geometry.rotations import rotation_vectors
+from ...engineering.geometry.vectors import length
+from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator
+from ...engineering.mechanics.work import FrameWork
+from ...model.results.frames import Frame
+from ...model.results.inventory import Inventory
 from ...scene.time_scale import time_step_at
 
 READING = "change of momentum between frames"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.errors import SimulationError
+from ...errors import SimulationError
 from ...scene.bodies import bodies_of, lacks_ground
 from ...scene.connections.constraints import connections_of, loose_connections, sections_of
 

@@ -13,13 +13,13 @@ import numpy as np
 
 from ...bullet.time_control import release_time, set_substeps, set_time_scale, time_stands_still
 from ...bullet.world import BulletWorld, WorldState
-from ...core.errors import LayoutError, OutputError, SimulationError
-from ...core.geometry.vectors import dot
-from ...core.results.arrays import Results
-from ...core.results.fingerprint import built_digest
-from ...core.results.frames import BallHistory, ContactHistory, Frame
-from ...core.results.inventory import Inventory
-from ...core.results.stream import FrameStream
+from ...engineering.geometry.vectors import dot
+from ...errors import LayoutError, OutputError, SimulationError
+from ...model.results.arrays import Results
+from ...model.results.fingerprint import built_digest
+from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.results.inventory import Inventory
+from ...model.results.stream import FrameStream
 from ...scene.bodies import bodies_of
 from ...scene.connections.breaking_settings import breaking_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds

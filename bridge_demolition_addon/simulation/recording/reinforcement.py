@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...bullet.world import BulletWorld
-from ...core.geometry.vectors import dot, transformed, transformed_back
-from ...core.mechanics.reinforcement import FaceBars, effective_masses, parting, tie_forces
-from ...core.mechanics.strength import Ductility
-from ...core.results.inventory import Inventory
+from ...engineering.geometry.vectors import dot, transformed, transformed_back
+from ...engineering.mechanics.reinforcement import FaceBars, effective_masses, parting, tie_forces
+from ...engineering.mechanics.strength import Ductility
+from ...model.results.inventory import Inventory
 
 
 class Reinforcement:

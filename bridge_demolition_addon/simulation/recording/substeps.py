@@ -18,15 +18,15 @@ import numpy as np
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyStates, Snapshot
 from ...bullet.world import BulletWorld
-from ...core.arithmetic import power
-from ...core.errors import SimulationError
-from ...core.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
-from ...core.mechanics.member_sections import MemberSections
-from ...core.mechanics.overloads import ConnectionLoads, Overloads
-from ...core.mechanics.section_forces import SectionForces
-from ...core.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
-from ...core.results.frames import BallHistory
-from ...core.results.inventory import Inventory
+from ...engineering.arithmetic import power
+from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
+from ...engineering.mechanics.member_sections import MemberSections
+from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
+from ...engineering.mechanics.section_forces import SectionForces
+from ...engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
+from ...errors import SimulationError
+from ...model.results.frames import BallHistory
+from ...model.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
 from .background import BackgroundWork
 from .blast import Blast

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.blast.charges import Charge
-from ...core.scenario import BlastSettings
+from ...model.blast.charges import Charge
+from ...model.scenario import BlastSettings
 from ...scene.blast.charges import charge_collection, charge_objects, create_charges
 from ...scene.blast.force_fields import build_force_objects
 from ...scene.blast.settings import keep_blast

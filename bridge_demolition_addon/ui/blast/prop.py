@@ -5,8 +5,8 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from ...core.blast.charges import EXPLOSIVES
-from ...core.blast.wave import Burst
+from ...engineering.blast.wave import Burst
+from ...model.blast.charges import EXPLOSIVES
 from ...scene.blast.charges import BURST, EXPLOSIVE, charge_collection, is_charge
 from ..viewport import select_only
 

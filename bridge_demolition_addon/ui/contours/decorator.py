@@ -13,12 +13,12 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ...core.blast.charges import Charge
-from ...core.blast.damage import THRESHOLDS, ring_radii
-from ...core.display.colour_bar import colour_bar
-from ...core.display.colour_scale import colours
-from ...core.display.contours import ContourFrame, ContourSettings
-from ...core.display.force_arrows import arrows, body_forces, connection_forces, contact_forces
+from ...display.colour_bar import colour_bar
+from ...display.colour_scale import colours
+from ...display.contours import ContourFrame, ContourSettings
+from ...display.force_arrows import arrows, body_forces, connection_forces, contact_forces
+from ...model.blast.charges import Charge
+from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
 from ...simulation.blender_events import contours_of

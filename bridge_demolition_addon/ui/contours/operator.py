@@ -5,9 +5,9 @@ from pathlib import Path
 
 import bpy
 
-from ...core.results.arrays import load_results, results_in
-from ...core.results.files import FRAMES_FILE
-from ...core.scenario.recording import PictureSettings
+from ...model.results.arrays import load_results, results_in
+from ...model.results.files import FRAMES_FILE
+from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...scene.world import start_over

@@ -3,9 +3,9 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ...core.blast.damage import THRESHOLDS
-from ...core.display.colour_scale import ColourMap
-from ...core.display.contours import TITLES, Quantity, RangeKind
+from ...display.colour_scale import ColourMap
+from ...display.contours import TITLES, Quantity, RangeKind
+from ...model.blast.damage import THRESHOLDS
 from ...simulation.display.film import FilmKind
 from ..sidebar import path_property
 from . import view as contour_view

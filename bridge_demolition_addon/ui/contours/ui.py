@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...core.display.contours import Quantity, unit_of_range
+from ...display.contours import Quantity, unit_of_range
 from ...scene.visibility import symbols_are_hidden
 from ...simulation.blender_events import contours_of
 from ..sidebar import SidebarPanel, draw_sentence

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import bpy
 
-from ...core.display.colour_scale import ColourMap
-from ...core.display.contours import ContourSettings, Quantity, RangeKind, unit_of_range
-from ...core.errors import DemolitionError
+from ...display.colour_scale import ColourMap
+from ...display.contours import ContourSettings, Quantity, RangeKind, unit_of_range
+from ...errors import DemolitionError
 from ...scene.rendering.body_colours import SHADED_LIGHT
 from ...simulation.blender_events import contours_of
 

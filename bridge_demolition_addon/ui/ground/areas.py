@@ -9,14 +9,14 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.debris.exclusion import ExclusionZone, exclusion_zone
-from ...core.debris.footprint import footprint
-from ...core.display.ground_lines import distance_rings, planned_zone
-from ...core.geometry.plan_areas import united
-from ...core.geometry.vectors import transformed
-from ...core.results.arrays import Results
-from ...core.scenario import Exclusion
-from ...core.terrain.recorded import RecordedGround
+from ...display.ground_lines import distance_rings, planned_zone
+from ...engineering.geometry.plan_areas import united
+from ...engineering.geometry.vectors import transformed
+from ...engineering.terrain.recorded import RecordedGround
+from ...model.debris.exclusion import ExclusionZone, exclusion_zone
+from ...model.debris.footprint import footprint
+from ...model.results.arrays import Results
+from ...model.scenario import Exclusion
 from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
 from ...scene.rendering.ground import ground_of as ground_in
 from ...simulation.blender_events import contours_of

@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.display.ground_lines import cross_lines, draped, flash_lines, flash_share, way_lines, zone_lines
-from ...core.display.study_map import outline_lines
-from ...core.geometry.plan_areas import outlines
+from ...display.ground_lines import cross_lines, draped, flash_lines, flash_share, way_lines, zone_lines
+from ...display.study_map import outline_lines
+from ...engineering.geometry.plan_areas import outlines
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
 from ...scene.bodies import Kind, kind_of

@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
-from ...core.display.dust import puffs
-from ...core.errors import DemolitionError
-from ...core.scenario import Zone
-from ...core.toml_tables import toml_value
+from ...display.dust import puffs
+from ...errors import DemolitionError
+from ...model.scenario import Zone
+from ...model.toml_tables import toml_value
 from ...scene.rendering.dust import raise_dust, remove_dust
 from ...scene.rendering.ground import terrain_under
 from ...scene.rendering.site_plan import lay_site_plan

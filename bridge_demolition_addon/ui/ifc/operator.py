@@ -6,12 +6,12 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ...core.errors import IfcError
-from ...core.scenario.file import read_scenario
+from ...errors import IfcError
 from ...ifc.bridge import ImportedBridge, read_bridge
 from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
 from ...ifc.library import why_not
 from ...ifc.settings import UNITS, ImportSettings
+from ...model.scenario.file import read_scenario
 from ..operators import Action, absolute
 from ..scenario.values import show_scenario
 from ..sidebar import path_property

@@ -7,9 +7,9 @@ from functools import lru_cache
 import bpy
 import numpy as np
 
-from ...core.display.bridge_preview import outline
-from ...core.scenario import Ball, Bridge, Scenario
-from ...core.scenario.file import scenario_from_text
+from ...display.bridge_preview import outline
+from ...model.scenario import Ball, Bridge, Scenario
+from ...model.scenario.file import scenario_from_text
 from ..scenario.prop import shown_tables
 from ..scenario.values import inner_of
 from ..sidebar import SidebarPanel

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
-from ...core.errors import ScenarioError
+from ...errors import ScenarioError
 from ..operators import recording_runs
 from .decorator import is_wanted
 from .handles import Handle, HandleKind, handles

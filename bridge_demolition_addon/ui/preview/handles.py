@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import bpy
 
-from ...core.bridge import deck_top
+from ...model.bridge import deck_top
 from ...scene.blast.charges import charge_objects
 from .decorator import sizes_shown
 

@@ -7,8 +7,8 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
-from ...core.display.dragging import dragged_level, dragged_upright
-from ...core.errors import ScenarioError
+from ...display.dragging import dragged_level, dragged_upright
+from ...errors import ScenarioError
 from ..contours import view as contour_view
 from ..operators import Action, recording_runs, refused
 from .handles import Handle, HandleKind, drag, handles

@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import StringProperty
 
-from ...core.errors import OutputError
-from ...core.results.files import DEBRIS_LOG, FORCE_LOG
+from ...errors import OutputError
+from ...model.results.files import DEBRIS_LOG, FORCE_LOG
 from ..operators import Action, FileWriter, absolute, recording_runs
 
 _SUFFIX = ".csv"

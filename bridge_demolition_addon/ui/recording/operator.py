@@ -8,13 +8,12 @@ from weakref import WeakKeyDictionary
 
 import bpy
 
-from ...core.errors import DemolitionError, OutputError, SimulationError
-from ...core.folder_lock import FolderLock
-from ...core.results.files import SCENARIO_FILE
-from ...core.scenario import RecordingSettings, Scenario
-from ...core.scenario.recording import PictureSettings
-from ...core.sequence.rest import Rest
-from ...core.sequence.undisturbed import told_fall
+from ...errors import DemolitionError, OutputError, SimulationError
+from ...model.results.files import SCENARIO_FILE
+from ...model.scenario import RecordingSettings, Scenario
+from ...model.scenario.recording import PictureSettings
+from ...model.sequence.rest import Rest
+from ...model.sequence.undisturbed import told_fall
 from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...scene.world import start_over
@@ -35,6 +34,7 @@ from ...simulation.results_folder import (
     withdraw_folder,
 )
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
+from ...system.folder_lock import FolderLock
 from .. import messages
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused

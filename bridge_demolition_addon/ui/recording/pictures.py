@@ -5,7 +5,7 @@ from pathlib import Path
 
 import bpy
 
-from ...core.results.files import PICTURES
+from ...model.results.files import PICTURES
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.display.pictures import rendered_pictures
 from .. import messages

@@ -3,7 +3,7 @@
 import bpy
 from bpy.props import BoolProperty
 
-from ...core.errors import DemolitionError, SimulationError
+from ...errors import DemolitionError, SimulationError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing, frames_to_play

@@ -8,13 +8,14 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from ...core.blast.models import BlastModel
-from ...core.errors import OutputError, SimulationError, writing
-from ...core.results.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
-from ...core.results.summary import first_hit_s
+from ...engineering.blast.models import BlastModel
+from ...errors import OutputError, SimulationError
 from ...exports.formats import FORMATS, Format
+from ...model.results.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
+from ...model.results.summary import first_hit_s
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...simulation.results_folder import keep_site
+from ...system.disk import writing
 from ..bridge_view import look_at_shards, shards_in_view
 from ..long_action import LongAction, Work
 from ..operators import Action, absolute, no_world, recording_runs

@@ -10,13 +10,13 @@ from typing import Any
 
 import bpy
 
-from ...core.errors import DemolitionError, OutputError, UnreadableError
-from ...core.reading import MEGABYTE, file_text
-from ...core.results.arrays import Results
-from ...core.results.checks import checked_summary
-from ...core.results.files import SUMMARY_FILE
-from ...core.sequence.undisturbed import told_fall
+from ...errors import DemolitionError, OutputError, UnreadableError
+from ...model.results.arrays import Results
+from ...model.results.checks import checked_summary
+from ...model.results.files import SUMMARY_FILE
+from ...model.sequence.undisturbed import told_fall
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
+from ...system.reading import MEGABYTE, file_text
 from ..recording.session import LastRecording, last_recording
 
 _N_PER_KN = 1000.0

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...core.errors import OutputError
+from ...errors import OutputError
 from ..sidebar import SidebarPanel, draw_sentence
 from .shown_run import Place, shown_run
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS, STRENGTH_KEYS
+from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS, STRENGTH_KEYS
 from .prop import USE
 
 

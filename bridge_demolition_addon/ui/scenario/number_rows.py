@@ -11,10 +11,10 @@ from typing import Any, get_args
 import bpy
 from bpy.props import FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
-from ...core.errors import ScenarioError
-from ...core.schema import holds_many, key_of, value_type
-from ...core.single_precision import shortest
-from ...core.toml_tables import toml_value
+from ...engineering.single_precision import shortest
+from ...errors import ScenarioError
+from ...model.schema import holds_many, key_of, value_type
+from ...model.toml_tables import toml_value
 from ..operators import Action
 
 MOST_ROWS = 24

@@ -3,10 +3,10 @@
 import bpy
 from bpy.props import StringProperty
 
-from ...core.display.camera_targets import points_to_see
-from ...core.scenario import Scenario
-from ...core.scenario.file import read_scenario, scenario_text
-from ...core.sequence.checked_model import checked_model
+from ...display.camera_targets import points_to_see
+from ...model.scenario import Scenario
+from ...model.scenario.file import read_scenario, scenario_text
+from ...model.sequence.checked_model import checked_model
 from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.made_by_hand import keep_as_built

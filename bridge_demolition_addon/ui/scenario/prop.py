@@ -25,10 +25,10 @@ from bpy.props import (
     StringProperty,
 )
 
-from ...core.results.files import SCENARIO_FILE
-from ...core.scenario import Charge, Scenario
-from ...core.scenario.file import read_scenario
-from ...core.schema import (
+from ...model.results.files import SCENARIO_FILE
+from ...model.scenario import Charge, Scenario
+from ...model.scenario.file import read_scenario
+from ...model.schema import (
     Key,
     Table,
     expected,
@@ -42,9 +42,9 @@ from ...core.schema import (
     subtable_fields,
     value_type,
 )
-from ...core.study.keys import names_to_propose
-from ...core.study.settings import StudySettings
-from ...core.toml_tables import toml_value
+from ...model.study.keys import names_to_propose
+from ...model.study.settings import StudySettings
+from ...model.toml_tables import toml_value
 from .number_rows import row_properties
 from .typical_values import typical_words
 

@@ -5,8 +5,8 @@ from dataclasses import Field
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from ...core.errors import ScenarioError
-from ...core.schema import is_optional, key_fields
+from ...errors import ScenarioError
+from ...model.schema import is_optional, key_fields
 from ..operators import Action
 from .prop import INDEX, USE, all_tables, group_name
 

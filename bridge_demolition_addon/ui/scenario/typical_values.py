@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import MISSING, Field
 from typing import Any
 
-from ...core.schema import Table, key_name, key_of
-from ...core.toml_tables import toml_value
+from ...model.schema import Table, key_name, key_of
+from ...model.toml_tables import toml_value
 
 TYPICAL: dict[str, Any] = {
     "density_kg_m3": 2400.0,

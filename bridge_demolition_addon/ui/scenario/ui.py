@@ -8,8 +8,8 @@ from functools import cache
 
 import bpy
 
-from ...core.scenario import Scenario
-from ...core.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
+from ...model.scenario import Scenario
+from ...model.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..course import draw_course, going_on
 from ..first_help import draw_first_help

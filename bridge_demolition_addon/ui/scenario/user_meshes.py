@@ -11,9 +11,9 @@ from pathlib import Path
 import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
-from ...core.bridge.mesh_files import exported
-from ...core.errors import GeometryError, OutputError
-from ...core.fracture.point_files import paint_text
+from ...errors import GeometryError, OutputError
+from ...model.bridge.mesh_files import exported
+from ...model.structure.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
 from ..operators import Action, FileWriter, absolute, write_file
 from ..sidebar import path_property

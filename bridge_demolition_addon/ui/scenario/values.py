@@ -13,10 +13,11 @@ from typing import Any
 
 import bpy
 
-from ...core.errors import BlastError, ScenarioError
-from ...core.scenario import Charge, Scenario
-from ...core.scenario.kept import table_values, values_from_text, values_text
-from ...core.schema import (
+from ...engineering.single_precision import as_given
+from ...errors import BlastError, ScenarioError
+from ...model.scenario import Charge, Scenario
+from ...model.scenario.kept import table_values, values_from_text, values_text
+from ...model.schema import (
     Table,
     expected,
     holds_many,
@@ -28,8 +29,7 @@ from ...core.schema import (
     subtable_class,
     value_type,
 )
-from ...core.single_precision import as_given
-from ...core.toml_tables import toml_value
+from ...model.toml_tables import toml_value
 from ...scene.blast.charges import charges_of, replace_charges
 from .number_rows import list_in
 from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.errors import ScenarioError
-from ...core.scenario import Scenario
-from ...core.search.file import Search, search_of
-from ...core.search.settings import SearchSettings
-from ...core.single_precision import shortest
-from ...core.study.criteria import Criterion
-from ...core.study.settings import StudySettings
+from ...engineering.single_precision import shortest
+from ...errors import ScenarioError
+from ...model.scenario import Scenario
+from ...model.search.file import Search, search_of
+from ...model.search.settings import SearchSettings
+from ...model.study.criteria import Criterion
+from ...model.study.settings import StudySettings
 from ..operators import Action, absolute
 from ..results.operator import open_path
 from ..scenario.values import scenario_of, table_of

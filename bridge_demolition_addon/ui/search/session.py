@@ -10,11 +10,11 @@ from pathlib import Path
 
 import bpy
 
-from ...core.errors import DemolitionError, text_of
-from ...core.search.conclusions import sentences
-from ...core.search.curve import curve_of, write_curve
-from ...core.search.file import Search
-from ...core.search.files import CURVE_FILE, CURVE_PICTURE
+from ...errors import DemolitionError, text_of
+from ...model.search.conclusions import sentences
+from ...model.search.curve import curve_of, write_curve
+from ...model.search.file import Search
+from ...model.search.files import CURVE_FILE, CURVE_PICTURE
 from ...studies.folder import StudyFolder
 from ...studies.search_run import SearchRun
 from ..study.prop import redraw_views
@@ -86,9 +86,7 @@ class SearchAtWork:
 
     def finish(self) -> FoundBySearch:
         """Keep what all trials say, and return it."""
-        from ...charts.search_curve import (
-            save_search_curve,  # matplotlib, which switching the add-on on need not wait for
-        )
+        from ...charts.search_curve import save_search_curve
 
         answer, run, picture = self.run.write_answer(), self.run, self.path / CURVE_PICTURE
         curve = curve_of(self.search, run.trials)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core.display.stage_contours import StageContours
+from ...display.stage_contours import StageContours
 
 
 @dataclass(frozen=True, slots=True, eq=False)

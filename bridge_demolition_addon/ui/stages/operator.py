@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.display.contours import Quantity
-from ...core.display.stage_contours import StageContours
-from ...core.errors import writing
-from ...core.sequence.checked_model import checked_model
-from ...core.stages.made_elastic import made_elastic
-from ...core.stages.sentences import criticality_sentences, stage_sentences
-from ...core.stages.stages import criticality, stages_of
-from ...core.stages.standing import StandingBridge
-from ...core.stages.tables import stage_row, write_tables
+from ...display.contours import Quantity
+from ...display.stage_contours import StageContours
+from ...model.sequence.checked_model import checked_model
+from ...model.stages.made_elastic import made_elastic
+from ...model.stages.sentences import criticality_sentences, stage_sentences
+from ...model.stages.stages import criticality, stages_of
+from ...model.stages.standing import StandingBridge
+from ...model.stages.tables import stage_row, write_tables
 from ...simulation.blender_events import contours_of
+from ...system.disk import writing
 from ..long_action import LongAction, Work
 from ..operators import Action, absolute, no_world
 from ..scenario.values import scenario_of

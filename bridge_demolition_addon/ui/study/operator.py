@@ -6,10 +6,10 @@ from pathlib import Path
 
 import bpy
 
-from ...core.errors import OutputError
-from ...core.study.draws import draw_of
-from ...core.study.file import Study, read_study, study_of
-from ...core.study.settings import StudySettings
+from ...errors import OutputError
+from ...model.study.draws import draw_of
+from ...model.study.file import Study, read_study, study_of
+from ...model.study.settings import StudySettings
 from ..operators import Action, absolute
 from ..scenario.operator import BDA_OT_build_anew, build_and_show, stop_playing
 from ..scenario.values import scenario_of, show_scenario, show_table, table_of

@@ -13,10 +13,10 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...core.display.study_map import map_triangles, outline_lines
-from ...core.errors import DemolitionError, text_of
-from ...core.study.conclusions import sentences
-from ...core.study.file import Study
+from ...display.study_map import map_triangles, outline_lines
+from ...errors import DemolitionError, text_of
+from ...model.study.conclusions import sentences
+from ...model.study.file import Study
 from ...report.study.study_folder import read_study_runs
 from ...report.study.study_runs import StudyRuns
 from ...studies.draw_process import Limits

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.schema import subtable_fields
-from ...core.study.runs_table import DONE
-from ...core.study.settings import StudySettings
+from ...model.schema import subtable_fields
+from ...model.study.runs_table import DONE
+from ...model.study.settings import StudySettings
 from ..scenario.ui import draw_keys, draw_tables
 from ..sidebar import SidebarPanel, draw_sentence
 from . import decorator, session

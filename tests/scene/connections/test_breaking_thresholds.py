@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.timing.time_step import TimeStep
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.timing.time_step import TimeStep
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_thresholds import rewrite_thresholds, set_breaking_force
 
 MASS_KG = 100.0

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.mechanics.joint import MOTIONS, Joint, Springs
-from bridge_demolition_addon.core.mechanics.strength import Strength
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.mechanics.joint import MOTIONS, Joint, Springs
+from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
 # Blender keeps gravity in single precision.
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))

@@ -7,9 +7,9 @@ import pytest
 from blocks import Blocks
 from matplotlib.image import imread
 
-from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
-from bridge_demolition_addon.core.display.contours import ContourSettings, Quantity, RangeKind
-from bridge_demolition_addon.core.errors import ContourError, OutputError
+from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
+from bridge_demolition_addon.display.contours import ContourSettings, Quantity, RangeKind
+from bridge_demolition_addon.errors import ContourError, OutputError
 
 FRAMES = 6
 ONE_LEVEL = 1.01 / 255.0
@@ -184,7 +184,7 @@ def test_handlers_are_there_once(hanging):
 def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_path):
     from sample_results import changed
 
-    from bridge_demolition_addon.core.results.arrays import load_results
+    from bridge_demolition_addon.model.results.arrays import load_results
     from bridge_demolition_addon.simulation.blender_events import contours_of
 
     contours_of(hanging.scene).recording.results().save(tmp_path / "results.npz")

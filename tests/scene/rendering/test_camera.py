@@ -8,7 +8,7 @@ import pytest
 from matplotlib.image import imread
 from scenarios import I235
 
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.model.structure.model import build_model
 
 BRIDGE = np.array(list(product((-0.5, 13.5), (-4.25, 4.25), (0.0, 5.55))))
 TOWER = np.array(list(product((0.0, 2.0), (0.0, 2.0), (0.0, 80.0))))
@@ -84,7 +84,7 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 
 
 def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
-    from bridge_demolition_addon.core.blast.charges import Charge
+    from bridge_demolition_addon.model.blast.charges import Charge
     from bridge_demolition_addon.scene.blast.charges import create_charges, show_never, show_until
     from bridge_demolition_addon.scene.rendering.camera import aim_camera
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture

@@ -8,9 +8,9 @@ from places import EXAMPLES
 from scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.display.camera_targets import points_to_see
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.display.camera_targets import points_to_see
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition

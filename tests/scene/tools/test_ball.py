@@ -8,14 +8,14 @@ from blocks import Blocks
 from scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.bridge import deck_top
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.summary import summarise
-from bridge_demolition_addon.core.scenario import Ball, BallHit
-from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.core.timing.timeline import Timeline
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.timing.timeline import Timeline
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.bridge import deck_top
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.summary import summarise
+from bridge_demolition_addon.model.scenario import Ball, BallHit
+from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 
 HITS = (
     BallHit(lift_time_s=2.0, lift_duration_s=1.0, release_time_s=3.2, target_m=(3, 1), drop_height_m=2.0),

@@ -11,13 +11,13 @@ from terrain_files import EASTING, NORTHING, write_asc
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario import Ball, BallCable, Ground
-from bridge_demolition_addon.core.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
-from bridge_demolition_addon.core.sequence.rest import last_event_s
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario import Ball, BallCable, Ground
+from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.sequence.rest import last_event_s
 
 CABLE = BallCable(crane_point_m=(1.0, 2.0, 12.0), length_m=8.0, angle_degrees=40.0, azimuth_degrees=90.0)
 

@@ -8,11 +8,11 @@ from scenarios import I235
 from shard_scenes import ShardScene
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.core.bridge import deck_top
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.scenario import Jackhammer
-from bridge_demolition_addon.core.sequence.tool_paths import chisel_tip_positions
-from bridge_demolition_addon.core.timing.timeline import Timeline
+from bridge_demolition_addon.engineering.timing.timeline import Timeline
+from bridge_demolition_addon.model.bridge import deck_top
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario import Jackhammer
+from bridge_demolition_addon.model.sequence.tool_paths import chisel_tip_positions
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

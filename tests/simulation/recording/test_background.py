@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.errors import LayoutError
-from bridge_demolition_addon.core.results.fingerprint import result_digest
+from bridge_demolition_addon.errors import LayoutError
+from bridge_demolition_addon.model.results.fingerprint import result_digest
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording import substeps
 from bridge_demolition_addon.simulation.recording.background import THREAD_NAME, BackgroundWork

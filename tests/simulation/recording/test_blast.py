@@ -10,10 +10,10 @@ from blocks import Blocks
 from mathutils import Euler
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.blast.pulses import blast_pulses
-from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.core.timing.timeline import SlowMotion, Timeline
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.blast.pulses import blast_pulses
+from bridge_demolition_addon.engineering.timing.timeline import SlowMotion, Timeline
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.time_scale import animate_time_scale

@@ -8,11 +8,11 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.errors import SimulationError
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.fingerprint import motion_digest
-from bridge_demolition_addon.core.scenario import Removal
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.fingerprint import motion_digest
+from bridge_demolition_addon.model.scenario import Removal
 from bridge_demolition_addon.scene.structural_changes import keep_changes
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

@@ -9,7 +9,7 @@ import pytest
 from falling_pair import FRAMES, FallingPair, assert_ended, assert_handlers_gone, assert_whole, play
 from processes import run_program
 
-from bridge_demolition_addon.core.errors import SimulationError
+from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.simulation.blender_events import stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

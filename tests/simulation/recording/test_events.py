@@ -8,11 +8,11 @@ from blocks import Blocks
 from shard_scenes import DENSITY_KG_M3, ShardScene
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
-from bridge_demolition_addon.core.mechanics.strength import Ductility, Strength
-from bridge_demolition_addon.core.results.removed_shards import OUT_OF_REACH_M
-from bridge_demolition_addon.core.scenario import Removal, SawCut, Weakening
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError, SimulationError
+from bridge_demolition_addon.model.results.removed_shards import OUT_OF_REACH_M
+from bridge_demolition_addon.model.scenario import Removal, SawCut, Weakening
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking
 from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes

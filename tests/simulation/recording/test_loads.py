@@ -8,9 +8,9 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.core.errors import ScenarioError, SimulationError
-from bridge_demolition_addon.core.scenario import Load, Removal
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError, SimulationError
+from bridge_demolition_addon.model.scenario import Load, Removal
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_loads, loads_of
 

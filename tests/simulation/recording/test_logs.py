@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.core.mechanics.section_forces import SectionForces
+from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
 from bridge_demolition_addon.simulation.recording.logs import (
     BREAKING_COLUMNS,
     DEBRIS_COLUMNS,

@@ -5,8 +5,8 @@ import pytest
 from blocks import Blocks
 
 from bridge_demolition_addon.bullet.world import BulletWorld
-from bridge_demolition_addon.core.mechanics.frame_loads import LoadAccumulator
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder

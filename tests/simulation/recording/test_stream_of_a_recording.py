@@ -5,9 +5,9 @@ import pytest
 from falling_pair import FRAMES, FallingPair, play
 from processes import run_program
 
-from bridge_demolition_addon.core.results.arrays import load_results
-from bridge_demolition_addon.core.results.files import FRAMES_FILE
-from bridge_demolition_addon.core.results.fingerprint import result_digest
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.files import FRAMES_FILE
+from bridge_demolition_addon.model.results.fingerprint import result_digest
 from bridge_demolition_addon.simulation.blender_events import stop_recording
 
 MANY = 300

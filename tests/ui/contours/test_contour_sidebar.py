@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from blocks import Blocks
 
-from bridge_demolition_addon.core.display.contours import Quantity, RangeKind
+from bridge_demolition_addon.display.contours import Quantity, RangeKind
 
 FRAMES = 4
 
@@ -33,7 +33,7 @@ def shown(blocks, number=1):
 
 
 def test_ticking_the_box_colours_and_unticking_puts_back(recorded):
-    from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
+    from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
 
     settings = recorded.scene.bda
     settings.contour_range = "FRAME"
@@ -48,7 +48,7 @@ def test_ticking_the_box_colours_and_unticking_puts_back(recorded):
 
 
 def test_a_changed_setting_is_followed_at_once(recorded):
-    from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
+    from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
 
     recorded.scene.frame_set(3)
     settings = recorded.scene.bda
@@ -194,8 +194,8 @@ def test_the_arrow_of_the_largest_force_is_as_long_as_asked_for(recorded):
 
 
 def test_rings_are_as_wide_as_the_stand_off(recorded):
-    from bridge_demolition_addon.core.blast.charges import Charge
-    from bridge_demolition_addon.core.blast.damage import THRESHOLDS, ring_radii
+    from bridge_demolition_addon.model.blast.charges import Charge
+    from bridge_demolition_addon.model.blast.damage import THRESHOLDS, ring_radii
     from bridge_demolition_addon.scene.blast.charges import create_charges
     from bridge_demolition_addon.ui.contours.decorator import ring_lines
 

@@ -8,10 +8,10 @@ import pytest
 from matplotlib.image import imread, imsave
 from places import EXAMPLES
 
-from bridge_demolition_addon.core.debris.exclusion import exclusion_zone
-from bridge_demolition_addon.core.geometry.plan_areas import outlines
-from bridge_demolition_addon.core.scenario import Exclusion, Neighbour, Zone
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
+from bridge_demolition_addon.model.debris.exclusion import exclusion_zone
+from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Zone
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 ROAD = Zone(name="Main Street", kind="road", corners_m=((20.0, -5.0), (30.0, -5.0), (30.0, 5.0), (20.0, 5.0)))
 SCENARIO = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
@@ -73,7 +73,7 @@ def test_zones_neighbours_and_distances_are_drawn_before_a_run(built):
 
 
 def test_after_a_run_zone_and_debris_are_those_of_the_report(ran, tmp_path):
-    from bridge_demolition_addon.core.results.arrays import load_results
+    from bridge_demolition_addon.model.results.arrays import load_results
 
     zone = exclusion_zone(load_results(tmp_path / "run" / "results.npz"), SHORT.exclusion)
     shown = by_text(ran, "Exclusion zone of the last run")
@@ -122,7 +122,7 @@ def test_the_chosen_shard_is_drawn_with_its_name_where_it_is(ran):
 
 
 def test_a_zone_by_its_corners_is_added_to_the_scenario_and_a_wrong_one_is_not(built):
-    from bridge_demolition_addon.core.errors import ScenarioError
+    from bridge_demolition_addon.errors import ScenarioError
     from bridge_demolition_addon.ui.ground.operator import add_zone
     from bridge_demolition_addon.ui.scenario.built import shown_site
 
@@ -194,7 +194,7 @@ def curves_of(body):
 
 
 def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, extension, tmp_path):
-    from bridge_demolition_addon.core.results.arrays import load_results
+    from bridge_demolition_addon.model.results.arrays import load_results
 
     assert ran.tool_settings.lock_markers  # nobody who drags along a ruler that they cover moves one
     ran.timeline_markers.new("mine", frame=7)

@@ -6,7 +6,7 @@ import sys
 import pytest
 from ifc_bridges import MASS_KG, whole_bridge
 
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.prop import default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
@@ -65,7 +65,7 @@ def test_the_button_is_greyed_with_the_reason_where_nothing_reads_ifc(extension,
     """Without the folder that IfcOpenShell is in: as where neither the extra nor Bonsai is installed."""
     import ifcopenshell
 
-    from bridge_demolition_addon.core.errors import MissingLibraryError
+    from bridge_demolition_addon.errors import MissingLibraryError
     from bridge_demolition_addon.ifc.library import library
 
     assert extension.ops.bda.import_ifc.poll()

@@ -2,8 +2,8 @@
 
 import pytest
 
-from bridge_demolition_addon.core.blast.charges import Charge
-from bridge_demolition_addon.core.scenario.ball import BallHit
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.scenario.ball import BallHit
 
 CHARGE = Charge(name="Charge 1", place_m=(1.0, 2.0, 3.0), mass_kg=10.0)
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from places import SMALL
 
-from bridge_demolition_addon.core.scenario.file import read_scenario, scenario_text
-from bridge_demolition_addon.core.scenario.time import TimeSettings
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.time import TimeSettings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.ui.scenario.built import Change, changed_in_blender

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 from places import SMALL
 
-from bridge_demolition_addon.core.scenario import ConnectionSettings
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.sequence.checked_model import checked_model
-from bridge_demolition_addon.core.structure.equilibrium import model_at_rest, overloaded
+from bridge_demolition_addon.model.scenario import ConnectionSettings
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.structure.equilibrium import model_at_rest, overloaded
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.ui.scenario.values import show_scenario
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from places import SMALL
 
-from bridge_demolition_addon.core.errors import OutputError
-from bridge_demolition_addon.core.results.arrays import load_results
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.simulation.blender_events import contours_of
 from bridge_demolition_addon.ui.recording import session
 from bridge_demolition_addon.ui.results.shown_run import shown_run

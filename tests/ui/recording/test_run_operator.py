@@ -10,7 +10,7 @@ import pytest
 from blocks import Blocks
 from places import EXAMPLES
 
-from bridge_demolition_addon.core.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
 FRAMES = 12
 

@@ -6,8 +6,8 @@ import pytest
 import trimesh
 from places import SMALL
 
-from bridge_demolition_addon.core.results.arrays import load_results
 from bridge_demolition_addon.exports.formats import GLTF, PARAVIEW
+from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.ui.recording import session
 from bridge_demolition_addon.ui.results.operator import BDA_OT_export_run, new_export
 

@@ -8,7 +8,7 @@ from places import SMALL
 from run_folders import flying_shards, keep_run
 from scenarios import I235
 
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 
 @pytest.fixture

@@ -5,9 +5,9 @@ import json
 import pytest
 from places import EXAMPLES, SMALL
 
-from bridge_demolition_addon.core.scenario import Scenario
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.schema import holds_many, is_optional, key_fields, subtable_class, value_type
+from bridge_demolition_addon.model.scenario import Scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.schema import holds_many, is_optional, key_fields, subtable_class, value_type
 from bridge_demolition_addon.ui.scenario.built import changes
 from bridge_demolition_addon.ui.scenario.prop import USE, is_written_out, shown_tables, vector_length
 from bridge_demolition_addon.ui.scenario.values import scenario_of

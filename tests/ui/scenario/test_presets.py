@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 from places import EXAMPLES
 
-from bridge_demolition_addon.core.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 SMALLEST_PX = (256, 192)

@@ -5,9 +5,9 @@ from typing import get_args, get_origin
 import pytest
 
 import bridge_demolition_addon
-from bridge_demolition_addon.core.mechanics.strength import MATERIALS
-from bridge_demolition_addon.core.scenario import Charge, ConnectionSettings, Scenario
-from bridge_demolition_addon.core.schema import (
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+from bridge_demolition_addon.model.scenario import Charge, ConnectionSettings, Scenario
+from bridge_demolition_addon.model.schema import (
     holds_many,
     is_optional,
     key_fields,
@@ -16,7 +16,7 @@ from bridge_demolition_addon.core.schema import (
     subtable_fields,
     value_type,
 )
-from bridge_demolition_addon.core.study.settings import StudySettings
+from bridge_demolition_addon.model.study.settings import StudySettings
 from bridge_demolition_addon.ui.scenario.prop import (
     all_tables,
     group_name,

@@ -7,11 +7,11 @@ import pytest
 from places import EXAMPLES, SMALL
 from random_scenarios import varied
 
-from bridge_demolition_addon.core.errors import ScenarioError
-from bridge_demolition_addon.core.scenario import Charge
-from bridge_demolition_addon.core.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.single_precision import shortest
+from bridge_demolition_addon.engineering.single_precision import shortest
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario import Charge
+from bridge_demolition_addon.model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.breaking_note import breaking_note
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, show_scenario

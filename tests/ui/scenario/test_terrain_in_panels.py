@@ -2,7 +2,7 @@
 
 from scenarios import I235
 
-from bridge_demolition_addon.core.scenario import Ground, GroundSurface
+from bridge_demolition_addon.model.scenario import Ground, GroundSurface
 
 
 def test_terrain_is_shown_and_read_back_without_loss(settings):

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from bridge_demolition_addon.core.schema import expected, key_fields, key_name, key_of
+from bridge_demolition_addon.model.schema import expected, key_fields, key_name, key_of
 from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group
 from bridge_demolition_addon.ui.scenario.typical_values import TYPICAL, typical_value
 

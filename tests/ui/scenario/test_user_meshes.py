@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.core.fracture.point_files import paint_from_file
-from bridge_demolition_addon.core.geometry.solids import box
-from bridge_demolition_addon.core.scenario.file import read_scenario
-from bridge_demolition_addon.core.structure.model import build_model
+from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.model import build_model
+from bridge_demolition_addon.model.structure.point_files import paint_from_file
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 

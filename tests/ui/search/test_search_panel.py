@@ -10,8 +10,8 @@ import pytest
 from places import ROOT
 from scenarios import SHORT_RUN
 
-from bridge_demolition_addon.core.scenario import BlastSettings, Charge
-from bridge_demolition_addon.core.study.runs_table import read_runs
+from bridge_demolition_addon.model.scenario import BlastSettings, Charge
+from bridge_demolition_addon.model.study.runs_table import read_runs
 from bridge_demolition_addon.ui.scenario.values import show_scenario
 from bridge_demolition_addon.ui.search import session
 from bridge_demolition_addon.ui.search.operator import shown_search

@@ -10,9 +10,9 @@ import pytest
 from places import ROOT
 from scenarios import I235
 
-from bridge_demolition_addon.core.display.colour_scale import ColourMap, colours, linear
-from bridge_demolition_addon.core.display.contours import Quantity
-from bridge_demolition_addon.core.scenario import Equipment
+from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
+from bridge_demolition_addon.display.contours import Quantity
+from bridge_demolition_addon.model.scenario import Equipment
 from bridge_demolition_addon.simulation.blender_events import contours_of
 from bridge_demolition_addon.ui.contours import view as contour_view
 from bridge_demolition_addon.ui.scenario.values import show_scenario

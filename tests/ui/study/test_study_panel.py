@@ -11,11 +11,11 @@ from places import ROOT
 from scenarios import SHORT_RUN
 
 import bridge_demolition_addon
-from bridge_demolition_addon.core.scenario.file import scenario_text
-from bridge_demolition_addon.core.study.draws import draw_of, inputs_of
-from bridge_demolition_addon.core.study.file import study_of
-from bridge_demolition_addon.core.study.runs_table import read_runs
-from bridge_demolition_addon.core.study.settings import StudySettings, Vary
+from bridge_demolition_addon.model.scenario.file import scenario_text
+from bridge_demolition_addon.model.study.draws import draw_of, inputs_of
+from bridge_demolition_addon.model.study.file import study_of
+from bridge_demolition_addon.model.study.runs_table import read_runs
+from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 from bridge_demolition_addon.studies.draw_process import DrawProcess, Limits
 from bridge_demolition_addon.studies.versions import versions_with
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table

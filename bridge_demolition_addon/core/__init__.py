@@ -1,1 +1,0 @@
-"""The engineering: numpy arrays in, numpy arrays out. Never imports bpy."""

@@ -1,0 +1,98 @@
+"""Outlines of a bridge and its ball, from their sizes alone: what is about to be built."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ..engineering.geometry.vectors import dot
+from ..model.bridge import deck_top
+from ..model.bridge.substructure import substructure
+from ..model.bridge.superstructure import superstructure
+from ..model.scenario import Ball, Bridge
+from ..model.scenario.ball import BallCable
+from .ground_lines import cross_lines, way_lines
+
+_SHARP_DEG = 1.0
+"""Triangles that meet at less than this are parts of one face, and their common side is not drawn."""
+
+_CIRCLE_PARTS = 48
+_ARC_PARTS = 24
+_CROSS_M = 0.5
+
+
+def bridge_edges(bridge: Bridge) -> np.ndarray:
+    """Return the edges of all members as lines (2 k, 3) float, m; neither densities nor merging matter for them."""
+    members = (*superstructure(bridge), *substructure(bridge))
+    return np.concatenate([sharp_edges(member.solid) for member in members])
+
+
+def ball_lines(ball: Ball, surface_m: float | None) -> np.ndarray:
+    """Return a ball before each of its drops, with its way and its target, as lines (2 k, 3) float, m.
+
+    Parameters
+    ----------
+    surface_m : float, optional
+        Height of what it falls on; None where that is not known, and only a ball on a cable can be drawn.
+    """
+    parts = [np.zeros((0, 3))]
+    if ball.cable:
+        parts += [*_sphere(ball.cable.start_m, ball.diameter_m), *_swing(ball.cable)]
+    elif surface_m is not None:
+        for drop in ball.drops:
+            target = np.array((*drop.target_m, surface_m))
+            start = (*target[:2], surface_m + drop.drop_height_m + ball.diameter_m / 2.0)
+            parts += [*_sphere(start, ball.diameter_m), np.stack((start, target)), cross_lines(target, _CROSS_M)]
+    return np.concatenate(parts)
+
+
+def outline(bridge: Bridge | None, ball: Ball | None, *, is_all: bool = True) -> np.ndarray:
+    """Return bridge and ball as lines (2 k, 3) float, m.
+
+    Parameters
+    ----------
+    is_all : bool
+        Whether the bridge is all there is to fall on; if not, the height of a ball's drop is not known from it.
+    """
+    parts = [np.zeros((0, 3))]
+    if bridge:
+        parts.append(bridge_edges(bridge))
+    if ball:
+        parts.append(ball_lines(ball, deck_top(bridge) if bridge and is_all else None))
+    return np.concatenate(parts)
+
+
+def sharp_edges(mesh: TriangleMesh) -> np.ndarray:
+    """Return the edges of a mesh at which its faces meet at an angle, as lines (2 k, 3) float, m."""
+    triangles = mesh.triangles
+    edges = np.sort(triangles[:, (0, 1, 1, 2, 2, 0)].reshape(-1, 2), axis=1)
+    _, normals = triangle_areas_and_normals(mesh.corners)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    edges, normals = edges[order], np.repeat(normals, 3, axis=0)[order]
+    firsts, lasts = edges[::2], edges[1::2]  # a closed surface has every edge twice
+    if len(edges) % 2 or (firsts != lasts).any():
+        raise ValueError("the surface is not closed")
+    is_sharp = dot(normals[::2], normals[1::2]) < math.cos(math.radians(_SHARP_DEG))
+    return mesh.vertices[firsts[is_sharp]].reshape(-1, 3)
+
+
+def _sphere(middle: tuple[float, float, float] | np.ndarray, diameter_m: float) -> Iterator[np.ndarray]:
+    """Give three circles about the axes."""
+    angles = np.linspace(0.0, 2.0 * math.pi, _CIRCLE_PARTS + 1)
+    flat = 0.5 * diameter_m * np.column_stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)))
+    for turn in range(3):
+        yield way_lines(middle + np.roll(flat, turn, axis=1))
+
+
+def _swing(cable: BallCable) -> Iterator[np.ndarray]:
+    """Give the cable, and the way of the ball's middle down to its lowest point."""
+    crane, start = np.array(cable.crane_point_m), np.array(cable.start_m)
+    yield np.stack((crane, start))
+    angles = np.linspace(math.radians(cable.angle_degrees), 0.0, _ARC_PARTS + 1)
+    azimuth = math.radians(cable.azimuth_degrees)
+    aside = cable.length_m * np.sin(angles)
+    arc = np.column_stack((aside * math.cos(azimuth), aside * math.sin(azimuth), -cable.length_m * np.cos(angles)))
+    yield way_lines(crane + arc)

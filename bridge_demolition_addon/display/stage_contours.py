@@ -1,0 +1,61 @@
+"""Contours of stages: how much of its strength each shard's connections use, at rest, before anything is run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model.stages.stages import Stage
+from ..model.structure.model import Model
+from .colour_scale import colours
+from .contours import ContourFrame, ContourSettings, RangeKind, automatic_scale, fixed_scale, percentiles
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StageContours:
+    """Utilisation of n shards in s stages.
+
+    Attributes
+    ----------
+    times_s : (s,) float
+        When the stages begin.
+    used : (s, n) float
+        Largest utilisation of a shard's connections; nan where it has none any more.
+    centres_m : (n, 3) float
+        Where the shards are, by which they are known in a scene.
+    """
+
+    times_s: np.ndarray
+    used: np.ndarray
+    centres_m: np.ndarray
+
+    @classmethod
+    def of_stages(cls, model: Model, stages: Sequence[Stage]) -> StageContours:
+        """Return the contours of the stages of a model."""
+        used = [used_by_shard(model, stage.standing.used) for stage in stages]
+        return cls(np.array([stage.time_s for stage in stages]), np.array(used), np.asarray(model.centres_m))
+
+    def __len__(self) -> int:
+        return len(self.times_s)
+
+    def show(self, stage: int, settings: ContourSettings) -> ContourFrame:
+        """Return the colours of a stage, from 1 on."""
+        values = self.used[stage - 1]
+        scale = fixed_scale(settings)
+        if settings.range_kind != RangeKind.FIXED:
+            of = values if settings.range_kind == RangeKind.FRAME else self.used
+            known = of[np.isfinite(of)]
+            scale = automatic_scale(settings, *percentiles(known, settings.percentile))
+        painted = colours(settings.colour_map, scale.shares(values))
+        return ContourFrame(stage, float(self.times_s[stage - 1]), values, scale, painted)
+
+
+def used_by_shard(model: Model, used: np.ndarray) -> np.ndarray:
+    """Return the largest utilisation (n,) of each shard's connections, of that of all connections (m,)."""
+    found = np.full(len(model.shards), np.nan)
+    for shards in model.connections.pairs.T:
+        there = shards >= 0  # the ground is no shard
+        np.fmax.at(found, shards[there], used[there])
+    return found

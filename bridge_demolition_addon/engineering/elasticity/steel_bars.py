@@ -1,0 +1,142 @@
+"""How reinforcing bars stretch: elastic up to their yield force, then with hardening, and elastic again when let go.
+
+The law is bilinear: EN 1992-1-1:2004, 3.2.7 (2) a. It is meant for bars that are pulled along their axis. Across a
+crack they are also pulled askew: their force then has the direction in which the sides of the crack have parted, and
+what stays of that follows the force (J. C. Simo and T. J. R. Hughes, 1998, Computational Inelasticity, chapter 1).
+
+All arrays have their components first and the bars last.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import ScenarioError
+from .joint_rows import dot_products
+
+MODULUS_PA = 200e9
+"""Modulus of elasticity of reinforcing steel: EN 1992-1-1:2004, 3.2.7 (4)."""
+
+YIELD_PA = 500e6
+HARDENING = 1.08
+RUPTURE_STRAIN = 0.05
+"""Reinforcing steel B500B where no other is given: EN 1992-1-1:2004, table C.1, class B, at least these."""
+
+
+@dataclass(frozen=True, slots=True)
+class Steel:
+    """How bars yield, harden and rupture, whatever their number and length.
+
+    Attributes
+    ----------
+    yield_pa : float
+        Yield strength, f_y.
+    hardening : float
+        Tensile strength over yield strength, f_t / f_y.
+    rupture_strain : float
+        Strain under the largest force, ε_u, at which they rupture.
+
+    Raises
+    ------
+    ScenarioError
+        They would rupture before they yield, or soften.
+    """
+
+    yield_pa: float = YIELD_PA
+    hardening: float = HARDENING
+    rupture_strain: float = RUPTURE_STRAIN
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.yield_pa) and self.yield_pa > 0.0):
+            raise ScenarioError(f"yield_pa of steel is {self.yield_pa}: expected a number above 0 (Pa)")
+        if not (np.isfinite(self.hardening) and self.hardening >= 1.0):
+            raise ScenarioError(f"hardening of steel is {self.hardening}: expected 1 or more")
+        if not self.rupture_strain > self.yield_strain:
+            raise ScenarioError(
+                f"rupture_strain of steel is {self.rupture_strain}: expected more than {self.yield_strain:.3g}, at "
+                "which it yields"
+            )
+
+    @property
+    def yield_strain(self) -> float:
+        """Strain at which it yields."""
+        return self.yield_pa / MODULUS_PA
+
+
+USUAL_STEEL = Steel()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bars:
+    """b bars across cracks.
+
+    Attributes
+    ----------
+    yield_n : (b,) float
+        Forces at which they yield.
+    stiffness_n_m : (b,) float
+        Of a bar by how far the crack opens.
+    modulus_n_m : (b,) float
+        By how much the yield force grows with the part of the opening that stays.
+    """
+
+    yield_n: np.ndarray
+    stiffness_n_m: np.ndarray
+    modulus_n_m: np.ndarray
+
+    @classmethod
+    def of(cls, yield_n: np.ndarray, steel: Steel, elongation_m: float) -> Bars:
+        """Return bars (b,) that rupture when a crack has opened so far."""
+        at_yield_m = elongation_m * steel.yield_strain / steel.rupture_strain
+        stiffness = yield_n / at_yield_m
+        slope = (steel.hardening - 1.0) * yield_n / (elongation_m - at_yield_m)
+        return cls(yield_n, stiffness, stiffness * slope / np.where(stiffness > 0.0, stiffness - slope, 1.0))
+
+    def __getitem__(self, which: np.ndarray) -> Bars:
+        return Bars(self.yield_n[which], self.stiffness_n_m[which], self.modulus_n_m[which])
+
+    def times(self, shares: np.ndarray) -> Bars:
+        """Return the bars with shares (b,) of their area."""
+        return Bars(shares * self.yield_n, shares * self.stiffness_n_m, shares * self.modulus_n_m)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BarAnswer:
+    """What b bars do when they are stretched.
+
+    Attributes
+    ----------
+    forces_n : (3, b) float
+        Along the stretch; they pull its ends together.
+    slips_m, flows_m : (3, b) float, (b,) float
+        What of the stretch stays, and how long the way is on which it came.
+    tangents_n_m : (3, 3, b) float
+        By how much the forces change with the stretch.
+    """
+
+    forces_n: np.ndarray
+    slips_m: np.ndarray
+    flows_m: np.ndarray
+    tangents_n_m: np.ndarray
+
+
+def stretched(bars: Bars, stretches_m: np.ndarray, slips_m: np.ndarray, flows_m: np.ndarray) -> BarAnswer:
+    """Return what bars do under stretches (3, b), of which slips (3, b) were there before, come on ways (b,)."""
+    trial = bars.stiffness_n_m * (stretches_m - slips_m)
+    size = np.sqrt(dot_products(trial, trial))
+    limit = bars.yield_n + bars.modulus_n_m * flows_m
+    resists = np.where(bars.stiffness_n_m > 0.0, bars.stiffness_n_m + bars.modulus_n_m, 1.0)
+    flow = np.maximum(size - limit, 0.0) / resists
+    yields = flow > 0.0
+    direction = np.divide(trial, size, out=np.zeros_like(trial), where=size > 0.0)
+    forces = np.where(yields, trial - bars.stiffness_n_m * flow * direction, trial)
+    share = np.where(
+        yields, np.divide(limit + bars.modulus_n_m * flow, size, out=np.ones_like(size), where=yields), 1.0
+    )
+    along = np.where(yields, bars.modulus_n_m / resists, 1.0)
+    across = bars.stiffness_n_m * share
+    tangents = (bars.stiffness_n_m * along - across) * (direction[:, None] * direction)
+    tangents[[0, 1, 2], [0, 1, 2]] += across
+    return BarAnswer(forces, slips_m + flow * direction, flows_m + flow, tangents)

@@ -1,0 +1,1 @@
+"""Soil under footings."""

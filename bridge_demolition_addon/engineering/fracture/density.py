@@ -1,0 +1,93 @@
+"""How closely the points lie around which a solid is cut: finer near places, or where it was painted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import GeometryError
+from ..geometry.vectors import distance
+
+_PAIRS_PER_BLOCK = 2_000_000
+"""Distances computed in one go; bounds the memory."""
+
+
+@dataclass(frozen=True, slots=True)
+class PointDensity:
+    """Relative density of points: `at` gives it (n,) for places (n, 3) in m; it is above 0 and at most `largest`."""
+
+    at: Callable[[np.ndarray], np.ndarray]
+    largest: float
+
+
+def density_around(places_m: np.ndarray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
+    """Density `factor` in each place, that falls evenly to 1 at its radius; where several reach, the largest counts.
+
+    Parameters
+    ----------
+    places_m : (k, 3) float
+    radii_m, factors : (k,) float
+        Radii above 0; factors of at least 1.
+    """
+    places = np.asarray(places_m, dtype=float).reshape(-1, 3)
+    radii, surplus = np.asarray(radii_m, dtype=float), np.asarray(factors, dtype=float) - 1.0
+
+    def at(points: np.ndarray) -> np.ndarray:
+        distances = distance(points[:, None], places)
+        return 1.0 + (surplus * np.maximum(0.0, 1.0 - distances / radii)).max(axis=1, initial=0.0)
+
+    return PointDensity(at, 1.0 + float(surplus.max(initial=0.0)))
+
+
+def densest(densities: Sequence[PointDensity]) -> PointDensity:
+    """The largest of one or more densities, everywhere."""
+    return PointDensity(
+        lambda points: np.max([each.at(points) for each in densities], axis=0),
+        max(each.largest for each in densities),
+    )
+
+
+def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) -> PointDensity:
+    """Density between 1, where nothing is painted, and `factor`, where the paint is full.
+
+    Between the painted points the weights are interpolated by inverse squared distances.
+
+    Parameters
+    ----------
+    points_m : (k, 3) float
+        Where the weights are known, such as a mesh's vertices.
+    weights : (k,) float
+        From 0 to 1.
+    factor : float
+        At least 1.
+
+    Raises
+    ------
+    GeometryError
+        There are no points, weights are not from 0 to 1, or the factor is below 1.
+
+    References
+    ----------
+    D. Shepard (1968), A two-dimensional interpolation function for irregularly-spaced data, Proc. 23rd ACM National
+    Conference, 517-524.
+    """
+    known, weights = np.asarray(points_m, dtype=float).reshape(-1, 3), np.asarray(weights, dtype=float)
+    if not len(known) or len(known) != len(weights):
+        raise GeometryError(f"{len(known)} painted points have {len(weights)} weights; give each point one.")
+    if not ((weights >= 0.0) & (weights <= 1.0)).all() or not factor >= 1.0:
+        raise GeometryError("Painted weights go from 0 to 1, and the factor of the density is at least 1.")
+
+    def at(points: np.ndarray) -> np.ndarray:
+        rows = max(1, _PAIRS_PER_BLOCK // len(known))
+        blocks = [_shepard(points[first : first + rows], known, weights) for first in range(0, len(points), rows)]
+        return 1.0 + (factor - 1.0) * np.concatenate([np.zeros(0), *blocks])
+
+    return PointDensity(at, factor)
+
+
+def _shepard(points: np.ndarray, known: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    # A place on a painted point takes its weight: the least distance keeps the division finite.
+    pull = 1.0 / np.square(np.maximum(distance(points[:, None], known), 1e-9))
+    return np.clip((pull * weights).sum(axis=1) / pull.sum(axis=1), 0.0, 1.0)

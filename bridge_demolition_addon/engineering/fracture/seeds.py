@@ -1,0 +1,122 @@
+"""Points drawn from a solid at random, evenly or by a density."""
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+from manifold3d import Manifold
+
+from ...errors import GeometryError
+from ..arithmetic import cube_root
+from ..geometry.mesh import TriangleMesh
+from ..geometry.solids import bodies, contains, from_manifold, to_manifold
+from ..geometry.vectors import dot
+from .density import PointDensity
+
+_MOST_MOVES = 20
+"""Tries to move a point without leaving the solid, before it stays: points in corners seldom need more."""
+
+_FILLED_ENOUGH = 0.3
+"""Part of its box that a part of the solid must fill before points are tried in the box without dicing it further."""
+
+
+def random_points(
+    solid: TriangleMesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
+) -> np.ndarray:
+    """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first.
+
+    Raises
+    ------
+    GeometryError
+        When there are fewer points than bodies.
+    """
+    if count < 1:
+        raise GeometryError(f"A solid cannot be cut into {count} shards; ask for at least one.")
+    whole = to_manifold(solid)
+    separate = bodies(whole)
+    if count < len(separate):
+        raise GeometryError(
+            f"The solid consists of {len(separate)} separate bodies and cannot be cut into {count} shards; ask for at "
+            f"least {len(separate)} or unite the bodies."
+        )
+    parts = [to_manifold(from_manifold(*shells)) for shells in separate] if len(separate) > 1 else []
+    drawn = _uniform if density is None else partial(_by_density, density=density)
+    firsts = [drawn(part, 1, generator) for part in parts]
+    return np.concatenate([*firsts, drawn(whole, count - len(firsts), generator)])
+
+
+def moved_points(solid: TriangleMesh, points: np.ndarray, reach_m: float, generator: np.random.Generator) -> np.ndarray:
+    """Points (n, 3) moved at random by up to `reach_m`, each as soon as a move does not lead out of the solid."""
+    moved, waiting = points.copy(), np.arange(len(points))
+    for _ in range(_MOST_MOVES):
+        distances = reach_m * cube_root(generator.random(len(waiting)))
+        tried = points[waiting] + distances[:, None] * _directions(len(waiting), generator)
+        inside = contains(solid, tried)
+        moved[waiting[inside]] = tried[inside]
+        waiting = waiting[~inside]
+        if not len(waiting):
+            break
+    return moved
+
+
+def _directions(count: int, generator: np.random.Generator) -> np.ndarray:
+    """Unit vectors (count, 3), all directions alike, from uniform numbers alone, which are exact on every processor.
+
+    References
+    ----------
+    G. Marsaglia (1972), Choosing a point from the surface of a sphere, Annals of Mathematical Statistics 43, 645-646.
+    """
+    found = np.zeros((0, 2))
+    while len(found) < count:
+        tried = generator.uniform(-1.0, 1.0, (2 * (count - len(found)), 2))
+        found = np.concatenate([found, tried[dot(tried, tried) < 1.0]])[:count]
+    squares = dot(found, found)
+    return np.column_stack((found * (2.0 * np.sqrt(1.0 - squares))[:, None], 1.0 - 2.0 * squares))
+
+
+def _by_density(solid: Manifold, count: int, generator: np.random.Generator, density: PointDensity) -> np.ndarray:
+    """Points (count, 3) by rejection: of evenly drawn ones as many stay as the density says."""
+    points = np.zeros((0, 3))
+    while len(points) < count:
+        tried = _uniform(solid, count - len(points), generator)
+        stays = generator.random(len(tried)) * density.largest < density.at(tried)
+        points = np.concatenate([points, tried[stays]])
+    return points
+
+
+def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
+    """Points (count, 3) in the solid, which is diced first, so that few of the points tried fall beside it."""
+    # Halved so often at most, there are not many more dice than points.
+    dice = _diced(solid, int(count).bit_length())
+    counts = [count] if len(dice) == 1 else _shared_out(count, [part.volume() for part in dice], generator)
+    return np.concatenate([_uniform_by_trial(part, some, generator) for part, some in zip(dice, counts, strict=True)])
+
+
+def _shared_out(count: int, volumes: Sequence[float], generator: np.random.Generator) -> np.ndarray:
+    """How many of some points (k,) fall into each part, at random by volume.
+
+    The generator's own multinomial numbers come from logarithms that differ by processor.
+    """
+    ends = np.cumsum(volumes)
+    return np.bincount(np.searchsorted(ends, generator.random(count) * ends[-1], side="right"), minlength=len(ends))
+
+
+def _diced(solid: Manifold, depth: int) -> list[Manifold]:
+    box = np.reshape(solid.bounding_box(), (2, 3))
+    size = box[1] - box[0]
+    if depth == 0 or solid.volume() > _FILLED_ENOUGH * size.prod():
+        return [solid]
+    axis = int(np.argmax(size))
+    halves = solid.split_by_plane(np.eye(3)[axis].tolist(), float(box[:, axis].mean()))
+    return [part for half in halves if half.volume() > 0 for part in _diced(half, depth - 1)]
+
+
+def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
+    lower, upper = np.reshape(solid.bounding_box(), (2, 3))
+    mesh = from_manifold(solid)
+    points = np.zeros((0, 3))
+    while len(points) < count:
+        tries = int((count - len(points)) * (upper - lower).prod() / solid.volume()) + 1
+        candidates = lower + generator.random((tries, 3)) * (upper - lower)
+        points = np.concatenate([points, candidates[contains(mesh, candidates)]])
+    return points[:count]

@@ -1,0 +1,221 @@
+"""Meshes of any origin made into solids that can be cut, where that leaves no doubt about what was meant."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import triangulate
+
+from ...errors import GeometryError
+from .mesh import TriangleMesh
+from .seams import loops_of_open_edges, welded, without_slivers
+from .self_intersection import first_crossing
+from .solids import (
+    OVERLAP_TOLERANCE,
+    SMALLEST_VOLUME,
+    bodies,
+    checked_solid,
+    contains,
+    from_manifold,
+    to_manifold,
+    union,
+)
+from .vectors import dot, length, unit
+
+WELDING_TOLERANCE = 1e-6
+"""Part of the mesh's longest extent within which corners on open edges are one: single precision keeps seven digits."""
+
+FLATNESS_TOLERANCE = 1e-3
+"""Part of a hole's extent by which its rim may leave a plane and the hole still be closed by it."""
+
+_SLIT_TOLERANCE = 1e-12
+"""Part of the square of a hole's extent below which its area is rounding, and its rim lies along a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repaired:
+    """A solid that can be cut, and what was done to the mesh for it, in words; nothing for a sound mesh."""
+
+    solid: TriangleMesh
+    repairs: tuple[str, ...]
+
+
+def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
+    """The mesh as a solid: corners merged, plane holes closed, faces turned outwards, overlapping bodies united.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Of any origin.
+    name : str
+        What the user calls it; the error messages begin with it.
+
+    Raises
+    ------
+    GeometryError
+        It encloses no volume, has a hole that is not plane, edges with more than two faces that cannot be told apart,
+        or a body that crosses itself.
+    """
+    if not len(mesh.triangles):
+        raise GeometryError(f"{name}: has no faces; give it a closed surface.")
+    if not np.isfinite(mesh.vertices).all():
+        raise GeometryError(f"{name}: has vertices that are not finite numbers; delete or move them.")
+    repairs: list[str] = []
+    vertices, triangles = _merged(mesh)
+    triangles = _without_doubles(triangles, repairs)
+    triangles = _welded(vertices, triangles, repairs)
+    triangles = _wound_alike(vertices, triangles, repairs)
+    triangles = _closed(vertices, triangles, repairs, name)
+    whole = TriangleMesh(vertices, triangles)
+    if not len(triangles) or abs(whole.volume) <= SMALLEST_VOLUME * whole.cube_volume:
+        raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
+    solid = _united(whole, repairs, name)
+    crossing = first_crossing(solid.corners)
+    if crossing is not None:
+        place = ", ".join(f"{coordinate:.4g}" for coordinate in crossing)
+        raise GeometryError(
+            f"{name}: its surface crosses itself near ({place}) m, and it cannot be told what is inside; model it as "
+            "separate closed bodies, which are united."
+        )
+    return Repaired(checked_solid(solid, name), tuple(repairs))
+
+
+def _merged(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices at exactly the same place as one, which is no repair: STL has no shared vertices."""
+    unique, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    return unique, index.ravel()[mesh.triangles]
+
+
+def _without_doubles(triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
+    """Without triangles that have a corner twice, and with one of each set of equal ones; opposite ones cancel."""
+    kept = without_slivers(triangles)
+    _, first, group = np.unique(np.sort(kept, axis=1), axis=0, return_index=True, return_inverse=True)
+    net = np.bincount(group.ravel(), weights=_parity(kept))
+    chosen = np.sort(first[net != 0])
+    if dropped := len(kept) - len(chosen):
+        repairs.append(f"dropped {dropped} doubled faces")
+    return kept[chosen]
+
+
+def _parity(triangles: np.ndarray) -> np.ndarray:
+    """1 for triangles that walk their corners in rising order, -1 for the other way round, (t,)."""
+    a, b, c = triangles.T
+    return np.where((a < b).astype(int) + (b < c) + (c < a) == 2, 1, -1)
+
+
+def _welded(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
+    rim = np.unique(_edges_of_one_face(triangles))
+    if not len(rim):
+        return triangles
+    tolerance = WELDING_TOLERANCE * np.ptp(vertices, axis=0).max()
+    one = welded(vertices, rim, tolerance)
+    if merged := int((one != np.arange(len(vertices))).sum()):
+        repairs.append(f"merged {merged} doubled vertices")
+    return without_slivers(one[triangles])
+
+
+def _edges_of_one_face(triangles: np.ndarray) -> np.ndarray:
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    unique, counts = np.unique(edges, axis=0, return_counts=True)
+    return unique[counts == 1]
+
+
+def _wound_alike(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
+    """Triangles turned so that neighbours agree; surfaces that had to be turned look outwards, cavities inwards."""
+    part, flipped = _agreement(triangles)
+    uneven = [index for index in range(part.max(initial=-1) + 1) if len(set(flipped[part == index].tolist())) > 1]
+    if not uneven:
+        return triangles
+    result = np.where(flipped[:, None], triangles[:, ::-1], triangles)
+    result[~np.isin(part, uneven)] = triangles[~np.isin(part, uneven)]
+    surfaces = {index: TriangleMesh(vertices, result[part == index]) for index in range(part.max() + 1)}
+    for index in uneven:
+        corner = vertices[result[part == index][:1, 0]]
+        depth = sum(_encloses(other, corner) for number, other in surfaces.items() if number != index)
+        if (surfaces[index].volume < 0) != (depth % 2 == 1):
+            result[part == index] = result[part == index][:, ::-1]
+    turned = int((result != triangles).any(axis=1).sum())
+    repairs.append(f"turned {turned} faces")
+    return result
+
+
+def _encloses(surface: TriangleMesh, corner: np.ndarray) -> bool:
+    return bool(contains(surface, corner)[0] or contains(surface.flipped(), corner)[0])
+
+
+def _agreement(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Part (t,) of each triangle, connected over edges of two faces, and whether it is turned against its first."""
+    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    forwards = edges[:, 0] < edges[:, 1]
+    _, edge, counts = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
+    order = np.argsort(edge.ravel(), kind="stable")
+    pairs = order[np.repeat(counts == 2, counts)].reshape(-1, 2)
+    neighbours: list[list[tuple[int, bool]]] = [[] for _ in triangles]
+    for one, other in pairs.tolist():
+        against = bool(forwards[one] == forwards[other])
+        neighbours[one // 3].append((other // 3, against))
+        neighbours[other // 3].append((one // 3, against))
+    part, flipped = np.full(len(triangles), -1), np.zeros(len(triangles), dtype=bool)
+    for start in range(len(triangles)):
+        if part[start] >= 0:
+            continue
+        part[start] = part.max() + 1
+        waiting = deque([start])
+        while waiting:
+            here = waiting.popleft()
+            for there, against in neighbours[here]:
+                if part[there] < 0:
+                    part[there], flipped[there] = part[start], flipped[here] ^ against
+                    waiting.append(there)
+    return part, flipped
+
+
+def _closed(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str], name: str) -> np.ndarray:
+    holes = loops_of_open_edges(vertices, triangles)
+    if not holes:
+        return triangles
+    lids = [_lid(vertices, np.array(hole), name) for hole in holes]
+    repairs.append(f"closed {len(holes)} hole{'s' if len(holes) > 1 else ''}")
+    return np.concatenate([triangles, *lids])
+
+
+def _lid(vertices: np.ndarray, rim: np.ndarray, name: str) -> np.ndarray:
+    """Triangles (t, 3) that close a hole with this rim (r,), which surrounding faces walk in this order."""
+    if len(rim) < 3:
+        raise GeometryError(f"{name}: not closed, an edge has faces that do not belong together; rebuild it there.")
+    corners = vertices[rim]
+    middle, extent = corners.mean(axis=0), np.ptp(corners, axis=0).max()
+    normal = _normal(corners - middle, extent)
+    if len(rim) > 3 and np.abs(dot(corners - middle, normal)).max() > FLATNESS_TOLERANCE * extent:
+        raise GeometryError(
+            f"{name}: not closed, the hole with {len(rim)} edges around {np.round(middle, 3).tolist()} m is not plane; "
+            "close it in the program that it was made with."
+        )
+    arms = corners - corners[0]
+    arms = arms - dot(arms, normal)[:, None] * normal
+    along = unit(arms[np.argmax(dot(arms, arms))])
+    flat = np.column_stack((dot(arms, along), dot(arms, np.cross(normal, along))))
+    # About its own normal the rim runs anticlockwise, as the triangulation wants it; the lid walks it the other way.
+    return rim[np.asarray(triangulate([flat]), dtype=np.int64).reshape(-1, 3)[:, ::-1]]
+
+
+def _normal(arms: np.ndarray, extent: float) -> np.ndarray:
+    """Unit normal (3,) of a closed loop of corners (r, 3), by Newell; 0 where it encloses no area."""
+    areas = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
+    return unit(areas) if length(areas) > _SLIT_TOLERANCE * extent * extent else np.zeros(3)
+
+
+def _united(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:
+    """Bodies of the mesh as one solid without overlap; those that are inside out as a whole are turned."""
+    if mesh.volume < 0:
+        mesh = mesh.flipped()
+    separate = [from_manifold(*shells) for shells in bodies(to_manifold(mesh, name), name=name)]
+    if len(separate) < 2:
+        return mesh
+    whole = union(separate)
+    if whole.volume >= sum(each.volume for each in separate) * (1.0 - OVERLAP_TOLERANCE):
+        return mesh
+    repairs.append(f"united {len(separate)} overlapping bodies")
+    return whole

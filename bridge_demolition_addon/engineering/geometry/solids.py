@@ -1,0 +1,286 @@
+"""Solids: closed triangle meshes, checked on the way in and handed to the boolean engine in double precision."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from manifold3d import Error, Manifold, Mesh64, OpType
+
+from ...errors import GeometryError
+from ..arithmetic import arctangent
+from .mesh import TriangleMesh, joined_meshes
+from .vectors import dot, length
+
+OVERLAP_TOLERANCE = 1e-9
+"""Part of a solid's volume that its bodies may have in common before they count as overlapping."""
+
+SMALLEST_VOLUME = 1e-14
+"""Part of the cube of its longest extent that a mesh has to enclose: rounding alone gives a flat one some 1e-16."""
+
+_THINNEST_M = 1e-4
+"""Mean thickness below which a body is a film that rounding left: in single precision, in which Blender and most files
+hold coordinates, it makes 0.06 mm at a kilometre from the origin."""
+
+_PAIRS_PER_BLOCK = 200_000
+"""Point-triangle pairs that `contains` looks at in one go; bounds its memory to some tens of megabytes."""
+
+_BOX_CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+_BOX_QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+_BOX_TRIANGLES = _BOX_QUADS[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
+
+
+def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) -> TriangleMesh:
+    """An axis-parallel box.
+
+    Parameters
+    ----------
+    size_m : (3,) float
+        Edge lengths along x, y and z.
+    centre_m : (3,) float
+        Where its centre is.
+
+    Raises
+    ------
+    GeometryError
+        When an edge length is not a positive number.
+    """
+    size, centre = np.asarray(size_m, dtype=float), np.asarray(centre_m, dtype=float)
+    if not (np.isfinite(size).all() and np.isfinite(centre).all() and (size > 0).all()):
+        raise GeometryError(
+            f"A box needs three positive edge lengths and a finite centre, not {size.tolist()} at {centre.tolist()}."
+        )
+    return TriangleMesh(_BOX_CORNERS * size + centre, _BOX_TRIANGLES)
+
+
+def sphere(radius_m: float, segments: int) -> TriangleMesh:
+    """A sphere around the origin, of triangles with corners on it; a great circle has that many, a multiple of 4."""
+    return from_manifold(Manifold.sphere(radius_m, segments))
+
+
+def cylinder(radius_m: float, height_m: float, sides: int) -> TriangleMesh:
+    """An upright prism with corners on a circle, which stands on the origin."""
+    return from_manifold(Manifold.cylinder(height_m, radius_m, radius_m, sides))
+
+
+def union(solids: Sequence[TriangleMesh]) -> TriangleMesh:
+    """What is inside at least one of the solids, as one solid.
+
+    Raises
+    ------
+    GeometryError
+        When there is nothing to unite or one of the solids is not closed.
+    """
+    if not len(solids):
+        raise GeometryError("There are no solids to unite; give at least one.")
+    operands = [to_manifold(each, f"solid {index + 1} of {len(solids)}") for index, each in enumerate(solids)]
+    return from_manifold(Manifold.batch_boolean(operands, OpType.Add))
+
+
+def difference(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
+    """What is inside the solid and inside none of the others; without faces where nothing is.
+
+    Raises
+    ------
+    GeometryError
+        When one of them is not closed.
+    """
+    operands = [to_manifold(each) for each in (solid, *others)]
+    return from_manifold(Manifold.batch_boolean(operands, OpType.Subtract))
+
+
+def checked_solid(mesh: TriangleMesh, name: str) -> TriangleMesh:
+    """The mesh as a solid that can be cut, turned outside-out where all its faces look inwards.
+
+    Surfaces that cross themselves within one body are not found: the boolean engine cannot tell them from sound ones.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Of any origin.
+    name : str
+        What the user calls it; the error messages begin with it.
+
+    Returns
+    -------
+    TriangleMesh
+        Closed, consistently wound, of positive volume.
+
+    Raises
+    ------
+    GeometryError
+        When it has no faces, is not finite, is not closed, is wound inconsistently or has no volume, or when its bodies
+        overlap, are inside out or thinner than anything that is built.
+    """
+    _check_surface(mesh, name)
+    if mesh.volume < 0.0:
+        mesh = mesh.flipped()
+    if mesh.volume <= SMALLEST_VOLUME * mesh.cube_volume:
+        raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
+    found = bodies(to_manifold(mesh, name), name=name)
+    if any(map(is_film, found)):
+        which = "is" if len(found) == 1 else "one of its bodies is"
+        raise GeometryError(
+            f"{name}: {which} thinner than {1e3 * _THINNEST_M:g} mm; give it a thickness, in metres, or delete it."
+        )
+    _check_bodies(found, name)
+    return mesh
+
+
+def to_manifold(
+    mesh: TriangleMesh, name: str = "The solid", original: int | None = None, face_ids: np.ndarray | None = None
+) -> Manifold:
+    """The mesh in the boolean engine, in double precision.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Closed.
+    name : str
+        What the error message begins with.
+    original : int, optional
+        Number, reserved in the engine, by which triangles that stem from this mesh can be known in what is made of it.
+    face_ids : (t,) int, optional
+        Numbers that its triangles keep with it.
+
+    Raises
+    ------
+    GeometryError
+        When the engine refuses it, which it does unless every edge has exactly two, oppositely wound, faces.
+    """
+    marks = {}
+    if original is not None:
+        marks = {
+            "run_index": np.array([0, mesh.triangles.size], dtype=np.uint64),
+            "run_original_id": np.array([original], dtype=np.uint32),
+            "face_id": face_ids.astype(np.uint64),
+        }
+    # Mesh64, because the engine's plain Mesh is single precision and loses volumes in the seventh digit.
+    vertices = np.array(mesh.vertices, dtype=np.float64, order="C")
+    manifold = Manifold(Mesh64(vertices, np.array(mesh.triangles, dtype=np.uint64, order="C"), **marks))
+    if manifold.status() != Error.NoError:
+        raise GeometryError(
+            f"{name}: not a closed solid for the boolean engine ({manifold.status().name}); close its holes and give "
+            "every edge exactly two faces."
+        )
+    return manifold
+
+
+def from_manifold(*shells: Manifold) -> TriangleMesh:
+    """The engine's shells as one mesh."""
+    meshes = [shell.to_mesh64() for shell in shells]
+    return joined_meshes(
+        [TriangleMesh(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)) for mesh in meshes]
+    )
+
+
+def hull(points: np.ndarray) -> Manifold:
+    """Convex hull of points (n, 3); without volume where all lie in one plane."""
+    return Manifold.hull_points(np.ascontiguousarray(points, dtype=float))
+
+
+def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The solid") -> list[list[Manifold]]:
+    """The separate bodies of a solid, each as its outer shell followed by the cavities inside it.
+
+    Parameters
+    ----------
+    manifold : Manifold
+    smallest_volume : float
+        Shells that enclose no more than this, in m³, are left out, unless there is only one.
+    name : str
+        What the user calls the solid.
+
+    Raises
+    ------
+    GeometryError
+        When an inside-out shell lies in no body, and so is no cavity.
+    """
+    shells = manifold.decompose()
+    if len(shells) <= 1:
+        return [shells] if shells else []
+    volumes = np.array([shell.volume() for shell in shells])
+    outer = np.flatnonzero(volumes > smallest_volume)
+    outer_meshes = [from_manifold(shells[index]) for index in outer]
+    found = [[shells[index]] for index in outer]
+    for cavity in np.flatnonzero(volumes < -smallest_volume):
+        found[_enclosing(shells[cavity], outer_meshes, volumes[outer], name)].append(shells[cavity])
+    return found
+
+
+def is_film(shells: Sequence[Manifold]) -> bool:
+    """Whether a body, given as its outer shell and cavities, is nowhere near as thick as anything that is built."""
+    volume, area = sum(shell.volume() for shell in shells), sum(shell.surface_area() for shell in shells)
+    return 2.0 * volume < _THINNEST_M * area
+
+
+def contains(mesh: TriangleMesh, points: np.ndarray) -> np.ndarray:
+    """Which points lie inside a closed mesh, by its winding number around each.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Closed; concave, holed and hollow are fine. A point on the surface may go either way.
+    points : (n, 3) float
+
+    Returns
+    -------
+    (n,) bool
+
+    References
+    ----------
+    A. van Oosterom, J. Strackee (1983), The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 125-126.
+    """
+    corners = mesh.corners
+    points = np.asarray(points, dtype=float).reshape(-1, 3)
+    rows = max(1, _PAIRS_PER_BLOCK // max(1, len(corners)))
+    blocks = [_winding_numbers(corners, points[first : first + rows]) for first in range(0, len(points), rows)]
+    return np.concatenate(blocks) > 0.5 if blocks else np.zeros(0, dtype=bool)
+
+
+def _check_surface(mesh: TriangleMesh, name: str) -> None:
+    triangles = mesh.triangles
+    if not len(triangles):
+        raise GeometryError(f"{name}: has no faces; give it a closed surface.")
+    if not np.isfinite(mesh.vertices).all():
+        raise GeometryError(f"{name}: has vertices that are not finite numbers; delete or move them.")
+    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    _, faces_of_edge = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    if (faces_of_edge == 1).any():
+        raise GeometryError(
+            f"{name}: not closed, {int((faces_of_edge == 1).sum())} edges have a face on one side only; fill the holes "
+            "and merge doubled vertices."
+        )
+    if (faces_of_edge % 2 == 1).any():
+        raise GeometryError(f"{name}: not closed, some edges have an odd number of faces; delete the inner faces.")
+    # Sound where every edge is walked as often one way as the other.
+    code = np.where(edges[:, 0] < edges[:, 1], 1, -1)
+    _, edge = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
+    if np.bincount(edge.ravel(), weights=code).any():
+        raise GeometryError(
+            f"{name}: some faces look inwards and some outwards; recalculate the normals to the outside."
+        )
+
+
+def _check_bodies(found: list[list[Manifold]], name: str) -> None:
+    if len(found) < 2:
+        return
+    separate = [to_manifold(from_manifold(*shells), name) for shells in found]
+    total = sum(body.volume() for body in separate)
+    if Manifold.batch_boolean(separate, OpType.Add).volume() < total * (1 - OVERLAP_TOLERANCE):
+        raise GeometryError(f"{name}: its {len(found)} separate bodies overlap; unite them into one first.")
+
+
+def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: np.ndarray, name: str) -> int:
+    """Index of the smallest of the meshes that the cavity lies in."""
+    corner = cavity.to_mesh64().vert_properties[:1, :3]
+    around = [index for index, mesh in enumerate(outer_meshes) if contains(mesh, corner)[0]]
+    if not around:
+        raise GeometryError(f"{name}: one of its bodies is inside out; recalculate the normals to the outside.")
+    return min(around, key=lambda index: volumes[index])
+
+
+def _winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """How often triangles (t, 3, 3) wind around each of the points (n, 3): 1 inside, 0 outside."""
+    a, b, c = (corners[None, :, index] - points[:, None] for index in range(3))
+    length_a, length_b, length_c = length(a), length(b), length(c)
+    numerator = dot(a, np.cross(b, c))
+    denominator = length_a * length_b * length_c + dot(a, b) * length_c + dot(b, c) * length_a + dot(c, a) * length_b
+    return arctangent(numerator, denominator).sum(axis=1) / (2.0 * np.pi)

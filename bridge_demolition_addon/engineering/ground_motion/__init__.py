@@ -1,0 +1,1 @@
+"""Records of ground motion."""

@@ -1,0 +1,199 @@
+"""Which connections bear more than their strength: judged face by face, and with the sections that they are part of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry.vectors import length
+from .member_sections import MemberSections
+from .section_cuts import SectionCuts, worst_around
+from .section_forces import SectionForces, section_forces
+from .strength import Strength, largest_utilisations, rectangular_sections, sections_at, strength_at, utilisation
+
+_SINGLE_PRECISION = 1e-6
+
+_MOST_REDISTRIBUTED = 3.0
+"""By how much the stress in an elastic face may exceed its strength as long as its section bears the load.
+
+A section evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
+further has torn, whatever the faces beside it bear. Rigid connections share a load by chance: only the cut counts.
+"""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ConnectionLoads:
+    """Loads of m connections at one moment, in the axes of the world.
+
+    Attributes
+    ----------
+    forces_n, moments_nm, points_m : (m, 3) float
+        On the first body of each connection, about its own point, which is also given.
+    """
+
+    forces_n: np.ndarray
+    moments_nm: np.ndarray
+    points_m: np.ndarray
+
+    def in_sections(self, rows: np.ndarray, axes: np.ndarray) -> SectionForces:
+        """Loads of some connections (r,) in the axes (r, 3, 3) of their sections."""
+        return section_forces(axes, self.forces_n[rows], self.moments_nm[rows])
+
+
+class Overloads:
+    """Judges m connections by the strength of their material.
+
+    Parameters
+    ----------
+    pairs, normals, areas_m2, second_moments_m4 : (m, 2) int, (m, 3), (m,), (m, 2, 2) float
+        Connected bodies, unit vectors from the first to the second, and the faces, each in its own axes.
+    moves : (n,) bool
+        Whether each body moves.
+    strength : Strength
+        For all, or for each of them.
+    member_sections : MemberSections or None
+        The sections that elastic connections are judged by. Rigid ones, which share loads by chance, are judged by cuts
+        through single shards, and so are elastic ones whose section clips an edge of a member.
+    """
+
+    def __init__(
+        self,
+        pairs: np.ndarray,
+        normals: np.ndarray,
+        areas_m2: np.ndarray,
+        second_moments_m4: np.ndarray,
+        moves: np.ndarray,
+        strength: Strength,
+        member_sections: MemberSections | None,
+    ):
+        self._pairs, self._moves, self._strength = pairs, moves, strength
+        self._areas, self._second_moments = areas_m2, second_moments_m4
+        self._member_sections = member_sections
+        self._sections = rectangular_sections(areas_m2, second_moments_m4)
+        self._largest_utilisations = largest_utilisations(self._sections, strength)
+        self._cuts = SectionCuts.between(pairs, normals, areas_m2, moves)
+
+    def possible(self, loads: np.ndarray, lever_arms_m: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
+
+        Parameters
+        ----------
+        loads : (6, m) float
+            Forces, and moments about other points than those of the connections.
+        lever_arms_m : (m,) float
+            How far away these are.
+        left : (m,) float
+            What is left of the strength of each.
+        """
+        by_force, by_moment = self._largest_utilisations
+        force, torque = length(loads[:3].T), length(loads[3:].T)
+        most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
+        return np.flatnonzero(most * (1.0 + _SINGLE_PRECISION) > left)
+
+    def among(
+        self,
+        rows: np.ndarray,
+        loads: ConnectionLoads,
+        axes: np.ndarray,
+        intact: np.ndarray,
+        left: np.ndarray,
+        parts: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return which connections (k,) break: overloaded alone and in their sections, and each the worst around.
+
+        When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
+
+        Parameters
+        ----------
+        rows : (r,) int
+            Intact connections.
+        loads : ConnectionLoads
+            Of all.
+        axes : (r, 3, 3) float
+            Of the sections of these connections.
+        intact, left : (m,) bool, (m,) float
+            What still holds, and what is left of the strength of each.
+        parts : (m,) int, optional
+            What elastic connections hold together.
+        """
+        rows, used = self.overloaded(rows, loads, axes, intact, left, parts)
+        return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
+
+    def overloaded(
+        self,
+        rows: np.ndarray,
+        loads: ConnectionLoads,
+        axes: np.ndarray,
+        intact: np.ndarray,
+        left: np.ndarray,
+        parts: np.ndarray | None = None,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return which connections (k,) are overloaded alone and in their sections, and their utilisations (k,).
+
+        Parameters are those of `among`.
+        """
+        alone = self.alone(rows, loads, axes, left)
+        is_over = alone > 1.0
+        rows, alone, axes = rows[is_over], alone[is_over], axes[is_over]
+        if not len(rows):
+            return rows, alone
+        used = self.together(rows, alone, loads, axes, intact, left, parts)
+        return rows[used > 1.0], used[used > 1.0]
+
+    def alone(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """Utilisations (r,) of some connections, each by itself; parameters are those of `among`."""
+        return self.of_forces(rows, loads.in_sections(rows, axes)) / left[rows]
+
+    def of_forces(self, rows: np.ndarray, forces: SectionForces) -> np.ndarray:
+        """Utilisations (r,), of whole strengths, of some connections by forces in their axes."""
+        return utilisation(forces, sections_at(self._sections, rows), strength_at(self._strength, rows))
+
+    def together(
+        self,
+        rows: np.ndarray,
+        alone: np.ndarray,
+        loads: ConnectionLoads,
+        axes: np.ndarray,
+        intact: np.ndarray,
+        left: np.ndarray,
+        parts: np.ndarray | None,
+    ) -> np.ndarray:
+        """Utilisations (r,) of the sections of some connections, whose own (r,) are known.
+
+        Parameters are those of `among`.
+        """
+        if self._member_sections is None:
+            return self._in_cuts(rows, loads, axes, intact) / left[rows]
+        used = self._in_members(rows, loads, axes, intact, parts) / left[rows]
+        return np.maximum(used, alone / _MOST_REDISTRIBUTED)
+
+    def _in_cuts(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, intact: np.ndarray) -> np.ndarray:
+        """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
+        cut_loads, areas, second_moments = self._cuts.sections(
+            rows, intact, loads.forces_n, loads.moments_nm, loads.points_m, axes, self._areas, self._second_moments
+        )
+        of_both_cuts = strength_at(self._strength, np.concatenate((rows, rows)))
+        used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
+        return used.reshape(2, -1).mean(axis=0)
+
+    def _in_members(
+        self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, intact: np.ndarray, parts: np.ndarray
+    ) -> np.ndarray:
+        """Utilisations (r,), of whole strengths, of the sections of some connections."""
+        whole = self._member_sections.are_whole(rows)
+        used = np.empty(len(rows))
+        if whole.any():
+            of_sections, areas, second_moments = self._member_sections.sections(
+                rows[whole],
+                np.where(intact, parts, -1),
+                loads.forces_n,
+                loads.moments_nm,
+                loads.points_m,
+                axes[whole],
+            )
+            sections = rectangular_sections(areas, second_moments)
+            used[whole] = utilisation(of_sections, sections, strength_at(self._strength, rows[whole]))
+        if not whole.all():
+            used[~whole] = self._in_cuts(rows[~whole], loads, axes[~whole], intact)
+        return used

@@ -1,0 +1,234 @@
+"""When a connection breaks: strengths by area, so that it does not matter how finely a bridge is cut.
+
+A connection stands for the section it was cut with. Its axial force, shear, torsion and bending give stresses in that
+section, and these are compared with the strengths of the material together. What breaks may go on as a ductile
+connection, such as the reinforcement across a crack, until it has opened too far.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ...errors import ScenarioError
+from ..geometry.vectors import length, symmetric_eigenvectors_2d, transformed_back
+from .section_forces import SectionForces
+
+NEWTON_PER_SQUARE_MILLIMETRE = 1e6
+"""1 N/mm² in Pa."""
+
+_ROUNDING = 1e-9
+"""Part by which principal second moments of a square may differ that was cut from a mesh."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Strength:
+    """Stresses at which a material breaks, each a positive number, or an array (m,) with one for every connection.
+
+    Attributes
+    ----------
+    compression_pa, tension_pa : float or (m,) float
+        Axial force by area.
+    shear_pa : float or (m,) float
+        Shear force by area: the mean over the section, which codes of practice give their shear strengths for.
+    torsion_pa : float or (m,) float
+        Torsional moment by torsion modulus: the shear stress at the edge of an uncracked section.
+    bending_pa : float or (m,) float
+        Bending moment by elastic section modulus: the stress that an uncracked section would have at its edge.
+
+    Raises
+    ------
+    ScenarioError
+        A strength is not a positive number.
+    """
+
+    compression_pa: float | np.ndarray
+    tension_pa: float | np.ndarray
+    shear_pa: float | np.ndarray
+    torsion_pa: float | np.ndarray
+    bending_pa: float | np.ndarray
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if not np.all((np.asarray(value) > 0.0) & np.isfinite(value)):
+                raise ScenarioError(f"{each.name} of a strength is {value}: expected a positive number")
+
+    @classmethod
+    def in_n_mm2(cls, compression: float, tension: float, shear: float, torsion: float, bending: float) -> Strength:
+        """Strength from numbers in N/mm²."""
+        return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * each for each in (compression, tension, shear, torsion, bending)))
+
+    def times(self, factor: float) -> Strength:
+        """All strengths times a factor above 0; with a factor of 1 the same object."""
+        return self if factor == 1.0 else Strength(*(factor * getattr(self, each.name) for each in fields(self)))
+
+
+MATERIALS = {
+    "concrete": Strength.in_n_mm2(compression=35.0, tension=3.5, shear=0.9, torsion=3.5, bending=3.5),
+    "reinforced concrete column": Strength.in_n_mm2(
+        compression=35.0, tension=5.2, shear=1.55, torsion=5.2, bending=12.6
+    ),
+    "reinforced concrete slab": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, torsion=5.2, bending=12.6),
+    "reinforced concrete wall": Strength.in_n_mm2(compression=35.0, tension=5.2, shear=0.9, torsion=5.2, bending=12.6),
+    "masonry": Strength.in_n_mm2(compression=10.0, tension=0.2, shear=0.5, torsion=0.2, bending=0.1),
+    "steel": Strength.in_n_mm2(compression=235.0, tension=235.0, shear=135.7, torsion=135.7, bending=235.0),
+}
+"""Strengths to start from where none were measured.
+
+Compression, tension and shear of concrete and masonry are those of the Bullet Constraints Builder 3.6.5 (K. Kostack).
+Torsion, for which it has none, is tension: a section that is twisted cracks where its shear stress, which in pure shear
+is the principal tensile stress, gets to the tensile strength (EN 1992-1-1:2004, 6.3.2 (5)).
+Two of its numbers are not stresses in N/mm² and are not taken as such:
+
+- It gives bending as moment by area, in N·m/mm², which is a stress for one depth of section only. Here, plain concrete
+  bends as it is pulled, the lower bound of EN 1992-1-1:2004, equation 3.23. Reinforced concrete has its yield moment:
+  with half of the steel at each edge, M / W = 3 × steel ratio × yield stress × lever arm / depth, which is
+  3 × 0.0105 × 500 × 0.8 for the same bars that give the 5.2 N/mm² of tension. Masonry has the flexural strength of
+  EN 1996-1-1:2005, 3.6.4, of clay units in general-purpose mortar along the bed joints.
+- Its shear of columns, 155, takes the ratio of links in per cent for a plain number. Here it is a hundredth of that:
+  two legs of 6 mm every 100 mm in its section of 150 mm × 250 mm carry 1.53 N/mm² by EN 1992-1-1:2004, equation 6.8,
+  with struts at 45°.
+
+Steel is S235 up to 40 mm thick, at yield: EN 1993-1-1:2005, table 3.1; in shear 1/√3 of it, equation 6.18.
+"""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sections:
+    """What resists in m sections; nan throughout for a section without an area.
+
+    Attributes
+    ----------
+    areas_m2 : (m,) float
+        Area.
+    directions : (m, 2, 2) float
+        The principal axes of bending are its columns, in the section's y and z.
+    bending_moduli_m3, torsion_moduli_m3 : (m, 2), (m,) float
+        Elastic moduli about these axes, and for torsion: moment by stress at the edge.
+    """
+
+    areas_m2: np.ndarray
+    directions: np.ndarray
+    bending_moduli_m3: np.ndarray
+    torsion_moduli_m3: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Ductility:
+    """What holds on after a connection broke; numbers, or arrays (m,) with one for every connection.
+
+    Attributes
+    ----------
+    strength_share : float or (m,) float
+        Part of the strength that is left, from 0, nothing, to 1.
+    elongation_m : float or (m,) float
+        How far the two sides of the crack may part before it lets go. It is a length and not a share of one: the
+        distance between two shards depends on how finely the bridge is cut, the width of a crack does not.
+
+    Raises
+    ------
+    ScenarioError
+        The share is not between 0 and 1, or the elongation is negative or not a number.
+    """
+
+    strength_share: float | np.ndarray
+    elongation_m: float | np.ndarray
+
+    def __post_init__(self) -> None:
+        share, elongation = np.asarray(self.strength_share), np.asarray(self.elongation_m)
+        if not np.all((share >= 0.0) & (share <= 1.0)):
+            raise ScenarioError(f"strength_share of a ductility is {self.strength_share}: expected 0 to 1")
+        if not np.all(elongation >= 0.0):
+            raise ScenarioError(f"elongation_m of a ductility is {self.elongation_m}: expected 0 or more")
+
+
+def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Sections:
+    """Sections with known second moments of area, as the rectangles that have the same.
+
+    The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
+    area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned, but for squares,
+    whose second moments do not say it: these lie along the section's axes.
+
+    Parameters
+    ----------
+    areas : (m,) float
+        In m².
+    second_moments : (m, 2, 2) float
+        About the section's y and z axes through its centre, m⁴: ∫ z² dA and ∫ y² dA on the diagonal, -∫ y z dA beside
+        it; positive definite.
+
+    References
+    ----------
+    Torsion of a rectangle b > c: stress = T / (b c²) × (3 + 1.8 c/b), within 5 % (S. Timoshenko, 1955, Strength of
+    Materials, part I, 3rd edition, section 62).
+    """
+    areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
+    moments, directions = symmetric_eigenvectors_2d(second_moments)
+    directions = np.where(_are_square(moments)[:, None, None], np.eye(2), directions)
+    sides = np.sqrt(12.0 * moments / areas[:, None])
+    short, long = sides.T
+    torsion_moduli = areas * short / (3.0 + 1.8 * short / long)
+    return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
+
+
+def _are_square(moments: np.ndarray) -> np.ndarray:
+    """Whether principal second moments (m, 2) are equal but for rounding, which alone would then turn the section.
+
+    Sections of upright columns and level beams lie along their y and z axes, and so squares are taken to.
+    """
+    return moments[:, 1] - moments[:, 0] <= _ROUNDING * moments[:, 1]
+
+
+def sections_at(sections: Sections, rows: np.ndarray) -> Sections:
+    """Some of the sections (k,)."""
+    return Sections(*(getattr(sections, item.name)[rows] for item in fields(Sections)))
+
+
+def strength_at(strength: Strength, rows: np.ndarray) -> Strength:
+    """The strength of some connections (k,), of a strength for all or for each of them."""
+    values = (np.asarray(getattr(strength, item.name)) for item in fields(Strength))
+    return Strength(*(value[rows] if value.ndim else value for value in values))
+
+
+def largest_utilisations(sections: Sections, strength: Strength) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds (m,) and (m,) of `utilisation` by a force of 1 N and by a moment of 1 N·m, however they are directed.
+
+    A force F and a moment M together use no more than F times the first plus M times the second, as neither of the
+    edge stresses nor shear is larger than the sum of what the two make alone, and √(edge² + shear²) is a length.
+    """
+    weakest_pa = np.minimum(strength.tension_pa, strength.compression_pa)
+    edge_by_moment = length(1.0 / sections.bending_moduli_m3) / np.minimum(strength.bending_pa, strength.compression_pa)
+    shear_by_moment = 1.0 / sections.torsion_moduli_m3 / strength.torsion_pa
+    by_force = np.stack((1.0 / weakest_pa / sections.areas_m2, 1.0 / strength.shear_pa / sections.areas_m2), axis=-1)
+    return length(by_force), length(np.stack((edge_by_moment, shear_by_moment), axis=-1))
+
+
+def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> np.ndarray:
+    """How much of its strength each connection uses, (m,); above 1 it breaks.
+
+    - Stretched edge: axial tension by its strength plus bending by its own; compression relieves it.
+    - Pressed edge: compression plus bending, by the strength in compression.
+    - Shear: the mean of shear by its strength plus the edge stress of torsion by its own.
+
+    The larger of the two edges acts together with shear as √(edge² + shear²). For steel that is the yield criterion of
+    von Mises, EN 1993-1-1:2005, equation 6.1. For joints that are pulled apart it is the quadratic criterion of nominal
+    stress (L. Ye, 1988, Composites Science and Technology 33, 257-277; P. Camanho, C. Dávila, 2002,
+    NASA/TM-2002-211737). Friction, which helps a pressed section against shear, is not counted on.
+
+    The stress of a rectangle is largest at a corner: bending about its two axes adds up.
+
+    Returns
+    -------
+    (m,) float
+        Nan where the section has no area, or the forces are nan.
+    """
+    axial = forces.axial_n / sections.areas_m2
+    moments = transformed_back(sections.directions, forces.bending_nm)
+    bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
+    shear = length(forces.shear_n) / sections.areas_m2 / strength.shear_pa
+    shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3 / strength.torsion_pa
+    stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
+    pressed = (bending - axial) / strength.compression_pa
+    return length(np.stack((np.maximum(stretched, pressed), shear), axis=-1))

@@ -1,0 +1,105 @@
+"""Map of a study: how likely debris is at a place.
+
+The limit of each cell holds for this cell by itself. That somewhere one of many cells is hit oftener than its own limit
+says is to be expected: the whole plan at once is what the limit of the reach is for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ..geometry.plan_cells import PlanCells
+from .order_limits import least_runs
+from .proportions import upper_limit
+
+LEVELS = (0.5, 0.05, 0.01)
+"""Probabilities that are outlined."""
+
+_MOST_CELLS = 200
+"""Along the longer side of the map."""
+
+
+@dataclass(frozen=True, eq=False)
+class ProbabilityMap:
+    """How often debris was at a place, at any time of a run.
+
+    Attributes
+    ----------
+    cells
+        Where on the plan.
+    hits : (rows, columns) int
+        Runs in which debris covered a part of a cell. A run that did not finish hit everything.
+    runs, unfinished
+        How many there were, and how many of them did not finish.
+    confidence
+        Of the limit of each cell by itself.
+    """
+
+    cells: PlanCells
+    hits: np.ndarray
+    runs: int
+    unfinished: int
+    confidence: float
+
+    @property
+    def shares(self) -> np.ndarray:
+        """Shares (rows, columns) of the runs that hit each cell."""
+        return self.hits / self.runs
+
+    @cached_property
+    def upper_limits(self) -> np.ndarray:
+        """Upper limits (rows, columns) of the probability that a run hits each cell, after Clopper and Pearson."""
+        counts, of = np.unique(self.hits, return_inverse=True)
+        return upper_limit(counts, self.runs, self.confidence)[of.reshape(self.hits.shape)]
+
+    def resolves(self, probability: float) -> bool:
+        """Return whether the runs show of any place, such as one far away, that they hit it with no more than this."""
+        return float(upper_limit(self.unfinished, self.runs, self.confidence)) <= probability
+
+    def runs_for(self, probability: float) -> int:
+        """Return how many runs it takes to show so of a place that none of them hits."""
+        return least_runs(1.0 - probability, self.confidence)
+
+    def area_above(self, probability: float) -> CrossSection:
+        """Return the cells of which it is not sure that a run hits them with a smaller probability.
+
+        Beyond the map as well nothing is sure where the runs do not resolve the probability.
+        """
+        return self.cells.area_of(self.upper_limits > probability)
+
+
+def probability_map(
+    swept: Iterable[Sequence[np.ndarray] | None], confidence: float, around: Sequence[np.ndarray] = ()
+) -> ProbabilityMap | None:
+    """Return the map of a study; None where no run moved anything and there is nothing around which to draw it.
+
+    Parameters
+    ----------
+    swept
+        Of each run the outlines (k, 2) of all that its debris covered at any time, with holes the other way round; None
+        of a run that did not finish. It is gone through twice.
+    confidence
+        Of the limits.
+    around
+        Outlines (k, 2) that the map shows as well, such as the bridge's.
+    """
+    corners = [_box(rings) for rings in (*swept, around) if rings]
+    if not corners:
+        return None
+    low, high = np.min([box[0] for box in corners], axis=0), np.max([box[1] for box in corners], axis=0)
+    cells = PlanCells.over(low, high, _MOST_CELLS)
+    hits, runs, unfinished = np.zeros((cells.rows, cells.columns), int), 0, 0
+    for rings in swept:
+        hits += 1 if rings is None else cells.touched(rings)
+        runs, unfinished = runs + 1, unfinished + (rings is None)
+    return ProbabilityMap(cells, hits, runs, unfinished, confidence)
+
+
+def _box(rings: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    corners = np.concatenate(rings)
+    return corners.min(axis=0), corners.max(axis=0)

@@ -1,0 +1,1 @@
+"""Connections between shards, and the sections of their faces."""

@@ -1,0 +1,1 @@
+"""Surfaces of the ground: rasters, triangles, contour lines."""

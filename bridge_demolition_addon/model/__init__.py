@@ -1,0 +1,1 @@
+"""What the user writes and what a run recorded: scenarios, studies, results. No Blender."""

@@ -1,0 +1,114 @@
+"""Charges, and what other explosives are worth in TNT."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+from ...engineering.blast.wave import Burst
+from ...errors import BlastError
+from ..schema import Table, key
+
+SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
+SWISDAK_PRESSURE = "air blast, pressure only; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
+BAKER = "heat of detonation over that of TNT, 4520 kJ/kg; Baker et al., Explosion Hazards and Evaluation (1983)"
+
+MS_PER_S = 1000.0
+
+LARGEST_CHARGE_KG = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Explosive:
+    """An explosive.
+
+    Attributes
+    ----------
+    name : str
+        What it is called.
+    tnt_by_pressure, tnt_by_impulse : float
+        Mass of TNT with the peak overpressure, and with the impulse, of a unit of mass. Where only one is known, or the
+        heat of detonation, it stands for both.
+    source : str
+        What was measured, and who published it.
+    """
+
+    name: str
+    tnt_by_pressure: float
+    tnt_by_impulse: float
+    source: str
+
+
+EXPLOSIVES = {
+    explosive.name: explosive
+    for explosive in (
+        Explosive("TNT", 1.0, 1.0, "the reference"),
+        Explosive("ANFO", 0.82, 0.82, SWISDAK_PRESSURE),
+        Explosive("C-4", 1.37, 1.19, SWISDAK),
+        Explosive("Composition B", 1.11, 0.98, SWISDAK),
+        Explosive("Pentolite", 1.42, 1.00, SWISDAK),
+        Explosive("PETN", 1.27, 1.27, SWISDAK_PRESSURE),
+        Explosive("RDX", 1.185, 1.185, BAKER),
+        Explosive("HMX", 1.256, 1.256, BAKER),
+        Explosive("Semtex", 1.250, 1.250, BAKER),
+        Explosive("Nitroglycerin", 1.481, 1.481, BAKER),
+        Explosive("Dynamite 60 %", 0.600, 0.600, BAKER),
+    )
+}
+"""Explosives by name. One number stands for what varies by some 20 % with distance and confinement."""
+
+
+def explosive_named(name: str) -> Explosive:
+    """Return the explosive of a name, in capitals or not.
+
+    Raises
+    ------
+    BlastError
+        There is none of that name.
+    """
+    for known, explosive in EXPLOSIVES.items():
+        if isinstance(name, str) and known.casefold() == name.strip().casefold():
+            return explosive
+    raise BlastError(f"explosive is {name!r}: expected one of {', '.join(EXPLOSIVES)}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Charge(Table):
+    """A bare charge. One of 0 kg does nothing."""
+
+    table: ClassVar[str] = "charges"
+
+    name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
+    place_m: tuple[float, float, float] = key("Where it is: along the road, across it, and above the ground.", unit="m")
+    mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0, at_most=LARGEST_CHARGE_KG)
+    explosive: str = key("What it is made of.", default="TNT", choices=tuple(EXPLOSIVES))
+    delay_ms: float = key(
+        "Time from `blast.start_s` to its detonation.", default=0.0, unit="ms", at_least=0, at_most=1e6
+    )
+    burst: str = key(
+        "Whether it detonates in the `air` or on the `surface` of the ground, which throws the wave back.",
+        default=Burst.AIR.value,
+        choices=tuple(burst.value for burst in Burst),
+    )
+
+    @property
+    def delay_s(self) -> float:
+        """Time from the start of the blasting to its detonation, s."""
+        return self.delay_ms / MS_PER_S
+
+    @property
+    def tnt_kg(self) -> float:
+        """Mass of TNT with the same impulse, kg: what moves bodies."""
+        return self.mass_kg * EXPLOSIVES[self.explosive].tnt_by_impulse
+
+    @property
+    def tnt_for_pressure_kg(self) -> float:
+        """Mass of TNT with the same peak overpressure, kg: what damage depends on."""
+        return self.mass_kg * EXPLOSIVES[self.explosive].tnt_by_pressure
+
+
+def named_charges(charges: Sequence[Charge]) -> tuple[Charge, ...]:
+    """Return charges where those without a name are called after their number."""
+    return tuple(
+        charge if charge.name else replace(charge, name=f"Charge {number}")
+        for number, charge in enumerate(charges, start=1)
+    )

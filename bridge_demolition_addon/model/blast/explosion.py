@@ -1,0 +1,177 @@
+"""Loads of several charges on several bodies in every step of a simulation, while the bodies move and turn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...engineering.blast.exposure import lines_of_blast, projected_areas, visible_shares
+from ...engineering.blast.pulses import Pulses, blast_pulses, impulse_between
+from ...engineering.blast.wave import scaled_distance
+from ...engineering.geometry.hulls import ConvexHulls
+from .charges import Charge
+from .settings import BlastSettings
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StepLoads:
+    """Loads of one step of time: k pairs of a body and a charge that loads it, structure of arrays.
+
+    Attributes
+    ----------
+    bodies, charges : (k,) int
+        Which body and which charge.
+    stand_offs_m, scaled_distances : (k,) float
+        From the charge to the body's centre when the charge detonated, in m and m/kg^(1/3).
+    areas_m2 : (k,) float
+        Area that the body shows to the charge, times the share of it that the charge sees.
+    directions : (k, 3) float
+        Unit vectors from the charge to the body when the charge detonated.
+    peaks_pa : (k,) float
+        Peak overpressure of the pulse.
+    pressure_impulses_pa_s : (k,) float
+        The overpressure's integral over this step.
+    impulses_ns : (k,) float
+        Impulse that the body gets along the direction in this step.
+    """
+
+    bodies: np.ndarray
+    charges: np.ndarray
+    stand_offs_m: np.ndarray
+    scaled_distances: np.ndarray
+    areas_m2: np.ndarray
+    directions: np.ndarray
+    peaks_pa: np.ndarray
+    pressure_impulses_pa_s: np.ndarray
+    impulses_ns: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+    def vectors(self, count: int) -> np.ndarray:
+        """Return the impulse (count, 3) on each of so many bodies, of all charges together, N·s."""
+        columns = (self.impulses_ns[:, None] * self.directions).T
+        return np.column_stack([np.bincount(self.bodies, column, count) for column in columns])
+
+
+class Explosion:
+    """Charges and the bodies around them, through time.
+
+    Stand-offs and directions are those at the detonation: the front is faster than the bodies by far. The areas that
+    they show to the charge follow their turning.
+
+    Parameters
+    ----------
+    charges : (c,) Charge
+        The charges.
+    hulls : ConvexHulls
+        Convex hulls of n bodies.
+    settings : BlastSettings
+        When the charges go off, and how their loads are computed.
+    """
+
+    def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, settings: BlastSettings):
+        self._hulls, self._settings = hulls, settings
+        self._sources_m = np.array([charge.place_m for charge in charges], float).reshape(-1, 3)
+        self._tnt_kg = np.array([charge.tnt_kg for charge in charges], float)
+        self._detonations_s = settings.start_s + np.array([charge.delay_s for charge in charges], float)
+        self._bursts = [charge.burst for charge in charges]
+        shape = (len(hulls), len(charges))
+        self._detonated = np.zeros(shape[1], bool)
+        self._pulses = Pulses(np.full(shape, np.inf), np.zeros(shape), np.zeros(shape), np.zeros(shape))
+        self._stand_offs, self._scaled_distances = np.zeros(shape), np.zeros(shape)
+        self._directions = np.zeros((*shape, 3))
+        self._shares = np.ones(shape)
+
+    def loads(self, start_s: float, end_s: float, centres: np.ndarray, rotations: np.ndarray) -> StepLoads:
+        """Return the exact loads of a step of time.
+
+        Parameters
+        ----------
+        start_s, end_s : float
+            Simulated time at its beginning and at its end.
+        centres : (n, 3) float
+            Centres of mass at its beginning, m.
+        rotations : (n, 3, 3) float
+            From the axes of each body to those of the world.
+        """
+        self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
+        pulses = self._pulses
+        during = pulses.load_between(start_s, end_s)
+        pairs = np.flatnonzero(during)
+        if not len(pairs):
+            return no_loads()
+        bodies, charges = np.divmod(pairs, during.shape[1])
+        active = np.flatnonzero(during.any(axis=0))
+        shown = projected_areas(self._hulls, rotations, self._directions[:, active])
+        areas = shown[bodies, np.searchsorted(active, charges)] * self._shares.take(pairs)
+        taken = pulses.take(pairs)
+        pressure_impulses = impulse_between(taken, start_s, end_s)
+        return StepLoads(
+            bodies=bodies,
+            charges=charges,
+            stand_offs_m=self._stand_offs.take(pairs),
+            scaled_distances=self._scaled_distances.take(pairs),
+            areas_m2=areas,
+            directions=self._directions.reshape(-1, 3).take(pairs, axis=0),
+            peaks_pa=taken.peaks_pa,
+            pressure_impulses_pa_s=pressure_impulses,
+            impulses_ns=pressure_impulses * areas,
+        )
+
+    def is_quiet(self, start_s: float, end_s: float) -> bool:
+        """Return whether nothing is loaded between two times, wherever the bodies are."""
+        if (~self._detonated & (self._detonations_s < end_s)).any():
+            return False
+        return not self._pulses.load_between(start_s, end_s).any()
+
+    def _detonate(self, columns: np.ndarray, centres: np.ndarray, rotations: np.ndarray) -> None:
+        """Fix lines, pulses and shares of some charges (k,) as the bodies are now."""
+        if not len(columns):
+            return
+        sources, settings = self._sources_m[columns], self._settings
+        stand_offs, directions = lines_of_blast(sources, centres)
+        pulses = blast_pulses(
+            stand_offs,
+            self._tnt_kg[columns],
+            self._detonations_s[columns],
+            [self._bursts[column] for column in columns],
+            model=settings.model,
+            loading=settings.loading,
+            constant_decay=settings.constant_decay,
+            pressure_factor=settings.pressure_factor,
+        )
+        self._pulses.put(columns, pulses)
+        self._stand_offs[:, columns], self._directions[:, columns] = stand_offs, directions
+        self._scaled_distances[:, columns] = scaled_distance(stand_offs, self._tnt_kg[columns])
+        if settings.shielding:
+            self._shares[:, columns] = visible_shares(self._hulls, centres, rotations, sources)
+        self._detonated[columns] = True
+
+
+def no_loads() -> StepLoads:
+    """Return the loads of a step in which there are none."""
+    nothing, none = np.zeros(0), np.zeros(0, int)
+    return StepLoads(none, none, nothing, nothing, nothing, np.zeros((0, 3)), nothing, nothing, nothing)
+
+
+def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
+    """Return the loads of steps of time that follow each other, as those of one step.
+
+    The area, which changes from step to step, is the mean that the impulses have met.
+    """
+    if not steps:
+        return no_loads()
+    every = StepLoads(*(np.concatenate([getattr(step, name) for step in steps]) for name in _COLUMNS))
+    pairs = every.bodies * (1 + every.charges.max(initial=0)) + every.charges
+    pairs, rows, groups = np.unique(pairs, return_index=True, return_inverse=True)
+    impulses = np.bincount(groups.ravel(), every.impulses_ns, len(pairs))
+    pressures = np.bincount(groups.ravel(), every.pressure_impulses_pa_s, len(pairs))
+    areas = np.divide(impulses, pressures, where=pressures > 0.0, out=every.areas_m2[rows])
+    once = StepLoads(*(getattr(every, name)[rows] for name in _COLUMNS))
+    return replace(once, impulses_ns=impulses, pressure_impulses_pa_s=pressures, areas_m2=areas)
+
+
+_COLUMNS = tuple(StepLoads.__dataclass_fields__)

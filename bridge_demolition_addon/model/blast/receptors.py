@@ -1,0 +1,134 @@
+"""Effects of charges at positions near them: pressure and impulse with all delays, and the vibration of the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.blast import vibration
+from ...engineering.blast.models import BlastModel, blast_wave
+from ...engineering.blast.pulses import Pulses, blast_pulses, pressure_at
+from ...engineering.geometry.vectors import distance
+from .charges import Charge
+
+ONE_DELAY_S = 0.008
+"""Charges that detonate within this time shake the ground as one (the 8 ms of USBM Bulletin 656 and RI 8507)."""
+
+_TIMES_PER_PULSE = 24
+
+_NEAREST_M = 1e-3
+"""At a charge itself the ground's velocity would be infinite."""
+
+
+def charges_per_delay(charges: Sequence[Charge]) -> list[tuple[Charge, ...]]:
+    """Group charges that shake the ground together, in order of time: each within `ONE_DELAY_S` from its first."""
+    groups: list[list[Charge]] = []
+    for charge in sorted(charges, key=lambda each: each.delay_s):
+        if charge.mass_kg <= 0.0:
+            continue
+        if groups and charge.delay_s - groups[-1][0].delay_s < ONE_DELAY_S:
+            groups[-1].append(charge)
+        else:
+            groups.append([charge])
+    return [tuple(group) for group in groups]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlaceLoads:
+    """Loads at one position.
+
+    Attributes
+    ----------
+    distance_m : float
+        To the nearest charge.
+    arrival_s : float
+        When the first wave arrives, from the start of the blasting.
+    times_s, pressures_pa : (t,) float
+        Times from the start of the blasting, and the incident overpressures of all charges added up.
+    peak_pa : float
+        Largest of these.
+    impulse_pa_s : float
+        Impulse per area of the positive phases of all charges.
+    peak_velocity_m_s : float
+        Largest peak particle velocity of the ground, of all groups of charges that detonate together.
+    """
+
+    distance_m: float
+    arrival_s: float
+    times_s: np.ndarray
+    pressures_pa: np.ndarray
+    peak_pa: float
+    impulse_pa_s: float
+    peak_velocity_m_s: float
+
+
+def loads_at(
+    place_m: Sequence[float],
+    charges: Sequence[Charge],
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    pressure_factor: float = 1.0,
+) -> PlaceLoads:
+    """Return the loads of charges, at least one of them above 0 kg, at a position (3,), m.
+
+    Pressures are free-field, from the explosives' TNT by pressure, impulses from that by impulse. Nothing stands
+    between charge and position, and no wall sends anything back.
+    """
+    charges = [charge for charge in charges if charge.mass_kg > 0.0]
+    stand_offs = distance(np.array(place_m), np.array([[charge.place_m for charge in charges]]))
+    delays = np.array([charge.delay_s for charge in charges])
+    bursts = [charge.burst for charge in charges]
+    by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
+    by_impulse = np.array([charge.tnt_kg for charge in charges])
+    settings = {"model": model, "pressure_factor": pressure_factor}
+    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, **settings)
+    times = _times(pulses)
+    impulses = blast_pulses(stand_offs, by_impulse, delays, bursts, **settings).impulses_pa_s
+    pressures = pressure_at(pulses, times[:, None]).sum(axis=1)
+    return PlaceLoads(
+        distance_m=float(stand_offs.min()),
+        arrival_s=float(pulses.arrivals_s.min()),
+        times_s=times,
+        pressures_pa=pressures,
+        peak_pa=float(pressures.max()),
+        impulse_pa_s=float(impulses.sum()),
+        peak_velocity_m_s=_peak_velocity(place_m, charges),
+    )
+
+
+def peak_overpressures(
+    points_m: np.ndarray,
+    charges: Sequence[Charge],
+    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    pressure_factor: float = 1.0,
+) -> np.ndarray:
+    """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.
+
+    Where waves of several charges meet, their pressures can add up to more.
+    """
+    peaks = np.zeros(len(points_m))
+    for charge in charges:
+        stand_offs = distance(points_m, np.array(charge.place_m))
+        wave = blast_wave(stand_offs, charge.tnt_for_pressure_kg, charge.burst, model)
+        peaks = np.maximum(peaks, pressure_factor * wave.peak_overpressure_pa)
+    return peaks
+
+
+def _times(pulses: Pulses) -> np.ndarray:
+    """Return times from 0 to past the last pulse, among them each front, just before it and through each pulse."""
+    shares = np.linspace(0.0, 1.0, _TIMES_PER_PULSE)
+    fronts, ends = pulses.arrivals_s[0], pulses.ends_s[0]
+    before = np.nextafter(fronts, 0.0)
+    within = (fronts + shares[:, None] * (ends - fronts)).ravel()
+    return np.unique(np.concatenate([[0.0], before, within, [1.05 * ends.max()]]))
+
+
+def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge]) -> float:
+    """Return the largest of all groups, each at the distance of its nearest charge, which is on the safe side."""
+    velocities = []
+    for group in charges_per_delay(charges):
+        nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()
+        mass = sum(charge.mass_kg for charge in group)
+        velocities.append(float(vibration.peak_particle_velocity(max(nearest, _NEAREST_M), mass)))
+    return max(velocities)

@@ -1,0 +1,69 @@
+"""Where a bridge's members begin and end: axes along the road, heights, and what skew does to them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.rotations import turn_in_plane
+from ...engineering.geometry.vectors import transformed
+from ..scenario import Bridge
+
+
+def pier_axes(bridge: Bridge) -> np.ndarray:
+    """Positions along the road of the axes of piers and abutments, in the middle of the road, (spans + 1,) in m."""
+    return np.concatenate(([0.0], np.cumsum(bridge.span_lengths_m)))
+
+
+def deck_underside(bridge: Bridge) -> float:
+    """Height above the ground of what lies on piers and abutments, m: slab, girders or box girder."""
+    if bridge.piers is None:
+        return bridge.abutments.height_m
+    cap_height = bridge.pier_caps.height_m if bridge.pier_caps else 0.0
+    return bridge.piers.height_m + cap_height
+
+
+def slab_underside(bridge: Bridge) -> float:
+    """Height of the slab's underside above the ground, m: higher than that of the girders or the box it lies on."""
+    below = bridge.girders or bridge.box_girder
+    return deck_underside(bridge) + (below.depth_m if below else 0.0)
+
+
+def deck_top(bridge: Bridge) -> float:
+    """Height of the road surface above the ground, m."""
+    return slab_underside(bridge) + bridge.deck.thickness_m
+
+
+def deck_ends(bridge: Bridge) -> list[tuple[float, float]]:
+    """Begin and end along the road of every deck, in the middle of the road, m: one, or one for each span."""
+    overhang = bridge.deck.overhang_m
+    first, last = -overhang, bridge.spans_m + overhang
+    if not bridge.deck.per_span:
+        return [(first, last)]
+    half_gap = bridge.deck.joint_gap_m / 2.0
+    joints = [side for axis in pier_axes(bridge)[1:-1] for side in (axis - half_gap, axis + half_gap)]
+    return list(pairwise([first, *joints, last]))[::2]
+
+
+def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
+    """A solid sheared along the road as the skew asks for; its volume and its sections along the road stay the same."""
+    if bridge.skew_deg == 0.0:
+        return solid
+    vertices = solid.vertices.copy()
+    vertices[:, 0] += vertices[:, 1] * bridge.shift_across
+    return replace(solid, vertices=vertices)
+
+
+def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: float) -> TriangleMesh:
+    """A solid that stands at a place on an unskewed axis, moved to the skewed axis and turned with it, in shape."""
+    if bridge.skew_deg == 0.0:
+        return solid
+    rotation = turn_in_plane(-math.radians(bridge.skew_deg))
+    on_axis = np.array((along + across * bridge.shift_across, across))
+    vertices = solid.vertices.copy()
+    vertices[:, :2] = transformed(rotation, vertices[:, :2] - (along, across)) + on_axis
+    return replace(solid, vertices=vertices)

@@ -1,0 +1,137 @@
+"""Mesh files of the user, placed in the bridge's coordinates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.repair import repaired_solid
+from ...engineering.geometry.rotations import turn_in_plane
+from ...engineering.geometry.solids import union
+from ...engineering.geometry.vectors import transformed
+from ...errors import GeometryError, ScenarioError, UnreadableError
+from ..mesh_reading import MESH_FILES, from_y_up, read_mesh
+from ..scenario import Geometry
+from ..schema import FARTHEST_M, SHORTEST_LENGTH_M
+from .member import Member
+
+_BELOW_GROUND_M = 1e-3
+"""How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
+
+_PLANES = ([1, 2], [2, 0], [0, 1])
+"""Axes of the planes in which turns about x, y and z are, each from the first to the second."""
+
+
+def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tuple[tuple[Member, ...], tuple[str, ...]]:
+    """Members from files, those of the same name united, and sentences on what was repaired.
+
+    Parameters
+    ----------
+    tables : sequence of Geometry
+        Which files, and how they are placed.
+    is_flat : bool
+        Whether the ground is flat, so that nothing may reach below it; elsewhere it is dug away.
+
+    Raises
+    ------
+    ScenarioError
+        A file is not there or of no known kind, or files of one name disagree in kind or density.
+    GeometryError
+        A file cannot be read, or what is in it cannot be made into a solid.
+    """
+    members, notes = [], []
+    ordered = sorted(tables, key=lambda each: [other.name for other in tables].index(each.name))
+    for name, group in groupby(ordered, key=lambda each: each.name):
+        same_name = list(group)
+        solids = []
+        for table in same_name:
+            mesh = placed_mesh(table)
+            _check_extent(mesh, name)
+            done = repaired_solid(mesh, name)
+            if is_flat:
+                _check_above_ground(done.solid, name)
+            solids.append(done.solid)
+            notes += [f"{name}: {repair}" for repair in done.repairs]
+        members.append(_member(same_name, solids))
+    return tuple(members), tuple(notes)
+
+
+def placed_mesh(table: Geometry) -> TriangleMesh:
+    """The mesh in a file as it is, scaled, turned and moved to its place.
+
+    Raises
+    ------
+    ScenarioError
+        The file is not there or of no known kind.
+    GeometryError
+        The file cannot be read or has no faces.
+    """
+    path = Path(table.file)
+    mesh = _file_mesh(path)
+    vertices = mesh.vertices * table.scale
+    up = table.up or ("y" if path.suffix.lower() == ".glb" else "z")
+    if up == "y":
+        vertices = from_y_up(vertices)
+    turns_deg = (*table.tilt_deg, table.rotation_deg)
+    for plane, angle_deg in zip(_PLANES, turns_deg, strict=True):
+        if angle_deg:
+            vertices[:, plane] = transformed(turn_in_plane(math.radians(angle_deg)), vertices[:, plane])
+    return TriangleMesh(vertices + np.array(table.place_m), mesh.triangles)
+
+
+def exported(mesh: TriangleMesh, suffix: str) -> bytes:
+    """The mesh as the content of a file whose name ends in that suffix, such as ``.stl``."""
+    import trimesh
+
+    return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(file_type=suffix[1:])
+
+
+def _file_mesh(path: Path) -> TriangleMesh:
+    if path.suffix.lower() not in MESH_FILES:
+        raise ScenarioError(f'geometry.file is "{path}": expected a file that ends in one of {", ".join(MESH_FILES)}')
+    try:
+        return read_mesh(path)
+    except UnreadableError as error:
+        raise ScenarioError(f'geometry.file is "{path}": {error}') from error
+
+
+def _check_extent(mesh: TriangleMesh, name: str) -> None:
+    lower, upper = mesh.bounds
+    farthest, thinnest = float(np.abs(mesh.bounds).max()), float((upper - lower).min())
+    if farthest > FARTHEST_M:
+        raise GeometryError(
+            f"{name}: reaches {farthest:.4g} m from the origin; bring it within {FARTHEST_M:g} m by "
+            "geometry.place_m, or by geometry.scale if the file is not in metres."
+        )
+    if 0.0 < thinnest < SHORTEST_LENGTH_M:
+        raise GeometryError(
+            f"{name}: is {thinnest:.4g} m thick; expected at least {SHORTEST_LENGTH_M:g} m, so set geometry.scale if "
+            "the file is not in metres, or give it a thickness."
+        )
+
+
+def _check_above_ground(solid: TriangleMesh, name: str) -> None:
+    lowest = float(solid.bounds[0, 2])
+    if lowest < -_BELOW_GROUND_M:
+        raise GeometryError(
+            f"{name}: reaches {-lowest:.4g} m below the ground, which is at height 0; raise it by geometry.place_m."
+        )
+
+
+def _member(tables: Sequence[Geometry], solids: Sequence[TriangleMesh]) -> Member:
+    first = tables[0]
+    if len(tables) == 1:
+        density = first.density_kg_m3 or first.mass_kg / solids[0].volume
+        return Member(first.name, first.kind, solids[0], density)
+    for other in tables[1:]:
+        if first.density_kg_m3 is None or (other.kind, other.density_kg_m3) != (first.kind, first.density_kg_m3):
+            raise ScenarioError(
+                f'geometry.name is "{first.name}" more than once: expected the same kind and density_kg_m3 with each, '
+                "as they become one solid"
+            )
+    return Member(first.name, first.kind, union(solids), first.density_kg_m3)

@@ -1,0 +1,92 @@
+"""All members of a bridge, with their densities; or all of them as one solid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.solids import union
+from ...errors import ScenarioError
+from ..scenario import Bridge
+from .layout import deck_top, deck_underside, slab_underside
+from .member import Member
+from .substructure import GroundHeight, level_ground, substructure
+from .superstructure import superstructure
+
+_SAME_LEVEL_M = 1e-9
+"""Heights of two faces that lie on each other differ by rounding, which the boolean engine would take for a gap."""
+
+
+def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple[Member, ...]:
+    """Solids of all members, touching without overlap: decks and girders, abutments, each pier's cap and columns.
+
+    Raises
+    ------
+    ScenarioError
+        Members with a density of their own weigh as much as the whole bridge, or more.
+    GeometryError
+        The ground is too high for what stands on it.
+    """
+    members = [*superstructure(bridge), *substructure(bridge, ground)]
+    if bridge.merge:
+        convex = tuple(part for each in members for part in each.parts or (each.solid,))
+        members = [Member("bridge", "bridge", _merged(bridge, [each.solid for each in members]), parts=convex)]
+    density = bridge_density(bridge, members)
+    return tuple(replace(each, density_kg_m3=_own_density(bridge, each.kind) or density) for each in members)
+
+
+def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
+    """Density of the members without one of their own, kg/m³: as given, or what the total mass leaves for them.
+
+    Raises
+    ------
+    ScenarioError
+        Members with a density of their own weigh as much as the whole bridge, or more, or all have one.
+    """
+    if bridge.density_kg_m3 is not None:
+        return bridge.density_kg_m3
+    own = [_own_density(bridge, member.kind) for member in members]
+    known_kg = sum(each.volume_m3 * density for each, density in zip(members, own, strict=True) if density is not None)
+    rest = sum(each.volume_m3 for each, density in zip(members, own, strict=True) if density is None)
+    if not rest:
+        raise ScenarioError(
+            f"bridge.mass_kg is {bridge.mass_kg}: expected bridge.density_kg_m3 instead, as every member has a density "
+            f"of its own; together they weigh {known_kg:.6g} kg"
+        )
+    if known_kg >= bridge.mass_kg:
+        raise ScenarioError(
+            f"bridge.mass_kg is {bridge.mass_kg}: expected more than {known_kg:.6g} (kg), which the members with a "
+            "density of their own weigh"
+        )
+    return (bridge.mass_kg - known_kg) / rest
+
+
+def _own_density(bridge: Bridge, kind: str) -> float | None:
+    parts = {
+        "deck": bridge.deck,
+        "girder": bridge.girders,
+        "pier cap": bridge.pier_caps,
+        "pier": bridge.piers,
+        "abutment": bridge.abutments,
+    }
+    return parts[kind].density_kg_m3 if kind in parts else None
+
+
+def _merged(bridge: Bridge, solids: Sequence[TriangleMesh]) -> TriangleMesh:
+    """Solids that touch, as one; where they lie on each other their heights are made the same to the last bit."""
+    base = deck_underside(bridge)
+    levels = [0.0, base, slab_underside(bridge), deck_top(bridge)]
+    if bridge.piers:
+        levels.append(bridge.piers.height_m)
+    return union([_on_levels(solid, np.array(levels)) for solid in solids])
+
+
+def _on_levels(solid: TriangleMesh, levels: np.ndarray) -> TriangleMesh:
+    vertices = solid.vertices.copy()
+    apart = np.abs(vertices[:, 2:] - levels)
+    nearest = levels[apart.argmin(axis=1)]
+    vertices[:, 2] = np.where(apart.min(axis=1) <= _SAME_LEVEL_M, nearest, vertices[:, 2])
+    return replace(solid, vertices=vertices)

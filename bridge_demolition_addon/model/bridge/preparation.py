@@ -1,0 +1,94 @@
+"""All members of a scenario, of the bridge and of the user's own files, ready to be cut into shards."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...engineering.geometry.overlap import separated
+from ...errors import GeometryError, ScenarioError
+from ..scenario import Scenario
+from ..terrain.built import check_under
+from ..terrain.placed import Terrain, terrain_of
+from . import bridge_members
+from .extent import surface_height
+from .member import Member
+from .mesh_files import geometry_members
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedMembers:
+    """Members without overlap, and sentences on what was repaired and cut off to get there."""
+
+    members: tuple[Member, ...]
+    notes: tuple[str, ...]
+
+
+def prepared_members(scenario: Scenario) -> PreparedMembers:
+    """All members of a scenario: those of the bridge first, then those from files, cut by all before them.
+
+    Raises
+    ------
+    ScenarioError
+        Two members have the same name, or a file is not there.
+    GeometryError
+        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball; the terrain misses
+        the bridge, has no data under a pier or is too high there.
+    """
+    terrain = terrain_of(scenario)
+    of_bridge = _bridge_on(terrain, scenario) if scenario.bridge else ()
+    if not scenario.geometry:
+        return PreparedMembers(of_bridge, ())
+    from_files, repairs = geometry_members(scenario.geometry, is_flat=terrain is None)
+    prepared = without_overlap([*of_bridge, *from_files])
+    for drop in scenario.ball.drops if scenario.ball else ():
+        surface_height(scenario, prepared.members, drop.target_m)  # refuses a ball that nothing lies under
+    return PreparedMembers(prepared.members, repairs + prepared.notes)
+
+
+def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...]:
+    bridge = scenario.weighed_bridge
+    if terrain is None:
+        return bridge_members(bridge)
+    check_under(terrain, [(each.name, each.solid) for each in bridge_members(bridge)])
+
+    def height(name: str, x_m: float, y_m: float) -> float:
+        found = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])
+        if not np.isfinite(found):
+            where = terrain.told_place(np.array([x_m, y_m]))
+            raise GeometryError(
+                f"{terrain.name}: the terrain has no data under {name}, at {where}; give it heights there, or move the "
+                "bridge by ground.origin; ground.scale is metres in a unit of the file."
+            )
+        return found
+
+    return bridge_members(bridge, height)
+
+
+def without_overlap(members: Sequence[Member]) -> PreparedMembers:
+    """Members of which each has lost what it had in common with those before it.
+
+    Raises
+    ------
+    ScenarioError
+        Two members have the same name.
+    GeometryError
+        Nothing is left of a member.
+    """
+    names = [member.name for member in members]
+    for name in names:
+        if names.count(name) > 1:
+            raise ScenarioError(f'two members are called "{name}": expected a name of its own for each')
+    solids, removed = separated([member.solid for member in members], names)
+    notes = [
+        f"{name}: {volume:.4g} m³ cut off, as members before it take that room"
+        for name, volume in zip(names, removed, strict=True)
+        if volume > 0.0
+    ]
+    apart = (
+        member if solid is member.solid else replace(member, solid=solid, parts=())
+        for member, solid in zip(members, solids, strict=True)
+    )
+    return PreparedMembers(tuple(apart), tuple(notes))

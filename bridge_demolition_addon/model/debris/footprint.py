@@ -1,0 +1,119 @@
+"""The ground plan of bodies: what their convex hulls cover, before, after and on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from manifold3d import CrossSection, OpType
+
+from ...engineering.geometry.plan_areas import united
+from ...engineering.geometry.vectors import transformed
+from ...errors import OutputError
+from ..results.arrays import Results
+
+_STRAIGHT_SIDE_M = 1e-5
+"""What leaves a straight line by no more is one."""
+
+_STRAIGHT_M = 0.01
+"""How far corners may stray from a place, or from a straight way, whose hull is then too large by no more."""
+
+
+def corners_at(results: Results, step: int, bodies: Sequence[int]) -> list[np.ndarray]:
+    """Vertices (v, 3) of each of the bodies in the world at a recorded step, m."""
+    if not len(bodies):
+        return []
+    own = results.inventory.vertices_by_body()
+    chosen = [own[body] for body in bodies]
+    counts = [len(corners) for corners in chosen]
+    of = np.repeat(bodies, counts)
+    turned = transformed(results.frames.rotations[step][of], np.concatenate(chosen))
+    return np.split(turned + results.frames.positions_m[step][of], np.cumsum(counts)[:-1])
+
+
+def footprint(results: Results, bodies: Sequence[int], step: int) -> CrossSection:
+    """What the convex hulls of bodies cover in plan at a recorded step; where they overlap it counts once."""
+    return united(plan_hulls(results, bodies, step))
+
+
+def plan_hulls(results: Results, bodies: Sequence[int], step: int) -> list[CrossSection]:
+    """What the convex hull of each of the bodies covers in plan at a recorded step."""
+    return [CrossSection.hull_points(corners[:, :2]) for corners in corners_at(results, step, bodies)]
+
+
+def check_covers_ground(results: Results) -> None:
+    """Make sure that a bridge covers an area in plan at first, which distances are measured from.
+
+    Raises
+    ------
+    OutputError
+        All its shards are flat or points in plan.
+    """
+    shards = results.inventory.of_kind("shard")
+    if len(shards) and footprint(results, shards, 0).is_empty():
+        raise OutputError("vertices_m: expected shards that cover an area in plan, found lines and points")
+
+
+def swept_footprint(results: Results, bodies: Sequence[int]) -> CrossSection:
+    """What the convex hulls of bodies cover in plan at any time.
+
+    Between two recorded steps the hull of both positions is taken: all that a body sweeps which keeps its direction,
+    and a little more of one that turns.
+    """
+    own = results.inventory.vertices_by_body()
+    at_first = footprint(results, bodies, 0)
+    # Body by body first: thousands of areas that all overlap take a hundred times as long at once.
+    areas = [at_first]
+    for body in bodies:
+        plans = plans_of(results, body, own[body])
+        if not _covers_box(at_first, plans):  # most debris falls down within what the bridge covered
+            areas.append(CrossSection.batch_boolean(_sweeps(plans), OpType.Add))
+    return united(areas)
+
+
+def plans_of(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
+    """Corners (k, v, 2) of a body in plan at all recorded steps."""
+    places, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
+    return transformed(rotations[:, None], corners) + places[:, None]
+
+
+def straightened(area: CrossSection) -> CrossSection:
+    """Return an area with fewer sides: the edge of a deck is a line of a thousand, one for each shard at it."""
+    fewer = area.simplify(_STRAIGHT_SIDE_M)
+    return area if fewer.is_empty() else fewer
+
+
+def _covers_box(area: CrossSection, points: np.ndarray) -> bool:
+    """Whether an area covers the box around points (..., 2)."""
+    lowest, highest = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    box = CrossSection.square((highest - lowest).tolist()).translate(lowest.tolist())
+    return (box - area).is_empty()
+
+
+def _sweeps(plans: np.ndarray) -> list[CrossSection]:
+    """What plans (k, v, 2) cover on each straight part of a way, and where it rests."""
+    steps = _ends_of_parts(plans)
+    return [CrossSection.hull_points(np.concatenate(plans[start : end + 1])) for start, end in pairwise(steps)]
+
+
+def _ends_of_parts(plans: np.ndarray) -> list[int]:
+    """Steps at which parts of a way (k, v, 2) meet, and the first and last."""
+    last = len(plans) - 1
+    bends = np.zeros(last + 1)
+    bends[1:-1] = np.abs(np.diff(plans, 2, axis=0)).max(axis=(1, 2), initial=0.0)
+    bent = np.cumsum(bends)
+    ends = [0]
+    while ends[-1] < last:
+        start = ends[-1]
+        away = np.abs(plans[start + 1 :] - plans[start]).max(axis=(1, 2))
+        # A way of n steps strays from its chord by n / 4 times the sum of its second differences at most.
+        strays = np.arange(1, last - start + 1) / 4.0 * np.append(0.0, bent[start + 1 : last] - bent[start])
+        ends.append(start + max(1, _first_above(away), _first_above(strays)))
+    return ends if last else [0, 0]
+
+
+def _first_above(distances_m: np.ndarray) -> int:
+    """How many distances (k,) come before the first that counts."""
+    counts = distances_m > _STRAIGHT_M
+    return int(counts.argmax()) if counts.any() else len(counts)

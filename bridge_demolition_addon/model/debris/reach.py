@@ -1,0 +1,44 @@
+"""How far bodies get from the bridge's plan on their whole way, not only where they come to rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ...engineering.geometry.plan_areas import distances_outside
+from ...engineering.geometry.vectors import distance
+from ..results.arrays import Results
+from ..results.motion import MOVED_M
+from .footprint import plans_of, straightened
+
+
+def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:
+    """Return those of the bodies that were farther than `MOVED_M` from their first place at a recorded time."""
+    places = results.frames.positions_m[:, bodies]
+    return bodies[distance(places, places[0]).max(axis=0, initial=0.0) > MOVED_M]
+
+
+def reaches_on_the_way(results: Results, bodies: Sequence[int], plan: CrossSection) -> np.ndarray:
+    """Return how far each body sticks out of a plan at any recorded time, at most, m (b,); 0 where it stays within.
+
+    Raises
+    ------
+    ValueError
+        The plan is empty, and there are bodies.
+    """
+    own, sides = results.inventory.vertices_by_body(), straightened(plan)
+    farthest = np.zeros(len(bodies))
+    for row, body in enumerate(bodies):
+        points = plans_of(results, body, own[body])[_steps_with_news(results, body)]
+        farthest[row] = distances_outside(sides, points.reshape(-1, 2)).max()
+    return farthest
+
+
+def _steps_with_news(results: Results, body: int) -> np.ndarray:
+    """Which recorded steps (k,) find a body elsewhere, or turned otherwise, than the one before."""
+    places, rotations = results.frames.positions_m[:, body], results.frames.rotations[:, body]
+    news = np.ones(len(places), bool)
+    news[1:] = (np.diff(places, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))
+    return news

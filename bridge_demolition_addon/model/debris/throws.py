@@ -1,0 +1,170 @@
+"""Debris: which shards came down, how far they were thrown, and the pile they lie in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ...engineering.geometry.hulls import convex_hulls
+from ...engineering.geometry.plan_areas import distances_outside
+from ...engineering.geometry.vectors import dot, transformed
+from ...engineering.terrain.recorded import RecordedGround
+from ..results.arrays import Results
+from ..results.motion import MOVED_M, relative_to_ground, throw, travel
+from .footprint import corners_at, footprint, straightened
+
+PERCENTS = (50, 75, 90, 95, 99, 100)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Debris:
+    """Debris at the end of a run: d shards.
+
+    Attributes
+    ----------
+    bodies : (d,) int
+        Indices of the shards.
+    throws_m : (d,) float
+        Horizontal distance of each from where it was at first, between centres of mass.
+    reaches_m : (d,) float
+        How far each sticks out of the bridge's first outline in plan, 0 for one that lies within it.
+    masses_kg : (d,) float
+        Their masses.
+    area
+        What they cover in plan.
+    outline
+        What all shards covered at first.
+    highest_m
+        Largest height of any of them above the ground below; nan without debris.
+    ground
+        What they lie on.
+    """
+
+    bodies: np.ndarray
+    throws_m: np.ndarray
+    reaches_m: np.ndarray
+    masses_kg: np.ndarray
+    area: CrossSection
+    outline: CrossSection
+    highest_m: float
+    ground: RecordedGround = field(default_factory=RecordedGround)
+
+
+def debris_of(results: Results) -> Debris:
+    """Return the debris at the last recorded step, by places on the ground."""
+    results = relative_to_ground(results)
+    shards = results.inventory.of_kind("shard")
+    first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
+    bodies = shards[travel(first[shards], last[shards]) > MOVED_M]
+    outline = footprint(results, shards, 0)
+    corners, ground = corners_at(results, -1, bodies), results.ground()
+    return Debris(
+        bodies=bodies,
+        throws_m=throw(first[bodies], last[bodies]),
+        reaches_m=_reaches(outline, corners),
+        masses_kg=results.inventory.masses_kg[bodies],
+        area=footprint(results, bodies, -1),
+        outline=outline,
+        highest_m=max((float(each.max()) for each in _above(ground, corners)), default=float("nan")),
+        ground=ground,
+    )
+
+
+def _above(ground: RecordedGround, corners: Sequence[np.ndarray]) -> Iterator[np.ndarray]:
+    """Give the heights (v,) of corners, d times (v, 3), above the ground below each."""
+    for each in corners:
+        yield each[:, 2] if ground.is_flat else each[:, 2] - ground.heights_at(each[:, :2])
+
+
+def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray:
+    """Return how far bodies with these corners, d times (v, 3), stick out of an outline in plan, (d,)."""
+    if not len(corners):
+        return np.zeros(0)
+    distances = distances_outside(straightened(outline), np.concatenate(corners)[:, :2])
+    counts = [len(each) for each in corners]
+    return np.maximum.reduceat(distances, np.cumsum([0, *counts[:-1]]))
+
+
+def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: Sequence[float] = PERCENTS) -> np.ndarray:
+    """Return the smallest of the values (d,) up to which each of the percents (p,) of the mass lies, (p,)."""
+    if not len(values):
+        return np.full(len(percents), np.nan)
+    order = np.argsort(values, kind="stable")
+    shares = np.cumsum(masses_kg[order]) / masses_kg.sum()
+    rounding = 1e-12  # a sum of shares ends a little beside 1
+    rows = np.searchsorted(shares, np.asarray(percents) / 100.0 - rounding)
+    return values[order][np.minimum(rows, len(values) - 1)]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class HeightMap:
+    """Heights of a pile over a grid in plan.
+
+    Attributes
+    ----------
+    xs_m, ys_m : (i,) and (j,) float
+        Middles of the cells.
+    heights_m : (j, i) float
+        Height of the highest surface over the middle of each cell, above the ground there; nan where there is none.
+    """
+
+    xs_m: np.ndarray
+    ys_m: np.ndarray
+    heights_m: np.ndarray
+
+    @property
+    def volume_m3(self) -> float:
+        """Volume between the ground and the surface of the pile, holes under it included."""
+        if not len(self.xs_m):
+            return 0.0
+        cell = (self.xs_m[1] - self.xs_m[0]) * (self.ys_m[1] - self.ys_m[0])
+        return float(cell * np.maximum(np.nan_to_num(self.heights_m), 0.0).sum())
+
+
+def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> HeightMap:
+    """Return the last heights of the convex hulls of bodies (d,); the longer side of their plan is cut into `cells`.
+
+    A body whose hull is flat has no upper side, and is left out.
+    """
+    solid = [body for body in bodies if results.inventory.volumes_m3[body] > 0.0]
+    if not solid:
+        return HeightMap(np.zeros(0), np.zeros(0), np.zeros((0, 0)))
+    all_corners = corners_at(results, -1, solid)
+    low = np.min([each[:, :2].min(axis=0) for each in all_corners], axis=0)
+    high = np.max([each[:, :2].max(axis=0) for each in all_corners], axis=0)
+    size = float((high - low).max()) / cells
+    counts = np.maximum(np.ceil((high - low) / size).astype(int), 2)
+    xs, ys = (low[axis] + size * (np.arange(counts[axis]) + 0.5) for axis in (0, 1))
+    heights = np.full((len(ys), len(xs)), np.nan)
+    own = results.inventory.vertices_by_body()
+    hulls = convex_hulls([own[body] for body in solid])
+    for number, (body, corners) in enumerate(zip(solid, all_corners, strict=True)):
+        faces = slice(hulls.starts[number], hulls.starts[number + 1])
+        normals = transformed(results.frames.rotations[-1, body], hulls.normals[faces])
+        offsets = hulls.offsets[faces] + dot(normals, results.frames.positions_m[-1, body])
+        columns = slice(*np.searchsorted(xs, [corners[:, 0].min(), corners[:, 0].max()]))
+        rows = slice(*np.searchsorted(ys, [corners[:, 1].min(), corners[:, 1].max()]))
+        upper = _upper_side(normals, offsets, xs[columns], ys[rows])
+        heights[rows, columns] = np.fmax(heights[rows, columns], upper)
+    ground = results.ground()
+    if not ground.is_flat:
+        heights -= ground.heights_at(np.stack(np.meshgrid(xs, ys), -1))
+    return HeightMap(xs, ys, heights)
+
+
+_UPRIGHT = 1e-9
+"""A face whose normal rises by less than this stands upright."""
+
+
+def _upper_side(normals: np.ndarray, offsets: np.ndarray, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
+    """Return the heights (j, i) of the upper side of a convex body n·x ≤ d over a grid; nan beside it."""
+    over_faces = offsets[:, None, None] - normals[:, 0, None, None] * xs - normals[:, 1, None, None] * ys[:, None]
+    rising = normals[:, 2]
+    up, down, upright = rising > _UPRIGHT, rising < -_UPRIGHT, abs(rising) <= _UPRIGHT
+    top = (over_faces[up] / rising[up, None, None]).min(axis=0, initial=np.inf)
+    bottom = (over_faces[down] / rising[down, None, None]).max(axis=0, initial=-np.inf)
+    inside = (top >= bottom) & (over_faces[upright] >= 0.0).all(axis=0)
+    return np.where(inside, top, np.nan)

@@ -1,0 +1,192 @@
+"""Who enters a zone, and when: convex hulls of moving bodies against a prism over a polygon."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from manifold3d import CrossSection, Manifold
+
+from ...engineering.arithmetic import cosine
+from ...engineering.geometry.plan_areas import signed_area
+from ...engineering.geometry.rotations import rotated, rotation_vectors
+from ...engineering.geometry.solids import hull
+from ...engineering.geometry.vectors import length, transformed
+from ..results.arrays import Results
+from ..results.motion import relative_to_ground
+from ..scenario import Zone
+from .footprint import corners_at
+
+TIME_TOLERANCE_S = 1e-3
+"""How well an entry is placed in time between two recorded steps."""
+
+_FAR_M = 1e5
+"""Height up to which a zone without a top reaches, and depth of one without a bottom; farther than anything falls."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A body that enters a zone.
+
+    Attributes
+    ----------
+    body
+        Its index.
+    time_s
+        When its hull first reaches into the zone.
+    stays
+        Whether it reaches into it at the end as well.
+    """
+
+    body: int
+    time_s: float
+    stays: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneWatch:
+    """What happened in a zone.
+
+    Attributes
+    ----------
+    zone
+        The zone.
+    entries
+        Bodies that entered it, the first one first.
+    there_before
+        Indices of bodies that reached into it from the beginning, such as a pier that stands in it.
+    mass_within_kg
+        Mass of all bodies that reach into it at the end and were not there before, whole bodies counted.
+    """
+
+    zone: Zone
+    entries: tuple[Entry, ...]
+    there_before: tuple[int, ...]
+    mass_within_kg: float
+
+
+def watch_zone(results: Results, zone: Zone, bodies: Sequence[int]) -> ZoneWatch:
+    """Follow bodies through a whole run.
+
+    Between two recorded steps a body is taken to move and turn evenly. Touching is not entering: some volume has to be
+    within.
+    """
+    prism = _Prism.of(zone)
+    there_before, entries = [], []
+    results = relative_to_ground(results)
+    bodies = _coming_near(results, prism, np.asarray(bodies, int))
+    before, after = corners_at(results, 0, bodies), corners_at(results, -1, bodies)
+    for row, body in enumerate(bodies):
+        if prism.meets(before[row]):
+            there_before.append(int(body))
+        elif (time_s := _first_entry(results, prism, body)) is not None:
+            entries.append(Entry(int(body), time_s, prism.meets(after[row])))
+    entries.sort(key=lambda entry: entry.time_s)
+    mass = sum(float(results.inventory.masses_kg[entry.body]) for entry in entries if entry.stays)
+    return ZoneWatch(zone, tuple(entries), tuple(there_before), mass)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Prism:
+    solid: Manifold
+    low: np.ndarray
+    high: np.ndarray
+
+    @classmethod
+    def of(cls, zone: Zone) -> _Prism:
+        corners = np.array(zone.corners_m)
+        bottom = -_FAR_M if zone.bottom_m is None else zone.bottom_m
+        top = _FAR_M if zone.top_m is None else zone.top_m
+        if signed_area(corners) < 0.0:
+            corners = corners[::-1]
+        solid = Manifold.extrude(CrossSection([corners]), top - bottom).translate((0.0, 0.0, bottom))
+        return cls(solid, np.append(corners.min(axis=0), bottom), np.append(corners.max(axis=0), top))
+
+    def may_meet(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Whether boxes, given by corners (k, 3), overlap the one around the prism."""
+        return ((low < self.high) & (high > self.low)).all(axis=-1)
+
+    def meets(self, corners: np.ndarray) -> bool:
+        """Whether the convex hull of corners (v, 3) reaches into the prism."""
+        if not self.may_meet(corners.min(axis=0), corners.max(axis=0)):
+            return False
+        return (hull(corners) ^ self.solid).volume() > 0.0
+
+
+def _coming_near(results: Results, prism: _Prism, bodies: np.ndarray) -> np.ndarray:
+    """Return those of the bodies whose spheres meet the box around a prism on their way from step to step."""
+    own = results.inventory.vertices_by_body()
+    radii = np.array([float(length(own[body]).max()) for body in bodies])[:, None]
+    places = results.frames.positions_m[:, bodies]
+    near = prism.may_meet(places[0] - radii, places[0] + radii)
+    for before, after in pairwise(places):
+        near |= prism.may_meet(np.minimum(before, after) - radii, np.maximum(before, after) + radii)
+    return bodies[near]
+
+
+def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:
+    """When a body that is outside at first reaches into a zone, s."""
+    corners = results.inventory.vertices_of(body)
+    radius = float(length(corners).max(initial=0.0))
+    places = results.frames.positions_m[:, body]
+    low = np.minimum(places[:-1], places[1:]) - radius
+    high = np.maximum(places[:-1], places[1:]) + radius
+    for step in np.flatnonzero(prism.may_meet(low, high)):
+        time_s = _entry_between(_Motion.of(results, step, body, corners), prism, 0.0, 1.0)
+        if time_s is not None:
+            return time_s
+    return None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Motion:
+    """A body between two recorded steps; a share of 0 is the first of them, 1 the second."""
+
+    corners: np.ndarray
+    place: np.ndarray
+    shift: np.ndarray
+    rotation: np.ndarray
+    turn: np.ndarray
+    start_s: float
+    duration_s: float
+
+    @classmethod
+    def of(cls, results: Results, step: int, body: int, corners: np.ndarray) -> _Motion:
+        steps = slice(step, step + 2)
+        places, rotations = results.frames.positions_m[steps, body], results.frames.rotations[steps, body]
+        times = results.frames.time_s[steps]
+        turn = rotation_vectors(rotations[0], rotations[1])
+        return cls(corners, places[0], places[1] - places[0], rotations[0], turn, times[0], times[1] - times[0])
+
+    def at(self, share: float) -> np.ndarray:
+        return transformed(rotated(self.rotation, share * self.turn), self.corners) + self.place + share * self.shift
+
+    def bulge_m(self, share: float) -> float:
+        """How far a corner's path between two positions so many shares apart leaves the straight line, at most."""
+        angle = min(share * float(length(self.turn)), math.pi)
+        return float(length(self.corners).max()) * (1.0 - cosine(angle / 2.0))
+
+
+def _entry_between(motion: _Motion, prism: _Prism, first: float, last: float) -> float | None:
+    """When a body reaches into a zone between two shares of its motion, by halving what may hold the moment."""
+    before, after = motion.at(first), motion.at(last)
+    swept = np.concatenate([before, after])
+    bulge = motion.bulge_m(last - first)
+    if not prism.may_meet(swept.min(axis=0) - bulge, swept.max(axis=0) + bulge):
+        return None
+    if bulge > 0.0:
+        offsets = bulge * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+        swept = (swept[:, None] + offsets).reshape(-1, 3)
+    if not prism.meets(swept):
+        return None
+    if prism.meets(before):
+        return motion.start_s + first * motion.duration_s
+    if (last - first) * motion.duration_s <= TIME_TOLERANCE_S:
+        # Not there before, and perhaps after: a path that only grazes a corner within this time is no entry.
+        return motion.start_s + last * motion.duration_s if prism.meets(after) else None
+    middle = (first + last) / 2.0
+    found = _entry_between(motion, prism, first, middle)
+    return _entry_between(motion, prism, middle, last) if found is None else found

@@ -1,0 +1,55 @@
+"""The record that a scenario asks for, wherever it comes from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...engineering.ground_motion.record import LARGEST_ACCELERATION_M_S2, GroundRecord, corrected
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...errors import ScenarioError
+from .accelerogram_file import accelerogram_from_file
+from .settings import DIRECTIONS, GroundMotion
+from .spectral_record import spectral_record
+from .sweep import swept
+
+_IN_M_S2 = {"g": STANDARD_GRAVITY_M_S2, "m/s2": 1.0, "cm/s2": 0.01}
+
+
+def ground_record(motion: GroundMotion, seed: int) -> GroundRecord:
+    """Return how the ground moves; the seed draws the phases of a record that is made from a spectrum.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, holds no accelerogram in that unit, or the ground would not end at rest.
+    """
+    times, found = _accelerations(motion, seed)
+    along = np.zeros((len(times), len(DIRECTIONS)))
+    along[:, [DIRECTIONS.index(each) for each in motion.directions]] = motion.factor * found
+    return corrected(times, along, motion.baseline)
+
+
+def _accelerations(motion: GroundMotion, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return times (k,) in s and the accelerations in each of its directions (k, d), m/s²."""
+    count = len(motion.directions)
+    if motion.sweep:
+        times, values = swept(motion.sweep)
+        return times, np.repeat(values[:, None], count, axis=1)
+    if motion.spectrum:
+        random = np.random.Generator(np.random.PCG64(seed))
+        made = [spectral_record(motion.spectrum, random) for _ in range(count)]
+        return made[0][0], np.column_stack([values for _, values in made])
+    times, values = accelerogram_from_file(Path(motion.file), count)
+    values = _IN_M_S2[motion.unit] * values
+    largest = float(abs(values).max())
+    if largest == 0.0:
+        raise ScenarioError(f"{motion.file}: all accelerations are 0: expected an accelerogram")
+    if largest > LARGEST_ACCELERATION_M_S2:
+        raise ScenarioError(
+            f'ground_motion.unit is "{motion.unit}", by which {motion.file} has up to '
+            f"{largest / STANDARD_GRAVITY_M_S2:.1f} g: expected at most "
+            f"{LARGEST_ACCELERATION_M_S2 / STANDARD_GRAVITY_M_S2:g} g; see in which unit the file is"
+        )
+    return times, values

@@ -1,0 +1,79 @@
+"""A load on a part of the bridge, as a scenario gives it: how large it is, at which time."""
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from itertools import pairwise
+from math import sqrt
+from typing import ClassVar
+
+from ...errors import ScenarioError
+from ..schema import key, shown
+from .part import Part
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load(Part):
+    """A force that grows with time, such as that of jacks in a load test, or of a machine that pushes or pulls: on
+    members, on the shards whose centres of mass lie in a box, or at a point. It is shared out by mass and acts at the
+    centres of mass; with a point, it acts there, on the shard that is nearest. It goes with the shards, and its
+    direction stays. A run has it; `bda stages` does not.
+    """
+
+    table: ClassVar[str] = "loads"
+
+    point_m: tuple[float, float, float] | None = key(
+        "Where it acts, as the bridge was built: on one shard of the members, in the box. Of those whose outlines "
+        "along x, y and z are nearest to this point, it is the one whose centre of mass is nearest.",
+        default=None,
+        unit="m",
+    )
+    direction: tuple[float, float, float] = key(
+        "Where it pushes to, of any length but 0; by default down.", default=(0.0, 0.0, -1.0)
+    )
+    times_s: tuple[float, ...] = key(
+        "Times at which it is given, each later than the one before. Before the first there is no load; after the last "
+        "it stays as it is then.",
+        unit="s",
+        at_least=0,
+    )
+    forces_n: tuple[float, ...] = key(
+        "How large it is at these times, and in a straight line from one to the next.", unit="N", at_least=0
+    )
+
+    @property
+    def unit_direction(self) -> tuple[float, float, float]:
+        """Return the direction, 1 long."""
+        size = sqrt(sum(each * each for each in self.direction))
+        return tuple(each / size for each in self.direction)
+
+    @property
+    def begins_s(self) -> float:
+        """Return from when on there is a load; infinite where there never is."""
+        for (time_s, force_n), (_, next_n) in pairwise([*zip(self.times_s, self.forces_n, strict=True), (0.0, 0.0)]):
+            if force_n > 0.0 or next_n > 0.0:
+                return time_s
+        return float("inf")
+
+    def force_n(self, time_s: float) -> float:
+        """Return how large it is at a time."""
+        after = bisect_right(self.times_s, time_s)
+        if after == 0:
+            return 0.0
+        if after == len(self.times_s):
+            return self.forces_n[-1]
+        (start_s, end_s), (start_n, end_n) = self.times_s[after - 1 : after + 1], self.forces_n[after - 1 : after + 1]
+        return start_n + (end_n - start_n) * ((time_s - start_s) / (end_s - start_s))
+
+    def _check_together(self) -> None:
+        Part._check_together(self)
+        if self.members is None and self.lowest_corner_m is None and self.point_m is None:
+            raise self.unexpected("members", "it, the two corners of a box, or a point")
+        if not any(self.direction):
+            raise ScenarioError(f"{self.table}.direction is {shown(self.direction)}, all 0: expected a direction")
+        if len(self.forces_n) != len(self.times_s):
+            raise self.unexpected("forces_n", f"as many as loads.times_s, {len(self.times_s)}")
+        for place, (before_s, time_s) in enumerate(pairwise(self.times_s), start=1):
+            if not before_s < time_s:
+                raise ScenarioError(
+                    f"{self.table}.times_s[{place}] is {time_s}: expected more than the one before, {before_s} (s)"
+                )

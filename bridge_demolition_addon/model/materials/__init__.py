@@ -1,0 +1,1 @@
+"""Materials and reinforcement as the user gives them."""

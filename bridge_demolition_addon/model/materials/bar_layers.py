@@ -1,0 +1,174 @@
+"""Layers of reinforcing bars: what the user says of them, and what a section of a member with them bears."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
+from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
+from ..schema import Table, key
+
+SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
+"""Axis across each side of a member, and whether the side is where that is lowest or highest."""
+
+AXES = ("x", "y", "z")
+
+_SQUARE_METRE_PER_SQUARE_MILLIMETRE = 1e-6
+
+_CRUSHING_STRAIN = 0.0035
+_BLOCK = 0.8
+"""Strain at which concrete up to C50/60 is crushed, and depth of its stress block by that of the neutral axis:
+EN 1992-1-1:2004, table 3.1 and equation 3.19. Its stress is the strength, equation 3.21, without factors of safety."""
+
+_HALVINGS = 60
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BarLayer(Table):
+    """A layer of reinforcing bars in a member, or in all members of a kind, at their depth in the section. It holds a
+    crack together once a connection broke by its material, with as much as the section bears at yield. It needs method
+    `face`, `connections.material` and `connections.ductile_elongation_m`."""
+
+    table: ClassVar[str] = "reinforcement"
+
+    members: tuple[str, ...] = key("Members that have it, by the names that `bda check` lists or by kind: `['deck']`.")
+    along: str = key("Axis of the bridge that the bars run along.", default="x", choices=AXES)
+    side: str = key(
+        "Side of the member that `depth_m` is measured from; `right` is towards negative y, `start` backwards along "
+        "the road.",
+        default="bottom",
+        choices=tuple(SIDES),
+    )
+    depth_m: float = key("How deep below that side the axes of the bars are.", unit="m", above=0)
+    area_mm2: float = key(
+        "Area of steel of all bars of the layer together, in one section of one member. They are spread evenly over "
+        "the width that the member has at their depth.",
+        unit="mm²",
+        above=0,
+    )
+    yield_n_mm2: float = key(
+        "Yield strength of the bars.",
+        default=YIELD_PA / NEWTON_PER_SQUARE_MILLIMETRE,
+        unit="N/mm²",
+        above=0,
+        at_most=5000,
+    )
+
+    @property
+    def area_m2(self) -> float:
+        """Return the area of steel, m²."""
+        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * self.area_mm2
+
+    @property
+    def yield_pa(self) -> float:
+        """Return the yield strength, Pa."""
+        return NEWTON_PER_SQUARE_MILLIMETRE * self.yield_n_mm2
+
+    @property
+    def axes(self) -> tuple[int, int, int]:
+        """Return the axes that the bars run along, across their side and along their layer."""
+        along, across = AXES.index(self.along), SIDES[self.side][0]
+        return along, across, 3 - along - across
+
+    def level_m(self, lowest: float, highest: float) -> float:
+        """Return where the bars are along the axis across their side, of a member from the lowest to the highest."""
+        return lowest + self.depth_m if SIDES[self.side][1] < 0 else highest - self.depth_m
+
+    def _check_together(self) -> None:
+        if AXES[SIDES[self.side][0]] == self.along:
+            wanted = f"a side that bars along {self.along} run beside, one of {', '.join(self._sides_beside())}"
+            raise self.unexpected("side", wanted)
+
+    def _sides_beside(self) -> list[str]:
+        return [name for name, (axis, _) in SIDES.items() if AXES[axis] != self.along]
+
+
+@dataclass(frozen=True, slots=True)
+class ReinforcedSection:
+    """A rectangular section with layers of bars.
+
+    Attributes
+    ----------
+    height_m, width_m : float
+        Across and along the layers.
+    compressive_pa : float
+        Strength of its concrete in compression.
+    depths_m, areas_m2, yields_pa : sequence of float
+        Of each layer: depth below the first edge, area and yield strength.
+    """
+
+    height_m: float
+    width_m: float
+    compressive_pa: float
+    depths_m: Sequence[float]
+    areas_m2: Sequence[float]
+    yields_pa: Sequence[float]
+
+    def moments_nm(self) -> tuple[float, float]:
+        """Return the plastic moments with the first and with the other edge pressed.
+
+        Sections stay plane, concrete that is pulled bears nothing, and there is no axial force: EN 1992-1-1:2004, 6.1
+        (2). With one layer that yields, this is M = A_s f_y (d - a / 2) with a = A_s f_y / (b f_c).
+        """
+        return self._moment(self.depths_m), self._moment([self.height_m - each for each in self.depths_m])
+
+    def ties_n(self) -> list[float]:
+        """Return the force at which each layer yields as a tie across a crack that closes at one of its edges.
+
+        A crack between rigid bodies turns about its pressed edge, and all ties pull; in a section concrete is pressed
+        over some depth, and bars there do not pull. With these forces both plastic moments are those of the section.
+        In pure tension they bear somewhat less than the bars.
+        """
+        first, other = self.moments_nm()
+        pulls = [area * strength for area, strength in zip(self.areas_m2, self.yields_pa, strict=True)]
+        near = [depth < 0.5 * self.height_m for depth in self.depths_m]
+        of_near, by_near = self._resultant(pulls, near)
+        of_far, by_far = self._resultant(pulls, [not each for each in near])
+        if not of_near:
+            shares = 0.0, first / by_far
+        elif not of_far:
+            shares = other / (self.height_m * of_near - by_near), 0.0
+        else:
+            shares = self._shares(first, other, (of_near, by_near), (of_far, by_far))
+        return [pull * min(shares[0] if is_near else shares[1], 1.0) for pull, is_near in zip(pulls, near, strict=True)]
+
+    def _shares(
+        self, first: float, other: float, near: tuple[float, float], far: tuple[float, float]
+    ) -> tuple[float, float]:
+        """Parts of the forces of the near and of the far layers that bear both moments."""
+        (of_near, by_near), (of_far, by_far) = near, far
+        from_near, from_far = self.height_m * of_near - by_near, self.height_m * of_far - by_far
+        whole = by_near * from_far - by_far * from_near
+        of_near, of_far = (first * from_far - other * by_far) / whole, (other * by_near - first * from_near) / whole
+        if of_near < 0.0:
+            return 0.0, first / by_far
+        return (of_near, of_far) if of_far >= 0.0 else (other / from_near, 0.0)
+
+    def _resultant(self, pulls: Sequence[float], chosen: Sequence[bool]) -> tuple[float, float]:
+        """Force of the chosen layers, and its moment about the first edge."""
+        rows = [(pull, depth) for pull, depth, each in zip(pulls, self.depths_m, chosen, strict=True) if each]
+        return sum(pull for pull, _ in rows), sum(pull * depth for pull, depth in rows)
+
+    def _moment(self, depths_m: Sequence[float]) -> float:
+        """Plastic moment with the edge pressed that depths count from."""
+        low, high = 0.0, self.height_m / _BLOCK
+        for _ in range(_HALVINGS):
+            neutral = 0.5 * (low + high)
+            low, high = (neutral, high) if self._axial_n(neutral, depths_m) > 0.0 else (low, neutral)
+        neutral = 0.5 * (low + high)
+        pulled = sum(pull * depth for pull, depth in zip(self._pulls(neutral, depths_m), depths_m, strict=True))
+        return pulled - self._pressed_n(neutral) * 0.5 * _BLOCK * neutral
+
+    def _axial_n(self, neutral_m: float, depths_m: Sequence[float]) -> float:
+        return sum(self._pulls(neutral_m, depths_m)) - self._pressed_n(neutral_m)
+
+    def _pressed_n(self, neutral_m: float) -> float:
+        return _BLOCK * neutral_m * self.width_m * self.compressive_pa
+
+    def _pulls(self, neutral_m: float, depths_m: Sequence[float]) -> list[float]:
+        """Forces of the layers with the neutral axis so deep, as concrete is crushed at the edge; tension positive."""
+        strains = [_CRUSHING_STRAIN * (depth - neutral_m) / neutral_m for depth in depths_m]
+        return [
+            area * min(max(MODULUS_PA * strain, -strength), strength)
+            for strain, area, strength in zip(strains, self.areas_m2, self.yields_pa, strict=True)
+        ]

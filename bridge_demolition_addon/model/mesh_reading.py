@@ -1,0 +1,50 @@
+"""Meshes in files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.vectors import transformed
+from ..errors import GeometryError
+from ..system.reading import MEGABYTE, check_file
+
+MESH_FILES = (".stl", ".obj", ".ply", ".glb")
+
+MOST_BYTES = 1000 * MEGABYTE
+"""Size up to which a mesh is read: tens of millions of triangles."""
+
+_FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+
+def from_y_up(vertices: np.ndarray) -> np.ndarray:
+    """Turn coordinates (v, 3) with y up and z towards the viewer into ours, with z up."""
+    return transformed(_FROM_Y_UP, vertices)
+
+
+def read_mesh(path: Path) -> TriangleMesh:
+    """The mesh in a file that ends in one of `MESH_FILES`, as it is.
+
+    Raises
+    ------
+    UnreadableError
+        It is no file, or too large.
+    GeometryError
+        The file cannot be read as what its name says, or has no faces.
+    """
+    check_file(path, MOST_BYTES)
+    import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
+
+    try:
+        mesh = trimesh.load(path, force="mesh", process=False)
+    except Exception as error:  # each reader has its own for a file that is not what its name says
+        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
+    if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
+        raise GeometryError(f"{path}: has no faces; export a closed surface.")
+    vertices = np.asarray(mesh.vertices, dtype=float)
+    if path.suffix.lower() == ".glb":
+        # Of single precision in the file; trimesh has placed them by products whose last bits differ by processor.
+        vertices = vertices.astype(np.float32).astype(float)
+    return TriangleMesh(vertices, np.asarray(mesh.faces, dtype=np.int64))

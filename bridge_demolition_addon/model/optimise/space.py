@@ -1,0 +1,206 @@
+"""All that may change in an optimisation, as numbers from 0 to 1, and what a scenario gets for them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from ...errors import ScenarioError
+from ..scenario import Scenario
+from ..search.file import values_of
+from ..study.file import SEED
+from ..study.keys import ScenarioKey, changed, keys_named
+from .settings import OptimiseSettings, Order, Place, Quantity
+
+
+class Dimension(Protocol):
+    """A part of what may change.
+
+    Attributes
+    ----------
+    keys : tuple of ScenarioKey
+        Where it is in the scenario.
+    size : int
+        How many numbers from 0 to 1 say what it is.
+    """
+
+    keys: tuple[ScenarioKey, ...]
+    size: int
+
+    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+        """Return what the scenario gets."""
+
+    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+        """Return what a table says, by names of columns."""
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """One quantity."""
+
+    quantity: Quantity
+    keys: tuple[ScenarioKey, ...]
+    size: int = 1
+
+    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+        return values_of(self.keys, self.quantity.value(shares[0]), factor=self.quantity.factor)
+
+    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+        return {self.quantity.key: self.quantity.value(shares[0])}
+
+
+@dataclass(frozen=True, slots=True)
+class Dealt:
+    """Numbers that are dealt out to their keys in another order: the key with the smallest share gets the first."""
+
+    keys: tuple[ScenarioKey, ...]
+
+    @property
+    def size(self) -> int:
+        return len(self.keys)
+
+    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+        order = sorted(range(self.size), key=lambda each: shares[each])
+        return {self.keys[place]: key.value for place, key in zip(order, self.keys, strict=True)}
+
+    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+        values = self.values(shares)
+        return {key.name: values[key] for key in self.keys}
+
+
+@dataclass(frozen=True, slots=True)
+class Space:
+    """All of it."""
+
+    dimensions: tuple[Dimension, ...]
+
+    @property
+    def size(self) -> int:
+        """How many numbers from 0 to 1 make a candidate."""
+        return sum(each.size for each in self.dimensions)
+
+    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+        """Return what a scenario gets for shares (size,)."""
+        return {key: value for each, own in self._parts(shares) for key, value in each.values(own).items()}
+
+    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+        """Return the values of shares (size,) by their names in a table."""
+        return {name: value for each, own in self._parts(shares) for name, value in each.shown(own).items()}
+
+    def _parts(self, shares: Sequence[float]) -> list[tuple[Dimension, Sequence[float]]]:
+        found, begin = [], 0
+        for each in self.dimensions:
+            found.append((each, shares[begin : begin + each.size]))
+            begin += each.size
+        return found
+
+
+def space_of(settings: OptimiseSettings, scenario: Scenario, drawn: Sequence[str]) -> Space:
+    """Return what may change in a scenario.
+
+    Parameters
+    ----------
+    settings, scenario
+        Which keys, and where.
+    drawn : sequence of str
+        Names of keys that vary by chance: they cannot be chosen.
+
+    Raises
+    ------
+    ScenarioError
+        The scenario lacks a key, or cannot have the ends of its range, or one is named twice.
+    """
+    dimensions: list[Dimension] = []
+    named: set[str] = set(drawn)
+    makers = ((settings.quantities, _along), (settings.places, _in_box), (settings.orders, _dealt))
+    for tables, make in makers:
+        for number, table in enumerate(tables, start=1):
+            try:
+                made = make(table, scenario)
+                for each in made:
+                    _check_new(each.keys, named, drawn)
+                    _check_ends(scenario, each)
+                dimensions += made
+            except ScenarioError as error:
+                raise ScenarioError(f"[[{table.table}]] number {number}: {error}") from error
+    return Space(tuple(dimensions))
+
+
+def _along(quantity: Quantity, scenario: Scenario) -> list[Dimension]:
+    keys = keys_named(scenario, quantity.key)
+    for key in keys:
+        if not _is_number(key.value) and (quantity.factor or key.value is not None):
+            raise ScenarioError(f"{key.name} has no number in the scenario: expected a key that has one")
+    return [Along(quantity, keys)]
+
+
+def _in_box(place: Place, scenario: Scenario) -> list[Dimension]:
+    axes: list[Dimension] = []
+    coordinates = _coordinates(place, scenario)
+    if coordinates != len(place.lowest_corner_m):
+        raise place.unexpected("lowest_corner_m", f"{coordinates} numbers, as {place.key} has")
+    for axis, (low, high) in enumerate(zip(place.lowest_corner_m, place.highest_corner_m, strict=True), start=1):
+        keys = keys_named(scenario, f"{place.key}.{axis}")
+        if low < high:
+            axes.append(Along(Quantity(key=f"{place.key}.{axis}", lowest=low, highest=high), keys))
+        elif any(key.value != low for key in keys):
+            raise ScenarioError(
+                f"{place.key}.{axis} is {keys[0].value:g} in the scenario and {low:g} in both corners: expected "
+                f"{keys[0].value:g} there, or two numbers that differ"
+            )
+    return axes
+
+
+def _coordinates(place: Place, scenario: Scenario) -> int:
+    """How many numbers a place has in the scenario."""
+    keys = keys_named(scenario, f"{place.key}.1")
+    if len(keys) > 1:
+        raise place.unexpected("key", f"one of them, such as {keys[0].name.removesuffix('.1')}")
+    value: Any = scenario
+    for step in keys[0].steps[:-1]:
+        value = value[step] if isinstance(step, int) else getattr(value, step)
+    return len(value)
+
+
+def _dealt(order: Order, scenario: Scenario) -> list[Dimension]:
+    keys = [key for name in order.keys for key in keys_named(scenario, name)]
+    for key in keys:
+        if not _is_number(key.value):
+            raise ScenarioError(f"{key.name} has no number in the scenario: expected a key that has one")
+    if len({key.value for key in keys}) < 2:
+        raise order.unexpected("keys", f"numbers that differ; all of them are {keys[0].value:g}")
+    return [Dealt(tuple(keys))]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _check_new(keys: Sequence[ScenarioKey], named: set[str], drawn: Sequence[str]) -> None:
+    for key in keys:
+        if key.name == SEED:
+            raise ScenarioError(f"{SEED} is drawn for each run: expected a quantity of the bridge or its demolition")
+        if key.name in drawn:
+            raise ScenarioError(f"{key.name} is chosen and drawn as well: leave out its table [[vary]]")
+        if key.name in named:
+            raise ScenarioError(f"{key.name} is named more than once: expected one table for it")
+        named.add(key.name)
+
+
+def _check_ends(scenario: Scenario, dimension: Dimension) -> None:
+    for end in (0.0, 1.0):
+        shares = [end] if dimension.size == 1 else [abs(end - each / dimension.size) for each in range(dimension.size)]
+        values = dimension.values(shares)
+        try:
+            changed(scenario, values)
+        except ScenarioError as error:
+            first, value = next(iter(values.items()))
+            raise ScenarioError(
+                f"{first.name} may come to {value:g}, which the scenario cannot have: {error}"
+            ) from error
+
+
+def total_charge_kg(scenario: Scenario) -> float:
+    """Return the mass of all charges of a scenario; 0 where it blasts nothing."""
+    return float(sum(each.mass_kg for each in scenario.charges)) if scenario.blast.explosion else 0.0

@@ -1,0 +1,250 @@
+"""Everything a run recorded, and the files that keep it."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.vectors import transformed
+from ...engineering.mechanics.frame_loads import FrameLoads
+from ...engineering.mechanics.work import FrameWork
+from ...engineering.terrain.recorded import NamedSurface, RecordedGround
+from ...engineering.terrain.surface import Surface
+from ...errors import OutputError, UnreadableError
+from ...system.array_files.archive import read_archive, write_archive
+from ...system.array_files.table import stored_rows
+from ...system.reading import check_file
+from .checks import check_arrays
+from .files import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
+from .frames import BallHistory, ContactHistory, Frame, FrameSeries
+from .inventory import Inventory
+
+_Part = TypeVar("_Part")
+
+_OF_FRAMES = {
+    "number": "frames",
+    "time_s": "times_s",
+    "positions_m": "places_m",
+    "angular_velocities_rad_s": "spins_rad_s",
+}
+
+_STORED_NAMES = {
+    Frame: _OF_FRAMES,
+    FrameSeries: _OF_FRAMES,
+    FrameWork: {
+        "gravity_j": "work_of_gravity_j",
+        "loads_j": "work_of_loads_j",
+        "tools_j": "work_of_tools_j",
+        "damping_j": "lost_to_damping_j",
+        "dissipated_j": "dissipated_between_bodies_j",
+        "made_j": "made_by_solver_j",
+    },
+    BallHistory: {
+        "bodies": "balls",
+        "times_s": "ball_times_s",
+        "impulses_ns": "ball_impulses_ns",
+        "velocities_m_s": "ball_velocities_m_s",
+    },
+    ContactHistory: {
+        "frames": "contact_frames",
+        "bodies": "contact_bodies",
+        "places_m": "contact_places_m",
+        "normals": "contact_normals",
+        "normal_impulses_ns": "contact_normal_impulses_ns",
+        "friction_impulses_ns": "contact_friction_impulses_ns",
+    },
+}
+"""What arrays are called in the files, where not as here. Files of earlier versions have these names."""
+
+_UNREADABLE = (
+    OutputError,
+    UnreadableError,
+    AttributeError,
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OSError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What the archive's reader raises for a file that is damaged, encrypted, or says that it holds more than there is."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Results:
+    """A run.
+
+    Attributes
+    ----------
+    reading : str
+        Which sub-steps the loads come from. ``every sub-step``: loads are those of the whole frame. Otherwise they are
+        those of its last sub-step.
+    inventory : Inventory
+        Bodies and connections.
+    frames : FrameSeries
+        Motion and loads.
+    balls : BallHistory
+        Hits of the balls.
+    contacts : ContactHistory or None
+        Contacts in the last sub-step of each frame; None where they were not recorded.
+    """
+
+    reading: str
+    inventory: Inventory
+    frames: FrameSeries
+    balls: BallHistory
+    contacts: ContactHistory | None = None
+
+    @classmethod
+    def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Results:
+        """Results from what `arrays` gives."""
+        parts = _part(Inventory, arrays), frames_of(arrays), balls_of(arrays), contacts_of(arrays)
+        return cls(str(arrays["reading"]), *parts)
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """All arrays by their names in the file."""
+        return dict(named_arrays(self))
+
+    def ground(self) -> RecordedGround:
+        """The ground that the run was on, as it lay at first."""
+        inventory, terrain, surfaces = self.inventory, None, []
+        for body in inventory.of_kind("ground"):
+            triangles = inventory.triangles_of(body)
+            if not len(triangles):
+                continue
+            turned = transformed(self.frames.rotations[0, body], inventory.vertices_of(body))
+            surface = Surface(TriangleMesh(turned + self.frames.positions_m[0, body], triangles))
+            if name := str(inventory.body_members[body]):
+                surfaces.append(NamedSurface(name, str(inventory.body_member_kinds[body]), surface))
+            else:
+                terrain = surface
+        return RecordedGround(terrain, tuple(surfaces))
+
+    def save(self, path: Path) -> None:
+        """Write all arrays into one file that `numpy.load` and `load_results` read."""
+        arrays = self.arrays()
+        known = dict(named_arrays(self.inventory))
+        # What has one bit in a byte, and what everybody needs as a whole. A frame is read from all else without it.
+        packed = {name for name, values in arrays.items() if name in known or np.asarray(values).dtype.kind == "b"}
+        write_archive(path, arrays, packed)
+
+
+def load_results(path: Path) -> Results:
+    """Read what `Results.save` wrote, or the frames that a run left which ended before its end.
+
+    Large arrays are mapped from copies: only what is looked at is read, and they stay as they are, whatever becomes of
+    the files.
+
+    Parameters
+    ----------
+    path : Path
+        File of the results, or of the frames; or the folder of the run.
+
+    Raises
+    ------
+    OutputError
+        The file is missing or was not written by a run.
+    """
+    path = results_in(path) if path.is_dir() else path
+    try:
+        check_file(path)
+        arrays = _left_arrays(path) if path.name == FRAMES_FILE else read_archive(path)
+        check_arrays(arrays)
+        return Results.of_arrays(arrays)
+    except _UNREADABLE as error:
+        raise OutputError(f"{path}: expected the results of a run ({error})") from error
+
+
+def results_in(folder: Path) -> Path:
+    """Return the file in the folder of a run that its results are read from: that of a whole run, if it is there."""
+    left = folder / FRAMES_FILE
+    return left if left.exists() and not (folder / RESULTS_FILE).exists() else folder / RESULTS_FILE
+
+
+def named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """Give the arrays of a dataclass and of those in it, by their names in the files; what is None is left out."""
+    for each in fields(part):
+        value = getattr(part, each.name)
+        if is_dataclass(value):
+            yield from named_arrays(value)
+        elif value is not None:
+            yield _stored_name(type(part), each.name), value
+
+
+def frames_of(arrays: Mapping[str, np.ndarray]) -> FrameSeries:
+    """Return the frames in arrays by their names in the files."""
+    return _part(FrameSeries, arrays, loads=_part(FrameLoads, arrays), work=_work(arrays))
+
+
+def balls_of(arrays: Mapping[str, np.ndarray]) -> BallHistory:
+    """Return the history of the balls in arrays by their names in the files."""
+    return _part(BallHistory, arrays)
+
+
+def contacts_of(arrays: Mapping[str, np.ndarray]) -> ContactHistory | None:
+    """Return the contacts in arrays by their names in the files; None where they were not recorded."""
+    return _part(ContactHistory, arrays) if "contact_frames" in arrays else None
+
+
+def contacts_until(rows: np.ndarray, frame: int) -> ContactHistory:
+    """Return the contacts in rows of a table up to one of Blender's frames: later ones have no whole frame."""
+    until = np.searchsorted(rows["contact_frames"], frame, side="right")
+    return _part(ContactHistory, columns(rows[:until]))
+
+
+def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the arrays (k, …) of rows (k,) by their names."""
+    return {name: rows[name] for name in rows.dtype.names}
+
+
+def _left_arrays(path: Path) -> dict[str, np.ndarray]:
+    """Return the arrays that a run has left on its way; of sub-steps and contacts, those of whole frames."""
+    frames, inventory, balls = stored_rows(path), path.with_name(INVENTORY_FILE), path.with_name(BALLS_FILE)
+    check_file(inventory)
+    arrays = read_archive(inventory) | columns(frames) | _left_contacts(path.with_name(CONTACTS_FILE), frames)
+    if not balls.exists():
+        return arrays | dict(named_arrays(BallHistory.unknown()))
+    check_file(balls)
+    substeps = stored_rows(balls)
+    if not len(substeps):
+        return arrays | dict(named_arrays(BallHistory.unknown()))
+    end_s = frames["times_s"][-1] if len(frames) else 0.0
+    return arrays | columns(substeps[: np.searchsorted(substeps["ball_times_s"], end_s, side="right")])
+
+
+def _left_contacts(path: Path, frames: np.ndarray) -> dict[str, np.ndarray]:
+    if not path.exists() or not len(frames):
+        return {}
+    check_file(path)
+    return dict(named_arrays(contacts_until(stored_rows(path), frames["frames"][-1])))
+
+
+def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> _Part:
+    """A part of the results, with the fields that are known already; arrays that may be None need not be there."""
+    missing = {
+        each.name for each in fields(kind) if each.default is None and _stored_name(kind, each.name) not in arrays
+    }
+    names = [each.name for each in fields(kind) if each.name not in known.keys() | missing]
+    return kind(**{name: arrays[_stored_name(kind, name)] for name in names}, **known)
+
+
+def _work(arrays: Mapping[str, np.ndarray]) -> FrameWork:
+    """Work, which earlier versions did not record."""
+    if _STORED_NAMES[FrameWork]["made_j"] in arrays:
+        return _part(FrameWork, arrays)
+    return FrameWork.unknown(len(arrays["frames"]), len(arrays["body_names"]))
+
+
+def _stored_name(kind: type, name: str) -> str:
+    return _STORED_NAMES.get(kind, {}).get(name, name)

@@ -1,0 +1,327 @@
+"""Whether what was read from the files of a run can be what a run writes, before anything is worked out from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ...engineering.geometry.vectors import product
+from ...errors import OutputError
+from ...system.array_files.blocks import blocks_of
+from ..schema import LARGEST_NUMBER, shown
+
+_FARTHEST_M = 1e7
+"""Farther than any debris flies."""
+
+_ROTATION_SLACK = 1e-3
+"""Single precision of Blender, turned on over thousands of frames."""
+
+_SHAPES = {
+    "reading": ("U", ""),
+    "frames": ("i", "k"),
+    "times_s": ("f", "k"),
+    "substep_s": ("f", "k"),
+    "places_m": ("f", "kn3"),
+    "rotations": ("f", "kn33"),
+    "velocities_m_s": ("f", "kn3"),
+    "spins_rad_s": ("f", "kn3"),
+    "asleep": ("b", "kn"),
+    "intact": ("b", "km"),
+    "blast_impulses_ns": ("f", "kn3"),
+    "body_names": ("U", "n"),
+    "body_kinds": ("U", "n"),
+    "masses_kg": ("f", "n"),
+    "volumes_m3": ("f", "n"),
+    "body_members": ("U", "n"),
+    "body_member_kinds": ("U", "n"),
+    "vertices_m": ("f", "v3"),
+    "vertex_counts": ("i", "n"),
+    "connection_names": ("U", "m"),
+    "pairs": ("i", "m2"),
+    "points_m": ("f", "m3"),
+    "areas_m2": ("f", "m"),
+    "normals": ("f", "m3"),
+    "second_moments_m4": ("f", "m22"),
+    "triangles": ("i", "t3"),
+    "triangle_counts": ("i", "n"),
+    "body_forces_n": ("f", "kn3"),
+    "body_peaks_n": ("f", "kn"),
+    "body_sums_n": ("f", "kn"),
+    "body_peak_sums_n": ("f", "kn"),
+    "body_contact_impulses_ns": ("f", "kn3"),
+    "body_signed_2019_n": ("f", "kn"),
+    "stresses_pa": ("f", "kn33"),
+    "von_mises_pa": ("f", "kn"),
+    "connection_forces_n": ("f", "km3"),
+    "connection_moments_nm": ("f", "km3"),
+    "connection_peaks_n": ("f", "km"),
+    "connection_peak_forces_n": ("f", "km3"),
+    "connection_peak_moments_nm": ("f", "km3"),
+    "work_of_gravity_j": ("f", "k"),
+    "work_of_loads_j": ("f", "k"),
+    "work_of_tools_j": ("f", "k"),
+    "lost_to_damping_j": ("f", "k"),
+    "dissipated_between_bodies_j": ("f", "k"),
+    "made_by_connections_j": ("f", "k"),
+    "made_by_contacts_j": ("f", "k"),
+    "made_by_lifting_j": ("f", "k"),
+    "made_by_solver_j": ("f", "kn"),
+    "balls": ("i", "b"),
+    "ball_times_s": ("f", "s"),
+    "ball_impulses_ns": ("f", "sb3"),
+    "ball_velocities_m_s": ("f", "sb3"),
+    "contact_frames": ("i", "c"),
+    "contact_bodies": ("i", "c2"),
+    "contact_places_m": ("f", "c3"),
+    "contact_normals": ("f", "c3"),
+    "contact_normal_impulses_ns": ("f", "c"),
+    "contact_friction_impulses_ns": ("f", "c3"),
+}
+"""Kind and shape of every array by its name in the file, with the letters of `Results`' parts: n bodies, m connections,
+k frames, v vertices, t triangles, b balls, s sub-steps, c contacts."""
+
+_KINDS = {"U": ("texts", "U"), "i": ("whole numbers", "iu"), "f": ("fractions", "f"), "b": ("true or false", "b")}
+
+_KNOWN = (
+    "times_s",
+    "substep_s",
+    "places_m",
+    "rotations",
+    "velocities_m_s",
+    "spins_rad_s",
+    "masses_kg",
+    "volumes_m3",
+    "vertices_m",
+    "points_m",
+    "areas_m2",
+    "ball_times_s",
+    "contact_places_m",
+    "contact_normals",
+    "contact_normal_impulses_ns",
+    "contact_friction_impulses_ns",
+)
+"""Arrays in which every number is known; in others, nan stands for what was not recorded."""
+
+
+def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
+    """Make sure that arrays by their names in the file have the kinds, shapes and sizes of a run's.
+
+    Raises
+    ------
+    OutputError
+        One does not; the text begins with its name.
+    """
+    lengths: dict[str, tuple[int, str]] = {}
+    for name, (kind, shape) in _SHAPES.items():
+        if name in arrays:
+            _check_kind(name, arrays[name], kind)
+            _check_shape(name, arrays[name], shape, lengths)
+            if kind == "f":
+                _check_sizes(name, arrays[name])
+    _check_order(arrays)
+    bodies = len(arrays["body_names"])
+    for name, least, most in (("pairs", -1, bodies), ("balls", 0, bodies), ("vertex_counts", 0, 2**31)):
+        wanted = f"whole numbers from {least} to {most - 1}"
+        _expect(name, arrays[name], lambda each, low=least, high=most: (each >= low) & (each < high), wanted)
+    total = int(arrays["vertex_counts"].sum())
+    if total != len(arrays["vertices_m"]):
+        raise OutputError(f"vertex_counts: add up to {total}, expected {len(arrays['vertices_m'])}, as in vertices_m")
+    _check_triangles(arrays)
+    _check_contacts(arrays)
+
+
+def checked_summary(summary: Any) -> dict[str, Any]:
+    """Return a run's summary, after making sure of all that is read from it again.
+
+    Raises
+    ------
+    OutputError
+        It is no table, or a value in it is none that a run writes; the text begins with its name.
+    """
+    _check_table("the whole", summary, _SUMMARY, optional=_SUMMARY)
+    for name in ("impact", "key_frame"):
+        if summary.get(name) is not None:
+            _check_table(name, summary[name], {"time_s": _is_number, "reason": _is_text}, optional=("reason",))
+    if summary.get("fell_by_itself") is not None:
+        _check_table("fell_by_itself", summary["fell_by_itself"], _FALL)
+    if summary.get("terrain") is not None:
+        _check_table("terrain", summary["terrain"], _TERRAIN)
+        for number, each in enumerate(summary["terrain"]["levelled"]):
+            _check_table(f"terrain.levelled[{number}]", each, _LEVELLED)
+    for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
+        _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
+    return summary
+
+
+def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
+    """See that triangles, which only runs on ground that is not flat have, are of vertices of their own bodies."""
+    if "triangles" not in arrays and "triangle_counts" not in arrays:
+        return
+    for name in ("triangles", "triangle_counts"):
+        if name not in arrays:
+            raise OutputError(f"{name}: is missing")
+    triangles, counts = arrays["triangles"], arrays["triangle_counts"]
+    _expect("triangle_counts", counts, lambda each: each >= 0, "no negative numbers")
+    if (total := int(counts.sum())) != len(triangles):
+        raise OutputError(f"triangle_counts: add up to {total}, expected {len(triangles)}, as in triangles")
+    most = np.repeat(arrays["vertex_counts"], counts)[:, None]
+    if not ((triangles >= 0) & (triangles < most)).all():
+        raise OutputError("triangles: expected rows of the vertices of their bodies")
+
+
+def _check_contacts(arrays: Mapping[str, np.ndarray]) -> None:
+    """See that contacts, which only runs have that were asked for them, are of bodies that there are, in order."""
+    if "contact_frames" not in arrays:
+        return
+    _expect("contact_frames", np.diff(arrays["contact_frames"]), lambda each: each >= 0, "numbers that do not fall")
+    bodies = len(arrays["body_names"])
+    wanted = f"whole numbers from 0 to {bodies - 1}"
+    _expect("contact_bodies", arrays["contact_bodies"], lambda each: (each >= 0) & (each < bodies), wanted)
+
+
+def _check_kind(name: str, array: np.ndarray, kind: str) -> None:
+    words, kinds = _KINDS[kind]
+    if array.dtype.kind not in kinds:
+        raise OutputError(f"{name}: expected {words}, found {array.dtype}")
+    if kind == "U" and not _can_be_written(array):
+        raise OutputError(f"{name}: expected {words} in Unicode, found others")
+
+
+def _check_shape(name: str, array: np.ndarray, shape: str, lengths: dict[str, tuple[int, str]]) -> None:
+    """See that an array has a shape, and each letter of it the length that it has in the arrays before."""
+    if array.ndim != len(shape):
+        raise OutputError(f"{name}: expected {len(shape)} axes, found {array.ndim}")
+    for axis, (letter, found) in enumerate(zip(shape, array.shape, strict=True)):
+        wanted, where = (int(letter), "") if letter.isdigit() else lengths.setdefault(letter, (found, name))
+        if found != wanted:
+            as_there = f", as in {where}" if where else ""
+            raise OutputError(f"{name}: expected a length of {wanted}{as_there}, found {found} along axis {axis}")
+
+
+def _check_sizes(name: str, array: np.ndarray) -> None:
+    if name in _KNOWN:
+        most = _FARTHEST_M if name.endswith("_m") else LARGEST_NUMBER
+        _expect(name, array, lambda each: np.abs(each) <= most, f"numbers of at most {most:.3g}")
+    else:
+        wanted = f"numbers of at most {LARGEST_NUMBER:.3g}"
+        _expect(name, array, lambda each: ~(np.abs(each) > LARGEST_NUMBER), wanted)
+
+
+def _check_order(arrays: Mapping[str, np.ndarray]) -> None:
+    if not len(arrays["frames"]):
+        raise OutputError("frames: expected at least one")
+    for name in ("masses_kg", "volumes_m3", "areas_m2", "substep_s"):
+        _expect(name, arrays[name], lambda each: each >= 0.0, "no negative numbers")
+    for name in ("frames", "times_s", "ball_times_s"):
+        _expect(name, np.diff(arrays[name]), lambda each: each >= 0, "numbers that do not fall")
+    _expect("rotations", arrays["rotations"], _are_rotations, "rotation matrices")
+    _expect("frames", arrays["frames"], lambda each: np.abs(each) < 2**31, "frames of Blender")
+
+
+def _are_rotations(matrices: np.ndarray) -> np.ndarray:
+    turned = product(matrices, np.swapaxes(matrices, -1, -2))
+    return np.abs(turned - np.eye(3)) < _ROTATION_SLACK
+
+
+def _expect(name: str, array: np.ndarray, holds: Callable[[np.ndarray], np.ndarray], wanted: str) -> None:
+    if not all(holds(block).all() for block in blocks_of(array)):
+        raise OutputError(f"{name}: expected {wanted}")
+
+
+def _check_table(
+    name: str, table: Any, keys: Mapping[str, Callable[[Any], bool]], optional: Mapping[str, Any] | tuple = ()
+) -> None:
+    if not isinstance(table, dict):
+        raise OutputError(f"{name}: is {shown(table)}, expected a table")
+    for key, holds in keys.items():
+        if key not in table and key not in optional:
+            raise OutputError(f"{name}: has no {key}")
+        if key in table and not holds(table[key]):
+            raise OutputError(f"{key}: is {shown(table[key])}, which no run writes")
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return -LARGEST_NUMBER <= value <= LARGEST_NUMBER and math.isfinite(value)
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str) and _can_be_written(np.array(value))
+
+
+def _can_be_written(texts: np.ndarray) -> bool:
+    """Return whether texts hold letters of Unicode alone, and no halves of them (surrogates)."""
+    letters = np.frombuffer(np.ascontiguousarray(texts, texts.dtype.newbyteorder("=")).tobytes(), np.uint32)
+    return not ((letters > 0x10FFFF) | ((letters >= 0xD800) & (letters < 0xE000))).any()
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list)
+
+
+def _is_switch(value: Any) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_table_or_none(value: Any) -> bool:
+    return value is None or isinstance(value, dict)
+
+
+def _is_number_or_none(value: Any) -> bool:
+    return value is None or _is_number(value)
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+_FALL = {
+    "until_s": _is_number_or_none,
+    "first_break_s": _is_number_or_none,
+    "broken": _is_number,
+    "connections": _is_number,
+    "largest_move_m": _is_number,
+}
+_TERRAIN = {
+    "name": _is_text,
+    "heights": _is_number,
+    "triangles": _is_number,
+    "step_m": _is_number,
+    "largest_error_m": _is_number,
+    "error_place_m": lambda value: _is_list(value) and len(value) == 2 and all(map(_is_number, value)),
+    "common_error_m": _is_number,
+    "lowest_m": _is_number,
+    "highest_m": _is_number,
+    "filled_in_share": _is_number,
+    "levelled": _is_list,
+}
+_LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
+_SUMMARY = {
+    "terrain": _is_table_or_none,
+    "made_by_hand": _are_texts,
+    "fell_by_itself": _is_table_or_none,
+    "title": _is_text,
+    "completed": _is_switch,
+    "blender": _is_text,
+    "density_kg_m3": _is_number,
+    "impact": _is_table_or_none,
+    "key_frame": lambda value: isinstance(value, dict),
+    "hits_of_the_ball": _is_list,
+}
+
+_ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}
+
+_HIT = {
+    "ball": _is_text,
+    "time_s": _is_number,
+    "lasted_s": _is_number,
+    "approach_m_s": _is_number,
+    "impulse_Ns": _is_number,
+    "raw_peak_force_N": _is_number,
+    **_ESTIMATES,
+}
+"""A hit from behind has no estimates."""

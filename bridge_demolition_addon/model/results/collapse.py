@@ -1,0 +1,143 @@
+"""Collapse: heights of the spans, how far the collapse is, and when all is at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.geometry.vectors import length
+from ...engineering.terrain.recorded import RecordedGround
+from .arrays import Results
+from .motion import relative_to_ground
+
+REST_SPEED_M_S = 0.1
+"""A shard that moves more slowly than this is at rest."""
+
+_DECK = "deck"
+_WHOLE = "whole structure"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Span:
+    """Height of one span over time.
+
+    Attributes
+    ----------
+    name
+        What it is called.
+    bodies : (b,) int
+        Indices of its shards.
+    heights_m, lowest_m : (k,) float
+        Height of its shards above the ground below each, the mean by mass and the least, between centres of mass.
+    levels_m : (k,) float
+        Height of its centre of mass above the scenario's origin.
+    """
+
+    name: str
+    bodies: np.ndarray
+    heights_m: np.ndarray
+    lowest_m: np.ndarray
+    levels_m: np.ndarray
+
+    @property
+    def drop_m(self) -> float:
+        """Height by which its centre of mass came down."""
+        return float(self.levels_m[0] - self.levels_m[-1])
+
+
+def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Span, ...]:
+    """Return the spans of the deck, divided by where their shards were at first.
+
+    Parameters
+    ----------
+    results
+        What was recorded.
+    span_lengths_m
+        Lengths of the spans from x = 0 on. Shards beyond the first or last axis belong to the nearest span. Without
+        them, or where no shard is of the deck, everything is one span.
+    """
+    results = relative_to_ground(results)
+    shards, ground = results.inventory.of_kind("shard"), results.ground()
+    deck = shards[results.inventory.body_member_kinds[shards] == _DECK]
+    if not len(shards):
+        return ()
+    if not len(deck):
+        return (_span(results, ground, _WHOLE, shards),)
+    inner_axes = np.cumsum(span_lengths_m)[:-1] if len(span_lengths_m) else np.zeros(0)
+    numbers = np.searchsorted(inner_axes, results.frames.positions_m[0, deck, 0], side="right")
+    names = ["deck"] if not len(inner_axes) else [f"span {number + 1}" for number in range(len(inner_axes) + 1)]
+    parts = ((name, deck[numbers == row]) for row, name in enumerate(names))
+    return tuple(_span(results, ground, name, bodies) for name, bodies in parts if len(bodies))
+
+
+def collapse_progress(results: Results) -> np.ndarray:
+    """Return how far the collapse is at each recorded step, (k,) from 0 to 1, a little below 0 where shards rise.
+
+    The part of the height of the shards' masses above the ground under each that is lost: 0 stands as it did, 1 would
+    be all of it flat on the ground.
+    """
+    shards = results.inventory.of_kind("shard")
+    masses = results.inventory.masses_kg[shards]
+    if not masses.sum() > 0.0:
+        return np.zeros(len(results.frames.time_s))
+    results = relative_to_ground(results)
+    heights = _mean_by_mass(_above(results.ground(), results.frames.positions_m[:, shards]), masses)
+    return 1.0 - heights / heights[0] if heights[0] > 0.0 else np.zeros(len(heights))
+
+
+@dataclass(frozen=True, slots=True)
+class ShardRest:
+    """When the shards came to rest.
+
+    Attributes
+    ----------
+    first_motion_s
+        When a shard first moved; None where none did.
+    at_rest_s
+        From when on no shard moved; None where some still did at the end, or none ever did.
+    moving_at_end
+        How many moved at the end.
+    """
+
+    first_motion_s: float | None
+    at_rest_s: float | None
+    moving_at_end: int
+
+
+def rest_of(results: Results) -> ShardRest:
+    """Return when the shards began to move on the ground and when they came to rest on it, by `REST_SPEED_M_S`."""
+    shards = results.inventory.of_kind("shard")
+    moving = length(relative_to_ground(results).frames.velocities_m_s[:, shards]) > REST_SPEED_M_S
+    at_times = np.flatnonzero(moving.any(axis=1))
+    if not len(at_times):
+        return ShardRest(None, None, 0)
+    at_end = int(moving[-1].sum())
+    at_rest = None if at_end else float(results.frames.time_s[at_times[-1] + 1])
+    return ShardRest(float(results.frames.time_s[at_times[0]]), at_rest, at_end)
+
+
+def _span(results: Results, ground: RecordedGround, name: str, bodies: np.ndarray) -> Span:
+    places, masses = results.frames.positions_m[:, bodies], results.inventory.masses_kg[bodies]
+    above = _above(ground, places)
+    levels = _mean_by_mass(places[..., 2], masses)
+    return Span(name, bodies, _mean_by_mass(above, masses), above.min(axis=1), levels)
+
+
+def _above(ground: RecordedGround, places: np.ndarray) -> np.ndarray:
+    """Heights (k, b) of places (k, b, 3) above the ground below each; looked up anew only where a body has moved."""
+    if ground.is_flat:
+        return places[..., 2]
+    moved = np.ones(places.shape[:2], bool)
+    moved[1:] = (places[1:, :, :2] != places[:-1, :, :2]).any(axis=-1)
+    step, body = np.nonzero(moved)
+    heights = np.zeros(places.shape[:2])
+    heights[step, body] = ground.heights_at(places[step, body, :2])
+    latest = np.maximum.accumulate(np.where(moved, np.arange(len(places))[:, None], 0), axis=0)
+    return places[..., 2] - np.take_along_axis(heights, latest, axis=0)
+
+
+def _mean_by_mass(heights: np.ndarray, masses: np.ndarray) -> np.ndarray:
+    """Mean (k,) of heights (k, b), each body's counting by its mass (b,)."""
+    return (heights * masses).sum(axis=1) / masses.sum()

@@ -1,0 +1,63 @@
+"""Digests by which two people see at once whether they have the same run.
+
+The same bits give the same digest. One digest is of what was built, one of how everything moved and broke, and one of
+all that came out. Where the first differs, something else was simulated. Where only the others do, Blender's own
+arithmetic differs.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from ...system.array_files.blocks import blocks_of
+from .arrays import Results
+from .inventory import Inventory
+
+SHORT = 8
+"""Digits of a digest that are enough to tell runs apart by eye."""
+
+_KEPT_AS = {"i": np.dtype("<i8"), "u": np.dtype("<i8"), "f": np.dtype("<f8")}
+"""One width on every system, by the kind of number: numpy's default integers had 32 bits on Windows before numpy 2."""
+
+
+def digest(parts: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of named arrays, numbers and texts, as hexadecimal digits; their order does not count."""
+    found = hashlib.sha256()
+    for name in sorted(parts):
+        values = np.asarray(parts[name])
+        if values.dtype.kind == "U":
+            contents = ["\0".join(values.ravel().tolist()).encode()]
+            size = len(contents[0])
+        else:
+            kept = _KEPT_AS.get(values.dtype.kind, np.dtype("u1"))
+            contents = (block.astype(kept).tobytes() for block in blocks_of(values))
+            size = values.size * kept.itemsize
+        found.update(f"{name}:{values.shape}:{size}:".encode())
+        for content in contents:
+            found.update(content)
+    return found.hexdigest()
+
+
+def built_digest(inventory: Inventory, **more: Any) -> str:
+    """Return the digest of bodies and connections, and of all else that decides what will happen, by names."""
+    known = {each.name: getattr(inventory, each.name) for each in fields(inventory)}
+    return digest({name: values for name, values in known.items() if values is not None} | more)
+
+
+def motion_digest(results: Results) -> str:
+    """Return the digest of how all bodies moved, what broke and what exploded: all of frames but loads and work.
+
+    It is the same whether loads were recorded or not.
+    """
+    parts = {each.name: getattr(results.frames, each.name) for each in fields(results.frames)}
+    return digest({name: part for name, part in parts.items() if not is_dataclass(part)})
+
+
+def result_digest(results: Results) -> str:
+    """Return the digest of everything that was recorded."""
+    return digest(results.arrays())

@@ -1,0 +1,136 @@
+"""Loads over a whole run: histories of contact forces, the most loaded bodies and connections, and what broke."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.geometry.vectors import length
+from .arrays import Results
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ContactForces:
+    """Contact forces over k recorded steps, each the mean over its frame.
+
+    Attributes
+    ----------
+    times_s : (k,) float
+    total_n : (k,) float
+        Over all pairs of bodies in contact, as far as recorded: half the sum of the resultants of the contacts on
+        every body. Contacts that press a body from two sides cancel in its resultant, so that it is a lower bound.
+    largest_n : (k,) float
+        Largest of these resultants on a shard.
+    ground_n : (k,) float
+        Upward force of the ground by contacts; foundations that still hold are connections and not in it.
+    """
+
+    times_s: np.ndarray
+    total_n: np.ndarray
+    largest_n: np.ndarray
+    ground_n: np.ndarray
+
+
+def contact_forces(results: Results) -> ContactForces:
+    """Contact forces from the impulses of contacts in each frame; nan where nothing is known of them."""
+    durations = np.diff(results.frames.time_s, prepend=results.frames.time_s[0])
+    impulses = results.frames.loads.body_contact_impulses_ns
+    known = durations > 0.0
+    forces = np.divide(impulses, durations[:, None, None], out=np.zeros_like(impulses), where=known[:, None, None])
+    magnitudes = length(forces)
+    return ContactForces(
+        times_s=results.frames.time_s,
+        total_n=magnitudes.sum(axis=1) / 2.0,
+        largest_n=largest_on_a_shard(results, magnitudes),
+        ground_n=-forces[:, results.inventory.of_kind("ground"), 2].sum(axis=1),
+    )
+
+
+def largest_on_a_shard(results: Results, magnitudes: np.ndarray) -> np.ndarray:
+    """Largest of the magnitudes (k, n) of all bodies on any shard, (k,); 0 where there are none."""
+    return magnitudes[:, results.inventory.of_kind("shard")].max(axis=1, initial=0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """The largest load of a body or connection.
+
+    Attributes
+    ----------
+    row
+        Index of the body or connection.
+    step
+        Recorded step in which it was.
+    force_n
+        The load.
+    """
+
+    row: int
+    step: int
+    force_n: float
+
+
+def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> list[Peak]:
+    """The rows with the largest load of the whole run, the largest first.
+
+    Parameters
+    ----------
+    magnitudes_n : (k, n) float
+        Largest load of each row in each step; nan where it is not known.
+    rows : (r,) int
+        Which of the n rows are asked for.
+    count : int
+        How many at most.
+    """
+    if not len(rows) or not len(magnitudes_n):
+        return []
+    known = np.nan_to_num(magnitudes_n[:, rows], nan=-1.0)
+    largest = known.max(axis=0)
+    order = np.argsort(-largest, kind="stable")[:count]
+    return [
+        Peak(int(rows[each]), int(known[:, each].argmax()), float(largest[each])) for each in order if largest[each] > 0
+    ]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BreakingByKind:
+    """Connections of one kind over time.
+
+    Attributes
+    ----------
+    kind
+        Which members they join, such as ``deck - pier cap``, or ``foundation``.
+    count
+        How many there are.
+    broken
+        (k,) how many are broken at each recorded step.
+    """
+
+    kind: str
+    count: int
+    broken: np.ndarray
+
+
+def breaking_by_kind(results: Results) -> list[BreakingByKind]:
+    """Connections by what they join, the most numerous kind first."""
+    kinds = _kinds(results)
+    found = []
+    for kind in np.unique(kinds):
+        of_kind = kinds == kind
+        found.append(BreakingByKind(str(kind), int(of_kind.sum()), (~results.frames.intact[:, of_kind]).sum(axis=1)))
+    return sorted(found, key=lambda each: -each.count)
+
+
+def _kinds(results: Results) -> np.ndarray:
+    """What each of the connections joins, (m,) str."""
+    inventory, pairs = results.inventory, results.inventory.pairs
+    if not len(pairs):
+        return np.zeros(0, str)
+    named = np.where(inventory.body_member_kinds != "", inventory.body_member_kinds, inventory.body_kinds)[pairs]
+    members = inventory.body_members[pairs]
+    first, second = np.sort(named, axis=1).T
+    joined = np.char.add(np.char.add(first, " - "), second)
+    within = (members[:, 0] == members[:, 1]) & (members[:, 0] != "")
+    kinds = np.where(within, np.char.add("within ", named[:, 0]), joined)
+    return np.where((inventory.body_kinds[pairs] == "ground").any(axis=1), "foundation", kinds)

@@ -1,0 +1,159 @@
+"""What is recorded of a frame, and of all frames of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from ...engineering.mechanics.frame_loads import FrameLoads
+from ...engineering.mechanics.work import FrameWork
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """n bodies and m connections at the end of a frame, and the loads in it. All vectors are in the world's axes.
+
+    Attributes
+    ----------
+    number : int
+        Blender's frame.
+    time_s : float
+        Simulated time since the start.
+    substep_s : float
+        Length of the sub-steps that led here; 0 for the first frame, in which no time passes.
+    positions_m, rotations : (n, 3) float, (n, 3, 3) float
+        Centres of mass and rotation matrices.
+    velocities_m_s, angular_velocities_rad_s : (n, 3) float
+    asleep : (n,) bool
+        Bodies that are not simulated because they rest; they keep the loads that they fell asleep with.
+    intact : (m,) bool
+        Whether each connection holds.
+    blast_impulses_ns : (n, 3) float
+        Impulse of all blasts in the frame; it is no part of the loads.
+    loads : FrameLoads
+        Loads by connections and contacts.
+    work : FrameWork
+        Work in the frame.
+    """
+
+    number: int
+    time_s: float
+    substep_s: float
+    positions_m: np.ndarray
+    rotations: np.ndarray
+    velocities_m_s: np.ndarray
+    angular_velocities_rad_s: np.ndarray
+    asleep: np.ndarray
+    intact: np.ndarray
+    blast_impulses_ns: np.ndarray
+    loads: FrameLoads
+    work: FrameWork
+
+
+class FrameSeries(Frame):
+    """k frames: every array of `Frame`, also of its loads, with one more axis in front, such as `time_s` (k,)."""
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, frames: Sequence[Frame]) -> FrameSeries:
+        """Put frames one after another; there has to be one."""
+        return cls(*(_stacked([getattr(frame, each.name) for frame in frames]) for each in fields(Frame)))
+
+    def __len__(self) -> int:
+        return len(self.number)
+
+    def __getitem__(self, row: int) -> Frame:
+        return Frame(*(_row(getattr(self, each.name), row) for each in fields(Frame)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BallHistory:
+    """What hit b balls in each of s sub-steps.
+
+    Attributes
+    ----------
+    bodies : (b,) int
+        Indices of the balls.
+    times_s : (s,) float
+        Simulated time at the end of each sub-step.
+    impulses_ns : (s, b, 3) float
+        Impulses of their contacts in it.
+    velocities_m_s : (s, b, 3) float
+        Velocities after it.
+    """
+
+    bodies: np.ndarray
+    times_s: np.ndarray
+    impulses_ns: np.ndarray
+    velocities_m_s: np.ndarray
+
+    @classmethod
+    def unknown(cls) -> BallHistory:
+        """Return the history of no ball."""
+        return cls(np.zeros(0, int), np.zeros(0), np.zeros((0, 0, 3)), np.zeros((0, 0, 3)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactHistory:
+    """The c contact points that carried a load in the last sub-steps of frames.
+
+    Attributes
+    ----------
+    frames : (c,) int
+        Blender's frame of each, in ascending order.
+    bodies : (c, 2) int
+        First and second body.
+    places_m : (c, 3) float
+        Where they touched as the sub-step began, on the second body.
+    normals : (c, 3) float
+        Unit vectors from the second body to the first.
+    normal_impulses_ns : (c,) float
+        Impulses in the sub-step along the normals, on the first bodies; the second ones get the opposite.
+    friction_impulses_ns : (c, 3) float
+        Impulses of friction on the first bodies.
+    """
+
+    frames: np.ndarray
+    bodies: np.ndarray
+    places_m: np.ndarray
+    normals: np.ndarray
+    normal_impulses_ns: np.ndarray
+    friction_impulses_ns: np.ndarray
+
+    @classmethod
+    def none(cls) -> ContactHistory:
+        """Return no contacts."""
+        vectors = np.zeros((0, 3))
+        return cls(np.zeros(0, int), np.zeros((0, 2), int), vectors, vectors, np.zeros(0), vectors)
+
+    @property
+    def impulses_ns(self) -> np.ndarray:
+        """Whole impulses (c, 3) on the first bodies."""
+        return self.normal_impulses_ns[:, None] * self.normals + self.friction_impulses_ns
+
+    def of_frame(self, number: int) -> ContactHistory:
+        """Return the contacts of one of Blender's frames."""
+        first, last = np.searchsorted(self.frames, (number, number + 1))
+        return ContactHistory(*(getattr(self, each.name)[first:last] for each in fields(self)))
+
+    def __len__(self) -> int:
+        return len(self.frames)
+
+
+def _stacked(parts: Sequence[Any]) -> Any:
+    """Numbers, arrays, or dataclasses of them: the same with one more axis in front."""
+    if not is_dataclass(parts[0]):
+        return np.array(parts)
+    kind = type(parts[0])
+    return kind(*(_stacked([getattr(part, each.name) for part in parts]) for each in fields(kind)))
+
+
+def _row(series: Any, row: int) -> Any:
+    """One entry of what `_stacked` gave."""
+    if not is_dataclass(series):
+        return series[row]
+    return type(series)(*(_row(getattr(series, each.name), row) for each in fields(series)))

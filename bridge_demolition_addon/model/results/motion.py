@@ -1,0 +1,65 @@
+"""What can be read off the motion of bodies: travel, throw, and when a falling body is hit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...engineering.geometry.vectors import distance, length
+from .arrays import Results
+
+_HIT_SHARE = 0.5
+"""A frame counts as a hit when velocity departs from free fall by more than this share of the frame's g·t."""
+
+MOVED_M = 0.1
+"""A shard that ends farther than this from where it began is debris; the rest of the bridge still stands."""
+
+
+def relative_to_ground(results: Results) -> Results:
+    """Return a run as who stands on the ground sees it: the same where the ground rests, or is not there."""
+    frames = results.frames
+    for body in results.inventory.of_kind("ground"):
+        shifts = frames.positions_m[:, body] - frames.positions_m[0, body]
+        velocities = np.asarray(frames.velocities_m_s[:, body])
+        if shifts.any() or velocities.any():
+            seen = replace(
+                frames,
+                positions_m=frames.positions_m - shifts[:, None],
+                velocities_m_s=frames.velocities_m_s - velocities[:, None],
+            )
+            return replace(results, frames=seen)
+    return results
+
+
+def travel(first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Straight-line distance (n,) between first and last places (n, 3), m."""
+    return distance(last, first)
+
+
+def throw(first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Horizontal distance (n,) between first and last places (n, 3), m."""
+    return distance(last[:, :2], first[:, :2])
+
+
+def first_hit(velocities: np.ndarray, times: np.ndarray, gravity: np.ndarray) -> int | None:
+    """First step in which something other than gravity acted on a falling body.
+
+    Parameters
+    ----------
+    velocities
+        (k, 3) velocity of the body at its release and after each step since then, m/s.
+    times
+        (k,) simulated time of each, s.
+    gravity
+        (3,) acceleration of gravity, m/s².
+
+    Returns
+    -------
+    int or None
+        Index of that step, None where the body fell freely throughout.
+    """
+    steps = np.diff(times)
+    departures = length(np.diff(velocities, axis=0) - steps[:, None] * gravity)
+    hits = np.flatnonzero(departures > _HIT_SHARE * steps * length(gravity))
+    return int(hits[0]) + 1 if len(hits) else None

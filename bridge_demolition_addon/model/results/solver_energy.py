@@ -1,0 +1,135 @@
+"""Energy that Bullet's solver has made, held against what was dissipated, and the throws that it makes doubtful."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from ...engineering.geometry.vectors import dot
+from .arrays import Results
+from .motion import MOVED_M, throw
+
+DOUBTFUL_SHARE = 0.5
+"""Part of its largest kinetic energy from which on a shard that got so much from the solver flies on that energy."""
+
+ACCEPTED_SHARE = 0.01
+"""Energy made by the solver, over what was dissipated, from which on a report warns."""
+
+FARTHEST = 10
+"""Shards whose energies the summary names."""
+
+LARGEST_THROW_PER_HEIGHT = 2.0
+"""A body that falls by h has at most v² = 2 g h, and that carries it at most v² / g = 2 h over ground that is flat, or
+where it lies as low as it fell."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Throws:
+    """Throws of d shards, the largest first, and whether their energy explains them.
+
+    Attributes
+    ----------
+    bodies : (d,) int
+        Indices of the shards.
+    throws_m : (d,) float
+        How far they lie on plan from where they were at first.
+    made_j, largest_kinetic_j : (d,) float
+        Energy that each got from the solver, and the largest kinetic energy of its translation at the end of a frame.
+    on_solver_energy : (d,) bool
+        Whether at least half of that kinetic energy was made by the solver.
+    beyond_fall : (d,) bool
+        Whether they flew farther than twice the height that they could fall, where nothing but gravity moved them.
+    """
+
+    bodies: np.ndarray
+    throws_m: np.ndarray
+    made_j: np.ndarray
+    largest_kinetic_j: np.ndarray
+    on_solver_energy: np.ndarray
+    beyond_fall: np.ndarray
+
+    @property
+    def made_shares(self) -> np.ndarray:
+        """(d,) energy that each got from the solver, over its largest kinetic energy."""
+        kinetic = self.largest_kinetic_j
+        return np.divide(self.made_j, kinetic, out=np.zeros_like(kinetic), where=kinetic > 0.0)
+
+    @property
+    def doubtful(self) -> np.ndarray:
+        """(d,) throws that a real shard would not make."""
+        return self.on_solver_energy | self.beyond_fall
+
+
+def throws_of(results: Results) -> Throws:
+    """Return the throws of all shards."""
+    frames, shards = results.frames, results.inventory.of_kind("shard")
+    first, last = frames.positions_m[0, shards], frames.positions_m[-1, shards]
+    throws = throw(first, last)
+    order = np.argsort(-throws, kind="stable")
+    ground = results.ground()
+    # To the ground below, or to where it lies, down a slope, if that is lower.
+    lowest = 0.0 if ground.is_flat else np.minimum(ground.heights_at(first[:, :2]), last[:, 2])
+    shards, throws, heights = shards[order], throws[order], (first[:, 2] - lowest)[order]
+    made = np.nansum(frames.work.made_j[:, shards], axis=0)
+    speeds = dot(frames.velocities_m_s[:, shards], frames.velocities_m_s[:, shards])
+    kinetic = 0.5 * results.inventory.masses_kg[shards] * speeds.max(axis=0)
+    beyond = throws > LARGEST_THROW_PER_HEIGHT * np.maximum(heights, 0.0)
+    if frames.blast_impulses_ns.any():
+        beyond = np.zeros(len(shards), bool)
+    return Throws(shards, throws, made, kinetic, flies_on_solver_energy(throws, made, kinetic), beyond)
+
+
+def flies_on_solver_energy(throws_m: np.ndarray, made_j: np.ndarray, largest_kinetic_j: np.ndarray) -> np.ndarray:
+    """Whether bodies (n,) were thrown at all, and got at least half of their largest kinetic energy from the solver."""
+    return (throws_m > MOVED_M) & (made_j >= DOUBTFUL_SHARE * largest_kinetic_j)
+
+
+def energy_summary(results: Results) -> dict[str, Any] | None:
+    """Return works and energies of a run in J, and those of the shards thrown farthest, ready for JSON.
+
+    None where the sub-steps were not all read.
+    """
+    if not is_known(results):
+        return None
+    work = results.frames.work
+    totals = {each.name: float(np.nansum(getattr(work, each.name))) for each in fields(work)}
+    names, farthest = results.inventory.body_names, throws_of(results)
+    return {
+        "gravity_J": totals["gravity_j"],
+        "blast_and_other_loads_J": totals["loads_j"],
+        "tools_J": totals["tools_j"],
+        "damping_J": totals["damping_j"],
+        "dissipated_J": totals["dissipated_j"],
+        "made_by_solver": {
+            "J": totals["made_j"],
+            "share_of_dissipated": made_share(results),
+            "by_connections_J": totals["made_by_connections_j"],
+            "by_contacts_J": totals["made_by_contacts_j"],
+            "by_lifting_J": totals["made_by_lifting_j"],
+        },
+        "doubtful_throws": int(farthest.doubtful.sum()),
+        "farthest_shards": [
+            {
+                "body": str(names[farthest.bodies[row]]),
+                "throw_m": float(farthest.throws_m[row]),
+                "largest_kinetic_J": float(farthest.largest_kinetic_j[row]),
+                "made_by_solver_J": float(farthest.made_j[row]),
+                "flies_on_solver_energy": bool(farthest.on_solver_energy[row]),
+                "farther_than_a_fall_explains": bool(farthest.beyond_fall[row]),
+            }
+            for row in range(min(FARTHEST, len(farthest.bodies)))
+        ],
+    }
+
+
+def is_known(results: Results) -> bool:
+    """Whether the work of every frame after the first is known."""
+    return bool(np.isfinite(results.frames.work.gravity_j[1:]).all()) and len(results.frames) > 1
+
+
+def made_share(results: Results) -> float:
+    """Return the energy that the solver made over what was dissipated; 0 where nothing was."""
+    dissipated = float(np.nansum(results.frames.work.dissipated_j))
+    return float(np.nansum(results.frames.work.made_j)) / dissipated if dissipated > 0.0 else 0.0

@@ -1,0 +1,185 @@
+"""What a run came to, in the few numbers that a planner asks for first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ...engineering.arithmetic import cube_root
+from ...engineering.geometry.vectors import dot, length
+from ...engineering.mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
+from .arrays import Results
+from .key_frame import RESTING_WEIGHTS, impact_step, key_step
+from .motion import relative_to_ground, throw
+from .removed_shards import without_removed
+from .solver_energy import energy_summary
+
+
+def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None) -> dict[str, Any]:
+    """Masses, counts, breaking over time, largest force and largest throw of a run, ready for JSON.
+
+    Parameters
+    ----------
+    results
+        What was recorded.
+    gravity_m_s2
+        (3,) acceleration of gravity.
+    contact_time_s
+        How long hits of the ball last; by default as long as elastic ones.
+    """
+    left, _ = without_removed(results)
+    key, reason = key_step(results, gravity_m_s2)
+    return {
+        "frames": len(results.frames),
+        "simulated_s": float(results.frames.time_s[-1]),
+        "mass_kg": {
+            kind: float(results.inventory.masses_kg[results.inventory.of_kind(kind)].sum())
+            for kind in ("shard", "ball")
+        },
+        "bodies": {kind: len(results.inventory.of_kind(kind)) for kind in ("shard", "ball", "ground")},
+        "connections": _connections(results),
+        "impact": impact_of(results, gravity_m_s2),
+        "key_frame": {**_moment(results, key), "reason": reason},
+        "reading": results.reading,
+        "hits_of_the_ball": hits_of_balls(results, gravity_m_s2, contact_time_s),
+        "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
+        "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
+        "largest_throw": _largest_throw(relative_to_ground(left)),
+        "energy": energy_summary(left),
+        "blast": _blast(results),
+    }
+
+
+def first_hit_s(summary: Mapping[str, Any]) -> float | None:
+    """When the falling ball first hit, by a run's summary: to a sub-step where hits were recorded, or else to a frame.
+
+    What hits the ball while it is still held is none of its hits.
+    """
+    impact = summary.get("impact")
+    if not impact:
+        return None
+    begun = (hit["time_s"] for hit in summary.get("hits_of_the_ball", ()) if hit["time_s"] < impact["time_s"])
+    return float(max(begun, default=impact["time_s"]))
+
+
+def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
+    """When the warm-up had ended, and the largest speed of any shard then; None without one, or before its end."""
+    after = np.flatnonzero(results.frames.time_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
+    if not warm_up_s or not len(after):
+        return None
+    speeds = length(relative_to_ground(results).frames.velocities_m_s[after[0], results.inventory.of_kind("shard")])
+    return {"time_s": float(results.frames.time_s[after[0]]), "largest_speed_m_s": float(speeds.max(initial=0.0))}
+
+
+def impact_of(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any] | None:
+    """Return frame and time in which the ball first hit, None where it did not, ready for JSON."""
+    return _moment(results, impact_step(results, gravity_m_s2))
+
+
+def hits_of_balls(
+    results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None
+) -> list[dict[str, Any]]:
+    """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not.
+
+    Parameters are those of `summarise`.
+    """
+    steps = np.diff(results.balls.times_s, prepend=results.frames.time_s[0])
+    found = []
+    for column, ball in enumerate(results.balls.bodies):
+        mass = results.inventory.masses_kg[ball]
+        radius = cube_root(0.75 / np.pi * results.inventory.volumes_m3[ball])
+        contact = Contact.between(STEEL, CONCRETE, mass, radius)
+        resting_force = RESTING_WEIGHTS * mass * length(gravity_m_s2)
+        velocities = results.balls.velocities_m_s[:, column]
+        for hit in hits(results.balls.impulses_ns[:, column], steps, results.frames.time_s[0], resting_force):
+            before = velocities[hit.first_step - 1] if hit.first_step else np.zeros(3)
+            speed = -float(dot(before, hit.impulse_ns)) / hit.impulse_magnitude_ns
+            found.append(
+                {
+                    "ball": str(results.inventory.body_names[ball]),
+                    "time_s": hit.start_s,
+                    "lasted_s": hit.end_s - hit.start_s,
+                    "impulse_Ns": hit.impulse_magnitude_ns,
+                    "approach_m_s": speed,
+                    "raw_peak_force_N": hit.raw_peak_force_n,
+                    "raw_step_s": hit.raw_step_s,
+                    **_estimated_forces(hit, speed, contact, contact_time_s),
+                }
+            )
+    return found
+
+
+def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: float | None) -> dict[str, float]:
+    """Forces that do not depend on the step; none for a ball that was hit from behind."""
+    if speed <= 0.0:
+        return {}
+    estimated = estimate(hit.impulse_magnitude_ns, speed, contact, contact_time_s)
+    return {
+        "contact_time_s": estimated.contact_time_s,
+        "half_sine_peak_force_N": estimated.half_sine_peak_force_n,
+        "hertz_peak_force_N": estimated.hertz_peak_force_n,
+    }
+
+
+def _connections(results: Results) -> dict[str, Any]:
+    """How many there are, and how many hold in the first frame, in each in which that changes, and in the last."""
+    count, intact = len(results.inventory.connection_names), results.frames.intact.sum(axis=1)
+    changed = np.flatnonzero(np.diff(intact, prepend=-1))
+    shown = np.union1d(changed, len(intact) - 1)
+    return {
+        "count": count,
+        "intact": int(intact[-1]),
+        "broken": int(count - intact[-1]),
+        "over_time": {
+            "time_s": results.frames.time_s[shown].tolist(),
+            "intact": intact[shown].tolist(),
+            "broken": (count - intact[shown]).tolist(),
+        },
+    }
+
+
+def _blast(results: Results) -> dict[str, Any] | None:
+    """Impulse of the blast on all bodies together and on the one that got most; None where there was none."""
+    impulses = results.frames.blast_impulses_ns.sum(axis=0, dtype=float)
+    sizes = length(impulses)
+    if not sizes.any():
+        return None
+    loaded = np.flatnonzero(results.frames.blast_impulses_ns.any(axis=(1, 2)))
+    return {
+        "first_load": _moment(results, int(loaded[0])),
+        "last_load": _moment(results, int(loaded[-1])),
+        "bodies": int((sizes > 0.0).sum()),
+        "impulse_Ns": impulses.sum(axis=0).tolist(),
+        "largest": {"impulse_Ns": float(sizes.max()), "body": str(results.inventory.body_names[sizes.argmax()])},
+    }
+
+
+def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
+    if step is None:
+        return None
+    return {"frame": int(results.frames.number[step]), "time_s": float(results.frames.time_s[step])}
+
+
+def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] | None:
+    """Largest of the magnitudes (k, n) on any shard, in any frame whose forces are known."""
+    known = np.flatnonzero(np.isfinite(magnitudes).all(axis=1))
+    shards = results.inventory.of_kind("shard")
+    candidates = magnitudes[np.ix_(known, shards)]
+    if not candidates.size:
+        return None
+    step, body = np.unravel_index(candidates.argmax(), candidates.shape)
+    return {
+        "force_N": float(candidates[step, body]),
+        "body": str(results.inventory.body_names[shards[body]]),
+        **_moment(results, int(known[step])),
+    }
+
+
+def _largest_throw(results: Results) -> dict[str, Any] | None:
+    shards = results.inventory.of_kind("shard")
+    if not len(shards):
+        return None
+    throws = throw(results.frames.positions_m[0, shards], results.frames.positions_m[-1, shards])
+    return {"throw_m": float(throws.max()), "body": str(results.inventory.body_names[shards[throws.argmax()]])}

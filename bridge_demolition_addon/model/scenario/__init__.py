@@ -1,0 +1,73 @@
+"""A scenario: the bridge, how it is broken into shards and what hits it, as checked values.
+
+x runs along the road with the axis of the first pier at 0, y across it with 0 in its middle, z up with the ground at 0.
+The deck, with its girders, lies on the pier caps, or on the piers where there are no caps. One module for each group of
+tables.
+"""
+
+from ..blast.charges import Charge
+from ..blast.settings import BlastSettings
+from ..foundations.settings import Foundation
+from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
+from ..loads.load import Load
+from ..materials.bar_layers import BarLayer
+from ..materials.materials import Material
+from .ball import Ball, BallCable, BallHit
+from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
+from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
+from .connections import ConnectionBetween, ConnectionSettings
+from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
+from .geometry import Geometry
+from .jackhammer import Jackhammer
+from .recording import PictureSettings, RecordingSettings
+from .scenario import Scenario
+from .site import Exclusion, Neighbour, Site, Zone
+from .structural_changes import Change, Removal, SawCut, Weakening
+from .time import TimeSettings
+
+__all__ = [
+    "Abutments",
+    "Ball",
+    "BallCable",
+    "BallHit",
+    "BarLayer",
+    "BlastSettings",
+    "BoxGirder",
+    "Bridge",
+    "Change",
+    "Charge",
+    "ConnectionBetween",
+    "ConnectionSettings",
+    "Deck",
+    "DesignSpectrum",
+    "Equipment",
+    "Exclusion",
+    "Finer",
+    "Foundation",
+    "FracturePoint",
+    "FractureSettings",
+    "Geometry",
+    "Girders",
+    "Ground",
+    "GroundMotion",
+    "GroundSurface",
+    "Jackhammer",
+    "Load",
+    "Material",
+    "MemberFracture",
+    "Neighbour",
+    "PictureSettings",
+    "PierCaps",
+    "Piers",
+    "RecordingSettings",
+    "Removal",
+    "SawCut",
+    "Scenario",
+    "ShardSettings",
+    "Site",
+    "Support",
+    "Sweep",
+    "TimeSettings",
+    "Weakening",
+    "Zone",
+]

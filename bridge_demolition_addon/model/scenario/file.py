@@ -1,0 +1,192 @@
+"""Scenario files: TOML read strictly into a `Scenario`, and written back without loss.
+
+A file may be a variant, which only says how it differs from the file that it is based on.
+"""
+
+from collections.abc import Iterable, Iterator
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+from ...errors import ScenarioError
+from ...system.reading import MEGABYTE
+from ..schema import shown
+from ..toml_tables import document_of_file, table_of_document, tables_text, toml_document
+from .scenario import Scenario
+
+PATHS = (
+    ("geometry", "file"),
+    ("fracture", "points_file"),
+    ("fracture", "painted_file"),
+    ("ground", "file"),
+    ("ground.surfaces", "file"),
+    ("ground_motion", "file"),
+)
+"""Table and key of every path of another file."""
+
+BASED_ON = "based_on"
+"""Key of the table of a scenario: the file of which this one is a variant."""
+
+MOST_BASES = 20
+"""How many files a variant may be based on, one on the other."""
+
+MOST_BYTES = 10 * MEGABYTE
+"""Size up to which a scenario is read; those with thousands of places have less than 1 MB."""
+
+WITHOUT = "without"
+"""Key of the table of a scenario: tables and keys of that file that this one does without."""
+
+
+def read_scenario(path: str | PathLike[str]) -> Scenario:
+    """Read a scenario file, and the files that it is based on.
+
+    Parameters
+    ----------
+    path : str or path
+        A TOML file; `scenario_text` makes one, and the reference of all keys is ``docs/scenario.md``.
+
+    Raises
+    ------
+    ScenarioError
+        The file cannot be read, is not TOML, or a key is unknown, missing or has a wrong value.
+        The text is one line: the path as given, the key and what was expected.
+    """
+    try:
+        return table_of_document(Scenario, _document_of_file(Path(path)))
+    except ScenarioError as error:
+        raise ScenarioError(f"{fspath(path)}: {error}") from error
+
+
+def scenario_from_text(text: str) -> Scenario:
+    """Read a scenario from TOML. It cannot be based on a file, as it has no place to look for that from.
+
+    Raises
+    ------
+    ScenarioError
+        The text is not TOML, or a key is unknown, missing or has a wrong value.
+    """
+    return table_of_document(Scenario, toml_document(text))
+
+
+def scenario_text(scenario: Scenario) -> str:
+    """Write a scenario as TOML; `scenario_from_text` gives an equal scenario back."""
+    return tables_text(scenario)
+
+
+def files_of(scenario: Scenario) -> Iterator[Path]:
+    """Give the paths of all other files that a scenario names, in the order of `PATHS`."""
+    for name, key in PATHS:
+        tables: list[Any] = [scenario]
+        for step in name.split("."):
+            found = [getattr(each, step) for each in tables]
+            tables = [inner for each in found for inner in (each if isinstance(each, tuple) else [each]) if inner]
+        yield from (Path(path) for each in tables if (path := getattr(each, key)))
+
+
+def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
+    """Return what a file says with all that it is based on; it must not be one of its own variants."""
+    document = document_of_file(path, "a scenario", MOST_BYTES)
+    _make_paths_absolute(path.parent, document)
+    name, without = take_based_on(document)
+    if name is None:
+        return document
+    base = Path(_absolute(path.parent, name))
+    variants = (*variants, path.resolve())
+    if base in variants:
+        raise ScenarioError(f"is based on {shown(name)}, which is based on it in turn")
+    if len(variants) > MOST_BASES:
+        raise ScenarioError(f"expected at most {MOST_BASES} files that are based on each other")
+    try:
+        inherited = _document_of_file(base, variants)
+    except ScenarioError as error:
+        raise ScenarioError(f"based on {shown(name)}: {error}") from error
+    return varied(inherited, document, without)
+
+
+def _make_paths_absolute(folder: Path, document: dict[str, Any]) -> None:
+    """Make the paths of other files absolute: they are given from the folder of this file."""
+    for table, key in PATHS:
+        for each in _tables_in(document, table.split(".")):
+            if isinstance(each.get(key), str) and each[key].strip():
+                each[key] = _absolute(folder, each[key])
+
+
+def _tables_in(table: Any, path: list[str]) -> Iterator[dict[str, Any]]:
+    """Give all tables of a document to which a path of names leads, through lists of tables as well."""
+    if isinstance(table, list):
+        for each in table:
+            yield from _tables_in(each, path)
+    elif isinstance(table, dict):
+        if path:
+            yield from _tables_in(table.get(path[0]), path[1:])
+        else:
+            yield table
+
+
+def _absolute(folder: Path, path: str) -> str:
+    try:
+        return str((folder / path).resolve())
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL in it, for one, or links that lead in a circle
+        raise ScenarioError(f"{shown(path)} is no path of a file: {error}") from error
+
+
+def take_based_on(document: dict[str, Any]) -> tuple[str | None, list[str]]:
+    """Remove from a document what it is based on and what it does without, and return both.
+
+    Parameters
+    ----------
+    document : dict
+        As read from TOML. The two keys are removed from it.
+
+    Raises
+    ------
+    ScenarioError
+        One of the two is no text, or something is left out of no file.
+    """
+    heading = document.get(Scenario.table)
+    if not isinstance(heading, dict):
+        return None, []
+    base, without = heading.pop(BASED_ON, None), heading.pop(WITHOUT, [])
+    if base is not None and not (isinstance(base, str) and base.strip()):
+        raise ScenarioError(f"{Scenario.table}.{BASED_ON} is {shown(base)}: expected the path of a scenario file")
+    if not isinstance(without, list) or not all(isinstance(name, str) for name in without):
+        raise ScenarioError(f"{Scenario.table}.{WITHOUT} is {shown(without)}: expected a list of tables and keys")
+    if without and base is None:
+        raise ScenarioError(f"{Scenario.table}.{WITHOUT} needs {Scenario.table}.{BASED_ON}")
+    return base, without
+
+
+def varied(base: dict[str, Any], changes: dict[str, Any], without: Iterable[str]) -> dict[str, Any]:
+    """Return a document with changes: tables are merged key by key, values and lists of tables replaced.
+
+    Parameters
+    ----------
+    base, changes : dict
+        Documents as read from TOML; both stay as they are.
+    without : iterable of str
+        Names such as ``ball`` or ``bridge.pier_caps`` of what is left out of the base.
+
+    Raises
+    ------
+    ScenarioError
+        The base has nothing of a name.
+    """
+    result = base
+    for name in without:
+        result = _left_out(result, name.split("."), name)
+    return _merged(result, changes)
+
+
+def _left_out(table: dict[str, Any], path: list[str], name: str) -> dict[str, Any]:
+    first, *rest = path
+    if first not in table or (rest and not isinstance(table[first], dict)):
+        raise ScenarioError(f"{Scenario.table}.{WITHOUT} names {shown(name)}, which is not in the file it is based on")
+    inner = {first: _left_out(table[first], rest, name)} if rest else {}
+    return {key: value for key, value in table.items() if key != first} | inner
+
+
+def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    both = {
+        key for key in base.keys() & changes.keys() if isinstance(base[key], dict) and isinstance(changes[key], dict)
+    }
+    return base | changes | {key: _merged(base[key], changes[key]) for key in both}

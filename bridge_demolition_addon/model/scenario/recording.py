@@ -1,0 +1,91 @@
+"""What is recorded in a run, and its pictures."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import ClassVar
+
+from ...errors import ScenarioError
+from ..schema import FARTHEST_M, Table, key
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingSettings(Table):
+    """What is recorded while the simulation runs."""
+
+    table: ClassVar[str] = "recording"
+
+    every_substep: bool = key(
+        "Whether loads are read after every sub-step, which gives their means, peaks and impulses, or only after the "
+        "last one of each frame, which is faster and misses most of an impact.",
+        default=True,
+    )
+    contacts: bool = key(
+        "Whether the contacts of the last sub-step of each frame are kept: where bodies touched, and the impulses "
+        "there. Each takes 72 bytes a frame. Studies record none.",
+        default=False,
+    )
+
+
+class CameraKind(StrEnum):
+    """From where pictures and films are taken."""
+
+    FRAMED = "framed"
+    """From beside the road, with all of the bridge and where it falls."""
+
+    ORBITING = "orbiting"
+    """The same while it goes round the bridge."""
+
+    OWN = "own"
+    """From a place of the user's own, or by the camera that the scene has."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PictureSettings(Table):
+    """Size of the pictures of a run, and the camera that takes them and its films."""
+
+    table: ClassVar[str] = "pictures"
+
+    width_px: int = key("Width.", default=1280, unit="px", at_least=16, at_most=8192)
+    height_px: int = key("Height.", default=720, unit="px", at_least=16, at_most=8192)
+    camera: str = key(
+        "Camera of pictures and films: `framed` stands beside the road and sees the whole bridge, `orbiting` goes "
+        "round it during the run, `own` stands at `pictures.camera_m`, or is the scene's own camera in Blender's "
+        "window.",
+        default=CameraKind.FRAMED.value,
+        choices=tuple(each.value for each in CameraKind),
+    )
+    orbit_deg: float = key(
+        "How far an orbiting camera goes round the bridge, counter-clockwise seen from above.",
+        default=90.0,
+        unit="°",
+        at_least=-3600,
+        at_most=3600,
+    )
+    camera_m: tuple[float, float, float] | None = key(
+        "Where a camera of your own stands.", default=None, unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
+    )
+    look_at_m: tuple[float, float, float] | None = key(
+        "What it looks at.", default=None, unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
+    )
+
+    @property
+    def why_not_without_window(self) -> str:
+        """Why no pictures can be taken but in Blender's window; empty where they can."""
+        if self.camera != CameraKind.OWN or self.camera_m:
+            return ""
+        return (
+            'pictures.camera is "own": expected pictures.camera_m and pictures.look_at_m as well, as only a scene in '
+            "Blender's window has a camera of its own"
+        )
+
+    def _check_together(self) -> None:
+        if (self.camera_m is None) != (self.look_at_m is None):
+            missing = "camera_m" if self.camera_m is None else "look_at_m"
+            raise ScenarioError(
+                f"pictures.{missing} is missing: expected both pictures.camera_m and pictures.look_at_m"
+            )
+        if self.camera_m is not None:
+            if self.camera != CameraKind.OWN:
+                raise self.unexpected("camera", '"own", as pictures.camera_m is given')
+            if self.camera_m == self.look_at_m:
+                raise self.unexpected("look_at_m", "another place than pictures.camera_m")

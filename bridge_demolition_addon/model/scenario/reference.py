@@ -1,0 +1,82 @@
+"""Reference of all keys of a scenario file, made from the dataclasses that check them.
+
+``python -m bridge_demolition_addon.model.scenario.reference docs/scenario.md`` writes it.
+"""
+
+import sys
+from collections.abc import Iterator
+from dataclasses import Field
+from pathlib import Path
+
+from ..schema import Table, expected, holds_many, is_required, key_fields, key_of, subtable_class, subtable_fields
+from ..toml_tables import toml_value
+from .scenario import Scenario
+
+INTRODUCTION = """\
+# Scenario files
+
+<!-- Made by `python -m bridge_demolition_addon.model.scenario.reference docs/scenario.md`: change the code instead. -->
+
+A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads it and prints what follows from it, such as
+masses. `bda run FILE` runs it. Start from one of the [examples](../examples). Every key has its unit in its name. A key
+that is not listed here is refused, and so is a value outside its limits.
+
+x runs along the road, with 0 at the axis of the first pier; y across it, with 0 in its middle; z up, with 0 at the
+ground. The deck's top is as high as a pier, a pier cap, the girders or the box girder and the deck's slab together.
+
+A variant gives only the values that differ from another scenario file, such as another place for the ball to fall:
+
+```toml
+[scenario]
+based_on = "my_bridge.toml"      # a path from the folder of this file
+without = ["zones"]              # tables or keys (such as "connections.material") of that file to leave out
+title = "My bridge, ball on the second span"
+
+[ball]
+target_m = [19.5, 0.0]
+```
+
+Tables are merged key by key. Values and lists of tables (`[[...]]`) replace those in the other file.
+"""
+
+
+def scenario_reference() -> str:
+    """Return every table and key of a scenario file with its default, limits and meaning, in Markdown."""
+    return reference(INTRODUCTION, Scenario)
+
+
+def reference(introduction: str, root: type[Table]) -> str:
+    """Return every table and key of a file that holds a table, after an introduction, in Markdown."""
+    return "\n".join([introduction, *_section(root, required=True)])
+
+
+def _section(table_class: type[Table], *, required: bool, many: bool = False) -> Iterator[str]:
+    yield f"## [[{table_class.table}]]" if many else f"## [{table_class.table}]"
+    yield ""
+    often = "As often as needed." if many else "May be left out."
+    yield f"{_meaning(table_class)} {'Required.' if required else often}"
+    yield ""
+    yield "| Key | Value | Default | Meaning |"
+    yield "| --- | --- | --- | --- |"
+    yield from map(_row, key_fields(table_class))
+    yield ""
+    for item in subtable_fields(table_class):
+        yield from _section(subtable_class(item), required=is_required(item), many=holds_many(item))
+
+
+def _row(item: Field) -> str:
+    return f"| `{item.name}` | {expected(item)} | {_default(item)} | {key_of(item).description} |"
+
+
+def _default(item: Field) -> str:
+    if is_required(item):
+        return "required"
+    return "none" if item.default is None else f"`{toml_value(item.default)}`"
+
+
+def _meaning(table_class: type[Table]) -> str:
+    return " ".join(table_class.__doc__.split())
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_text(scenario_reference(), encoding="utf-8", newline="\n")

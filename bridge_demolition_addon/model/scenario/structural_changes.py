@@ -1,0 +1,79 @@
+"""Changes to the structure at given times: removals, saw cuts and weakenings."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...errors import ScenarioError
+from ..loads.part import Part
+from ..schema import key, shown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change(Part):
+    """A change at a time to a part of the bridge: to some members, to what lies in a box, or to both at once."""
+
+    table: ClassVar[str] = "changes"
+    kind: ClassVar[str] = "change"
+
+    time_s: float = key("When it happens.", unit="s", at_least=0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Removal(Change):
+    """Shards that are taken away in one moment, such as a pier that is kicked out: all of the members, or those whose
+    centres of mass lie in the box. Their connections are cut, they collide with nothing any more, and what slept
+    wakes up. They are put out of sight, 1000 m below their positions.
+    """
+
+    table: ClassVar[str] = "removals"
+    kind: ClassVar[str] = "removal"
+
+    def _check_together(self) -> None:
+        Change._check_together(self)
+        if self.members is None and self.lowest_corner_m is None:
+            raise self.unexpected("members", "it, or the two corners of a box")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SawCut(Change):
+    """A saw cut through a plane: in one moment it cuts the connections between shards on its two sides, of the members
+    and in the box, or everywhere. It runs along the faces of shards; the finer they are, the straighter it is.
+    """
+
+    table: ClassVar[str] = "saw_cuts"
+    kind: ClassVar[str] = "saw cut"
+
+    point_m: tuple[float, float, float] = key("A point of the plane.", unit="m")
+    normal: tuple[float, float, float] = key("Direction across the plane, of any length but 0.")
+
+    def _check_together(self) -> None:
+        Change._check_together(self)
+        if not any(self.normal):
+            raise ScenarioError(f"{self.table}.normal is {shown(self.normal)}, all 0: expected a direction")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Weakening(Change):
+    """A loss of strength in one moment, such as by cut reinforcement: of all connections of the members' shards, of
+    those in the box, or of all. What slept among them wakes up, so that they bear their load at once. Several at the
+    same place multiply.
+    """
+
+    table: ClassVar[str] = "weakenings"
+    kind: ClassVar[str] = "weakening"
+
+    factor: float = key("Part of the strength, or of the breaking force, that is left.", above=0, at_most=1)
+
+
+def check_times(changes: tuple[Change, ...], latest_s: float, settled_s: float) -> None:
+    """Check that all changes fall between the end of the settling and the end of the run.
+
+    Raises
+    ------
+    ScenarioError
+        One does not.
+    """
+    for each in changes:
+        if not settled_s <= each.time_s < latest_s:
+            latest = f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
+            raise each.unexpected("time_s", f"at least connections.warm_up_s, {settled_s} (s), and {latest}")

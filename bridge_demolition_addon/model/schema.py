@@ -1,0 +1,328 @@
+"""Keys and tables of a scenario: what they mean, and which values they take.
+
+A table is a dataclass. Its fields are made by `key`, or hold other tables. This one declaration gives the check of the
+values (`Table`), the words of the messages (`expected`), the reference of all keys and the sidebar.
+"""
+
+import json
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
+from numbers import Integral, Real
+from types import NoneType
+from typing import Any, ClassVar, get_args, get_origin
+from unicodedata import category
+
+import numpy as np
+
+from ..errors import ScenarioError
+
+Scalar = bool | int | float | str
+"""Type of a value that may be any of these."""
+
+LARGEST_INTEGER = 2**31 - 1
+"""Largest whole number that Blender's properties hold."""
+
+SMALLEST_NUMBER = float(np.finfo(np.float32).tiny)
+LARGEST_NUMBER = float(np.finfo(np.float32).max)
+"""Bounds of the sizes that Blender's single precision holds; what is not 0 has to lie between them."""
+
+SHORTEST_LENGTH_M = 0.001
+"""Least size of anything solid: Bullet mixes up the contacts of smaller bodies."""
+
+FARTHEST_M = 10_000.0
+"""How far from the origin anything solid may reach: Blender's single precision keeps places there to a millimetre."""
+
+SIZE = {"unit": "m", "at_least": SHORTEST_LENGTH_M, "at_most": FARTHEST_M}
+"""Unit and limits of a size of anything solid."""
+
+ROUNDING = 1e-9
+"""Relative slack where lengths are compared that a user would add up in decimals."""
+
+LONGEST_SHOWN_TEXT = 60
+LINE_BREAKING_CATEGORIES = {"Cc", "Cs", "Zl", "Zp"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Key:
+    """What a key means, and the unit and the limits of its value.
+
+    Parameters
+    ----------
+    description : str
+        What the value says, as a contractor would.
+    unit : str
+        SI symbol, empty for a plain number.
+    above : float or None
+        The value has to be larger than this.
+    at_least, at_most : float or None
+        Smallest and largest value.
+    choices : tuple of str
+        The only texts that are taken; empty for any text.
+    or_else : str
+        What else is taken besides the choices, in words, where a table further out checks that.
+    """
+
+    description: str
+    unit: str = ""
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+    choices: tuple[str, ...] = ()
+    or_else: str = ""
+
+    @property
+    def limits(self) -> str:
+        """Return the limits in words, such as ``above 0`` or ``from 1 to 1000``; empty if there are none."""
+        if self.at_least is not None and self.at_most is not None:
+            return f"from {self.at_least} to {self.at_most}"
+        words = {"above": self.above, "of at least": self.at_least, "up to": self.at_most}
+        return " and ".join(f"{word} {limit}" for word, limit in words.items() if limit is not None)
+
+    def holds(self, value: float) -> bool:
+        """Return whether a number is finite and within the limits."""
+        return (
+            abs(value) <= sys.float_info.max  # a whole number may be larger
+            and (self.above is None or value > self.above)
+            and (self.at_least is None or value >= self.at_least)
+            and (self.at_most is None or value <= self.at_most)
+        )
+
+
+def key(description: str, *, default: Any = MISSING, **limits: Any) -> Any:
+    """Return the dataclass field of a key; without a default the key is required.
+
+    Parameters
+    ----------
+    description : str
+        What the value says.
+    default : object
+        Value of a key that is left out.
+    **limits
+        The other parameters of `Key`.
+    """
+    return field(default=default, metadata={"key": Key(description=description, **limits)})
+
+
+class Table:
+    """Base of the dataclasses of a scenario, one for each table: checks its values when it is made.
+
+    Whole numbers are taken where a number is expected, and lists are kept as tuples.
+
+    Raises
+    ------
+    ScenarioError
+        A value has the wrong type or is outside its limits, or values contradict each other.
+    """
+
+    __slots__ = ()
+    table: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            object.__setattr__(self, item.name, checked(item, key_name(type(self), item), getattr(self, item.name)))
+        self._check_together()
+
+    def _check_together(self) -> None:
+        """Check the values against each other."""
+
+    def unexpected(self, name: str, wanted: str) -> ScenarioError:
+        """Return the error of a value, with its key and what was expected in its place."""
+        return ScenarioError(f"{self.table}.{name} is {shown(getattr(self, name))}: expected {wanted}")
+
+
+def numbered_tables(table_class: type[Table], given: Iterable[Any], make: Callable[[Any], Table]) -> tuple[Table, ...]:
+    """Make the tables of a list; an error gives the number of the table that it is about."""
+    tables = []
+    for number, each in enumerate(given, start=1):
+        try:
+            tables.append(make(each))
+        except ScenarioError as error:
+            raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
+    return tuple(tables)
+
+
+def key_fields(table_class: type[Table]) -> Iterator[Field]:
+    """Return the fields of a table that hold plain values."""
+    return (item for item in fields(table_class) if subtable_class(item) is None)
+
+
+def subtable_fields(table_class: type[Table]) -> Iterator[Field]:
+    """Return the fields of a table that hold tables."""
+    return (item for item in fields(table_class) if subtable_class(item) is not None)
+
+
+def key_name(table_class: type[Table], item: Field) -> str:
+    """Return the name of a key or table as it stands in a scenario, such as ``bridge.deck.width_m``."""
+    inner = subtable_class(item)
+    return inner.table if inner else f"{table_class.table}.{item.name}"
+
+
+def key_of(item: Field) -> Key:
+    """Return what `key` was given for a field that holds a plain value."""
+    return item.metadata["key"]
+
+
+def is_required(item: Field) -> bool:
+    """Return whether a scenario has to name this key or table."""
+    return item.default is MISSING and item.default_factory is MISSING
+
+
+@cache
+def is_optional(item: Field) -> bool:
+    """Return whether the value may be None, which leaves a key or table out."""
+    return NoneType in get_args(item.type)
+
+
+@cache
+def value_type(item: Field) -> Any:
+    """Return the type of a field's value where it is given: ``float`` for ``float | None``."""
+    return next(kind for kind in get_args(item.type) if kind is not NoneType) if is_optional(item) else item.type
+
+
+@cache
+def holds_many(item: Field) -> bool:
+    """Return whether a field holds a list, of tables or of values."""
+    return get_origin(value_type(item)) is tuple
+
+
+@cache
+def subtable_class(item: Field) -> type[Table] | None:
+    """Return the dataclass of the table or tables that a field holds, None for a field with a plain value."""
+    kind = get_args(value_type(item))[0] if holds_many(item) else value_type(item)
+    return kind if isinstance(kind, type) and issubclass(kind, Table) else None
+
+
+def checked(item: Field, name: str, value: Any) -> Any:
+    """Check the value of a key or table and return it as it is kept.
+
+    Raises
+    ------
+    ScenarioError
+        The value is not what `expected` says; the text gives the key's name and the value found.
+    """
+    if value is None and is_optional(item):
+        return None
+    if subtable_class(item) and holds_many(item):
+        if not isinstance(value, list | tuple) or not all(isinstance(each, subtable_class(item)) for each in value):
+            raise _unexpected(item, name, value)
+        return tuple(value)
+    return _checked(item, name, value_type(item), value)
+
+
+def _checked(item: Field, name: str, kind: Any, value: Any) -> Any:
+    """Check a value, or an element of a list, that is to be of a kind."""
+    if get_origin(kind) is tuple:
+        length = _list_length(kind)
+        if not isinstance(value, list | tuple) or len(value) != (length or max(len(value), 1)):
+            raise _unexpected(item, name, value)
+        element = get_args(kind)[0]
+        return tuple(_checked(item, f"{name}[{place}]", element, each) for place, each in enumerate(value))
+    if kind in (int, float):
+        return _checked_number(item, name, kind, value)
+    if kind is Scalar:
+        return _checked(item, name, type(value) if isinstance(value, bool | int | str) else float, value)
+    if not isinstance(value, kind) or (kind is str and not _is_text(value, key_of(item))):
+        raise _unexpected(item, name, value)
+    return value
+
+
+def _checked_number(item: Field, name: str, kind: type, value: Any) -> int | float:
+    if isinstance(value, bool) or not isinstance(value, Integral if kind is int else Real):
+        raise _unexpected(item, name, value)
+    try:
+        number = kind(value)
+    except OverflowError as error:
+        raise _unexpected(item, name, value) from error
+    if not key_of(item).holds(number):
+        raise _unexpected(item, name, value)
+    if number and not SMALLEST_NUMBER <= abs(number) <= LARGEST_NUMBER:
+        raise ScenarioError(f"{name} is {shown(value)}: expected a number that single precision can hold")
+    return number
+
+
+def _is_text(text: str, rule: Key) -> bool:
+    if rule.choices and not rule.or_else:
+        return text in rule.choices
+    return bool(text.strip()) and not any(category(letter) in LINE_BREAKING_CATEGORIES for letter in text)
+
+
+def check_exactly_one(table: Table, *names: str) -> None:
+    """Check that one of several keys is given.
+
+    Raises
+    ------
+    ScenarioError
+        None is, or more than one.
+    """
+    given = [name for name in names if getattr(table, name) is not None]
+    if len(given) != 1:
+        state = "given together" if given else "all missing"
+        listed = " and ".join(f"{table.table}.{name}" for name in given or names)
+        raise ScenarioError(f"{listed} are {state}: expected exactly one of {', '.join(names)}")
+
+
+def _unexpected(item: Field, name: str, value: Any) -> ScenarioError:
+    return ScenarioError(f"{name} is {shown(value)}: expected {expected(item)}")
+
+
+def expected(item: Field) -> str:
+    """Return what a key takes, in words, such as ``a number above 0 (m)``."""
+    if subtable_class(item):
+        return "tables" if holds_many(item) else "a table"
+    rule, kind = key_of(item), value_type(item)
+    if kind is bool:
+        return "true or false"
+    if kind is str:
+        others = f", or {rule.or_else}" if rule.or_else else ""
+        return f"one of {_listed(rule.choices)}{others}" if rule.choices else "a text on one line, not blank"
+    noun, _ = _nouns(kind)
+    if rule.choices:
+        noun = f"{noun}, each one of {_listed(rule.choices)}"
+    unit = f"({rule.unit})" if rule.unit else ""
+    return " ".join(part for part in (noun, rule.limits, unit) if part)
+
+
+def _nouns(kind: Any) -> tuple[str, str]:
+    """Return what a kind of value is called, one and several of them."""
+    if get_origin(kind) is tuple:
+        of = f"of {_list_length(kind) or 'one or more'} {_nouns(get_args(kind)[0])[1]}"
+        return f"a list {of}", f"lists {of}"
+    names = {
+        int: ("a whole number", "whole numbers"),
+        str: ("a text", "texts"),
+        Scalar: ("a number, a text, true or false", "numbers, texts, true or false"),
+    }
+    return names.get(kind, ("a number", "numbers"))
+
+
+def _list_length(kind: Any) -> int | None:
+    """Return the length that a list has to have, None where it may have any but 0."""
+    return None if Ellipsis in get_args(kind) else len(get_args(kind))
+
+
+def _listed(choices: Sequence[str]) -> str:
+    return ", ".join(map(json.dumps, choices))
+
+
+def shown(value: Any) -> str:
+    """Return a value found in a scenario as a short text on one line."""
+    if value is None:
+        return "missing"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Integral) and abs(value) > 2**63:
+        return "a whole number of more than 64 bits"
+    if isinstance(value, str):
+        letters = value.encode(errors="backslashreplace").decode()  # halves of letters cannot be written
+        return json.dumps(_shortened(letters), ensure_ascii=False)
+    if isinstance(value, list | tuple):
+        return f"a list of length {len(value)}"
+    if isinstance(value, dict):
+        return "a table"
+    return _shortened(" ".join(str(value).split()))
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= LONGEST_SHOWN_TEXT else text[:LONGEST_SHOWN_TEXT] + "…"

@@ -1,0 +1,82 @@
+"""Which shards bear each load of a scenario, and how much of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.geometry.vectors import distance, length
+from ...errors import ScenarioError
+from ..loads.load import Load
+from ..structure.model import Model
+from .events import Structure, in_box, model_structure, of_members
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlacedLoad:
+    """A load on shards as they were built.
+
+    Attributes
+    ----------
+    load : Load
+        How large it is, and where to.
+    bodies : (b,) int
+        Shards that bear it.
+    shares : (b,) float
+        Part of it that each bears.
+    arm_m : (3,) float or None
+        From the centre of mass of the one shard that bears it to where it acts; None where that is the centre.
+    """
+
+    load: Load
+    bodies: np.ndarray
+    shares: np.ndarray
+    arm_m: np.ndarray | None
+
+
+def placed_loads(
+    loads: Sequence[Load], structure: Structure, masses_kg: np.ndarray, boxes_m: np.ndarray
+) -> tuple[PlacedLoad, ...]:
+    """Place loads on the bodies (n,) of a structure.
+
+    Parameters
+    ----------
+    loads, structure
+        What to place, and on what.
+    masses_kg : (n,) float
+        Masses; 0 for those that cannot move.
+    boxes_m : (n, 2, 3) float
+        Lowest and highest corners of the boxes along the axes that the bodies fill.
+
+    Raises
+    ------
+    ScenarioError
+        A load names a member that is not there, or nothing that moves bears it.
+    """
+    return tuple(_placed(number, load, structure, masses_kg, boxes_m) for number, load in enumerate(loads, start=1))
+
+
+def placed_on_model(loads: Sequence[Load], model: Model) -> tuple[PlacedLoad, ...]:
+    """Place loads on the shards of a model, as `placed_loads` does."""
+    masses_kg = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
+    boxes_m = np.concatenate(([each.bounds for each in model.shards], np.zeros((1, 2, 3))))
+    return placed_loads(loads, model_structure(model), masses_kg, boxes_m)
+
+
+def _placed(number: int, load: Load, structure: Structure, masses_kg: np.ndarray, boxes_m: np.ndarray) -> PlacedLoad:
+    chosen = of_members(load, structure) & in_box(load, structure.centres_m) & structure.is_shard
+    bodies = np.flatnonzero(chosen & (masses_kg > 0.0))
+    if not len(bodies):
+        raise ScenarioError(
+            f"[[loads]] number {number}: no shard that can move is there; expected members or a box with some that no "
+            "support holds"
+        )
+    if load.point_m is None:
+        return PlacedLoad(load, bodies, masses_kg[bodies] / masses_kg[bodies].sum(), None)
+    point = np.array(load.point_m)
+    outside_m = length(point - np.clip(point, boxes_m[bodies, 0], boxes_m[bodies, 1]))
+    nearest = np.lexsort((distance(structure.centres_m[bodies], point), outside_m.round(6)))[:1]
+    body = bodies[nearest]
+    return PlacedLoad(load, body, np.ones(1), point - structure.centres_m[body[0]])

@@ -1,0 +1,80 @@
+"""When everything has come to rest."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...engineering.geometry.vectors import distance
+from ..scenario import Scenario
+
+
+class Rest:
+    """Find frame by frame whether all bodies rest, and since when.
+
+    Speeds come from positions and rotations of two frames, so that a solver's trembling within a frame is not motion.
+
+    Parameters
+    ----------
+    speed_m_s, spin_rad_s : float
+        Below both of these a body rests; one that sleeps rests anyway.
+    hold_s : float
+        For how long all have to rest.
+    not_before_s : float
+        Time before which no rest counts, as something is still to happen.
+
+    Attributes
+    ----------
+    since_s : float or None
+        Since when everything rests now; None while anything moves.
+    """
+
+    def __init__(self, speed_m_s: float, spin_rad_s: float, hold_s: float, not_before_s: float):
+        self.since_s: float | None = None
+        self._limits = speed_m_s, spin_rad_s
+        self._hold_s, self._not_before_s = hold_s, not_before_s
+        self._last: tuple[float, np.ndarray, np.ndarray] | None = None
+        self._time_s = 0.0
+
+    def observe(self, time_s: float, positions_m: np.ndarray, rotations: np.ndarray, asleep: np.ndarray) -> None:
+        """Look at a frame: its time, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of all bodies."""
+        if self._last and time_s > self._last[0]:
+            before_s, before_m, before = self._last
+            step_s = time_s - before_s
+            speeds = distance(positions_m, before_m) / step_s
+            # A rotation by a small angle φ changes the matrix by √2 φ in the Frobenius norm.
+            spins = distance(rotations.reshape(-1, 9), before.reshape(-1, 9)) / (np.sqrt(2.0) * step_s)
+            rests = asleep | ((speeds < self._limits[0]) & (spins < self._limits[1]))
+            if not rests.all() or before_s < self._not_before_s:
+                self.since_s = None
+            elif self.since_s is None:
+                self.since_s = before_s
+        self._last = time_s, positions_m, rotations
+        self._time_s = time_s
+
+    @property
+    def is_reached(self) -> bool:
+        """Return whether everything has been at rest for long enough."""
+        return self.came_to_rest_s is not None
+
+    @property
+    def came_to_rest_s(self) -> float | None:
+        """Return since when everything rests, where it has for long enough; None where it has not."""
+        if self.since_s is None or self._time_s - self.since_s < self._hold_s * (1.0 - 1e-6):
+            return None
+        return self.since_s
+
+
+def last_event_s(scenario: Scenario, motion_end_s: float = 0.0) -> float:
+    """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest.
+
+    From `motion_end_s` on the ground does not move any more.
+    """
+    times = [motion_end_s, scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
+    times += [load.times_s[-1] for load in scenario.loads]
+    times += [hammer.end_time_s for hammer in scenario.jackhammers]
+    if scenario.blast.explosion:
+        times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges]
+    if scenario.ball:
+        times += [scenario.ball.release_time_s]
+        times += [drop.release_time_s + drop.fall_time_s for drop in scenario.ball.drops]
+    return max(times)

@@ -1,0 +1,170 @@
+"""Tables of the stages of a demolition: a row a stage, a row a connection, a row a member."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...system.disk import whole_file
+from ..structure.model import Model
+from .stages import Criticality, Stage, reactions_n
+from .standing import StandingBridge
+
+FILES = STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE = "stages.csv", "utilisation.csv", "criticality.csv"
+
+STAGE_COLUMNS = (
+    "stage",
+    "time_s",
+    "step",
+    "shards",
+    "not_held",
+    "not_held_kg",
+    "equipment",
+    "weight_kN",
+    "reaction_x_kN",
+    "reaction_y_kN",
+    "reaction_z_kN",
+    "largest_utilisation",
+    "governed_by",
+    "between",
+    "at_x_m",
+    "at_y_m",
+    "at_z_m",
+    "overloaded",
+    "collapse_factor",
+    "sag_mm",
+    "first_frequency_Hz",
+)
+UTILISATION_COLUMNS = (
+    "stage",
+    "connection",
+    "between",
+    "x_m",
+    "y_m",
+    "z_m",
+    "utilisation",
+    "of_the_face",
+    "of_the_section",
+    "governed_by",
+)
+CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
+
+_KILO = 1000.0
+_GROUND = "ground"
+
+
+def write_tables(
+    folder: Path, stages: Sequence[Stage], members: Sequence[Criticality], bridge: StandingBridge
+) -> list[dict[str, Any]]:
+    """Write all tables to a folder, made if new, and return the rows of stages.
+
+    Raises
+    ------
+    OSError
+        One cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
+    write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)
+    used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
+    write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
+    write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))
+    return rows
+
+
+def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, Any]:
+    """Return the row of a stage, from 1 on."""
+    model, standing = bridge.model, stage.standing
+    there = ~stage.removed & ~model.fixed
+    weight_n = STANDARD_GRAVITY_M_S2 * model.masses_kg[standing.held].sum() + stage.equipment_n
+    reaction = reactions_n(model, stage) / _KILO
+    row = dict.fromkeys(STAGE_COLUMNS)
+    row |= {
+        "stage": number,
+        "time_s": stage.time_s,
+        "step": stage.step,
+        "shards": int(there.sum()),
+        "not_held": int(stage.loose.sum()),
+        "not_held_kg": float(model.masses_kg[stage.loose].sum()),
+        "equipment": ", ".join(stage.equipment),
+        "weight_kN": weight_n / _KILO,
+        "reaction_x_kN": reaction[0],
+        "reaction_y_kN": reaction[1],
+        "reaction_z_kN": reaction[2],
+        "overloaded": int((standing.used > 1.0).sum()),
+        "collapse_factor": stage.collapse_factor,
+        "sag_mm": standing.sag_m * _KILO,
+        "first_frequency_Hz": standing.frequency_hz,
+    }
+    if np.isfinite(standing.used).any():
+        worst = int(np.nanargmax(standing.used))
+        x, y, z = model.connections.points[worst]
+        row |= {
+            "largest_utilisation": float(standing.used[worst]),
+            "governed_by": bridge.governed_by(standing)[worst],
+            "between": between(model, worst),
+            "at_x_m": x,
+            "at_y_m": y,
+            "at_z_m": z,
+        }
+    return row
+
+
+def utilisation_rows(number: int, stage: Stage, bridge: StandingBridge) -> Iterable[dict[str, Any]]:
+    """Give the rows of all connections that are there in a stage."""
+    model, standing = bridge.model, stage.standing
+    governed_by = bridge.governed_by(standing)
+    for row in np.flatnonzero(np.isfinite(standing.used)).tolist():
+        x, y, z = model.connections.points[row]
+        yield {
+            "stage": number,
+            "connection": row,
+            "between": between(model, row),
+            "x_m": x,
+            "y_m": y,
+            "z_m": z,
+            "utilisation": standing.used[row],
+            "of_the_face": standing.alone[row],
+            "of_the_section": standing.together[row],
+            "governed_by": governed_by[row],
+        }
+
+
+def criticality_row(found: Criticality) -> dict[str, Any]:
+    """Return the row of a member."""
+    return {
+        "member": found.member,
+        "stands": "true" if found.falls_kg == 0.0 else "false",
+        "falls_kg": found.falls_kg,
+        "share_of_the_bridge": found.share,
+    }
+
+
+def between(model: Model, row: int) -> str:
+    """Return the members that a connection is between, or the one that it is within."""
+    names = [
+        _GROUND if shard < 0 else model.members[model.member_of_shard[shard]].name
+        for shard in model.connections.pairs[row].tolist()
+    ]
+    return " and ".join(dict.fromkeys(names))
+
+
+def write_table(path: Path, columns: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
+    """Write a table as CSV; what is not known is empty, and what has no end is ``inf``."""
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(columns)
+        for row in rows:
+            table.writerow([_cell(row[name]) for name in columns])
+
+
+def _cell(value: Any) -> str:
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

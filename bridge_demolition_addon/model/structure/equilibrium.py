@@ -1,0 +1,167 @@
+"""A model with elastic connections at rest under its own weight, before any simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
+from ...engineering.elasticity.joint_rows import JointFrames
+from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
+from ...engineering.mechanics.joint import MOTIONS, Joint
+from ...engineering.mechanics.member_sections import MemberSections, kinds_of
+from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
+from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.strength import Strength
+from ...engineering.structure.connections import GROUND, Connections
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from .model import Model
+
+
+def sag_m(model: Model, rest: Equilibrium) -> float:
+    """Return how far the shard goes down that goes down farthest, of those that are held."""
+    shards = len(model.shards)
+    held = rest.held[:shards]
+    fallen = model.centres_m[held, 2] - rest.positions_m[2, :shards][held]
+    return float(fallen.max(initial=0.0))
+
+
+def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
+    """Return which connections (m,) of a model at rest bear more than they can, so that the bridge does not stand.
+
+    A breaking force is compared with each direction by itself, moments included, as Bullet does.
+    """
+    found = used_of_forces(model, rest, joints) >= 1.0
+    for row, joint in enumerate(joints):
+        is_one = model.breakable & (model.joint_of_connection == row)
+        if joint.strength is not None:
+            found[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
+    return found
+
+
+def used_of_forces(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
+    """Return which part of its breaking force each connection (m,) of a model at rest bears; nan where it has none.
+
+    It is that of the direction that bears most: Bullet compares forces along three axes, and moments about them in N·m,
+    one by one with the same number.
+    """
+    forces = np.array([np.nan if each.breaking_force_n is None else each.breaking_force_n for each in joints])
+    return abs(rest.loads).max(axis=0, initial=0.0) / forces[model.joint_of_connection]
+
+
+def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
+    """Return which connections (r,) with a strength would break (k,) in a simulation, before what breaks there."""
+    loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
+    axes = section_axes(model.connections.normals[rows])
+    whole, together = np.ones(len(model.connections)), np.zeros(len(model.connections), int)
+    judged = overloads_of(model, strength, member_sections_of(model))
+    return judged.overloaded(rows, loads, axes, whole > 0.0, whole, together)[0]
+
+
+def member_sections_of(model: Model) -> MemberSections:
+    """Return the sections across the members of a model."""
+    connections, moves = model.connections, _moves(model)
+    pairs = connections.pairs % len(moves)
+    return MemberSections(
+        pairs,
+        connections.points,
+        connections.normals,
+        connections.areas,
+        model.second_moments_m4,
+        np.vstack((model.centres_m, np.zeros(3))),
+        moves,
+        kinds_of(np.append(model.member_of_shard, -1)[pairs]),
+        model.thicknesses_m(),
+    )
+
+
+def overloads_of(model: Model, strength: Strength, sections: MemberSections) -> Overloads:
+    """Return what judges the connections of a model by a strength."""
+    connections, moves = model.connections, _moves(model)
+    faces = connections.normals, connections.areas, model.second_moments_m4
+    return Overloads(connections.pairs % len(moves), *faces, moves, strength, sections)
+
+
+def _moves(model: Model) -> np.ndarray:
+    """Whether each shard moves, and the ground, at index -1, which does not."""
+    return np.append(~model.fixed, False)
+
+
+def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
+    """Return where the shards of a model rest, and the ground behind them; its connections have to be elastic.
+
+    Springs in motions that are free do not count.
+    """
+    masses = np.where(model.fixed, 0.0, model.masses_kg)
+    held = held_motions(model, joints)
+    return at_rest(model.connections, model.stiffness, masses, inertias_of(model), model.centres_m, held)
+
+
+def held_motions(model: Model, joints: Sequence[Joint]) -> np.ndarray:
+    """Return whether the connections of a model hold shifts along and turns about the axes of the world, (6, m)."""
+    held = np.array([[motion not in joint.free for motion in MOTIONS] for joint in joints]).T
+    return held[:, model.joint_of_connection]
+
+
+def inertias_of(model: Model) -> np.ndarray:
+    """Return the moments of inertia (n, 3) of the shards of a model; 0 for those that never move."""
+    inertias = np.array([box_inertia(np.ptp(shard.vertices, axis=0)) for shard in model.shards])
+    return inertias * np.where(model.fixed, 0.0, model.masses_kg)[:, None]
+
+
+def box_inertia(size_m: np.ndarray) -> np.ndarray:
+    """Return the moments of inertia (3,) of a box by its mass, m²: Bullet takes every shard for the box around it."""
+    squares = np.square(size_m)
+    return (squares.sum() - squares) / 12.0
+
+
+def at_rest(
+    connections: Connections,
+    stiffness: SectionStiffness,
+    masses_kg: np.ndarray,
+    inertias_kg_m2: np.ndarray,
+    centres_m: np.ndarray,
+    held: np.ndarray | None = None,
+    gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
+    loads: np.ndarray | None = None,
+) -> Equilibrium:
+    """Return where bodies rest under their own weight.
+
+    Parameters
+    ----------
+    connections, stiffness : Connections, SectionStiffness
+        The m connections, and how stiff they are.
+    masses_kg, inertias_kg_m2, centres_m : (n,), (n, 3), (n, 3) float
+        Masses of the shards, 0 for those that never move, moments of inertia about the axes of the world, and centres
+        of mass.
+    held : (6, m) bool, optional
+        Whether connections hold shifts along and turns about the axes of the world; all by default.
+    gravity_m_s2 : three float
+    loads : (6, n) float, optional
+        Further forces on the shards, N, and moments about their centres, N·m.
+
+    Returns
+    -------
+    Equilibrium
+        Of the n shards, and of the ground as the last body.
+    """
+    sections = np.moveaxis(section_axes(connections.normals), 0, 2)
+    held = np.ones((6, len(connections)), bool) if held is None else held
+    axes = np.repeat(np.eye(3)[:, :, None], len(connections), axis=2)
+    first, second = connections.pairs.T
+    second = np.where(second == GROUND, len(masses_kg), second)
+    places = np.vstack((centres_m, np.zeros(3)))
+    levers = [(connections.points - places[each]).T for each in (first, second)]
+    tensors = np.zeros((3, 3, len(places)))
+    tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
+    return equilibrium(
+        JointFrames(first, second, axes, axes, *levers),
+        in_frames(stiffness, sections, held),
+        np.append(masses_kg, 0.0),
+        tensors,
+        places.T,
+        np.repeat(np.eye(3)[:, :, None], len(places), axis=2),
+        np.array(gravity_m_s2),
+        None if loads is None else np.column_stack((loads, np.zeros(6))),
+    )

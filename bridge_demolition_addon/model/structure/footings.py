@@ -1,0 +1,169 @@
+"""Which connections of a model are footings on soil that gives, and the springs under them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...engineering.elasticity.section_stiffness import SectionStiffness
+from ...engineering.foundations.footings import SoilSprings
+from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ...engineering.structure.connections import GROUND, Connections
+from ...errors import ScenarioError
+from ..bridge.member import Member
+from ..foundations.settings import Foundation
+
+_PLACES = 128
+"""Fewest places under a footing: with them a rectangular one resists turning within 2 %."""
+
+_LEVEL_M = 1e-6
+"""How far a face may lie off the ground and still stand on it."""
+
+
+def soil_springs(
+    foundations: Sequence[Foundation],
+    members: Sequence[Member],
+    member_of_shard: np.ndarray,
+    shards: Sequence[TriangleMesh],
+    connections: Connections,
+) -> SoilSprings | None:
+    """Return the springs under a model's footings; None where it stands on ground that does not give.
+
+    Raises
+    ------
+    ScenarioError
+        There is no such member, nothing of it stands on the ground and can move, two foundations are under one, it
+        stands on a slope, or a footing is smaller than what stands on it.
+    """
+    found: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
+    for foundation in foundations:
+        for index in _chosen(foundation, members):
+            rows = _standing_rows(connections, member_of_shard, index)
+            if not len(rows):
+                raise ScenarioError(
+                    f'foundations.member is "{foundation.member}", and nothing of {members[index].name} stands on the '
+                    "ground and can move: expected a member that does, and no support under it"
+                )
+            for row, places, areas in _places(foundation, members[index], rows, shards, connections):
+                if row in found:
+                    raise ScenarioError(f"{members[index].name} has two foundations: expected one")
+                found[row] = foundation, places, areas
+    if not found:
+        return None
+    order = sorted(found)
+    of_rows = [found[row] for row in order]
+    stiffness = np.array([each.ground.stiffness_n_m3 for each, _, _ in of_rows])
+    return SoilSprings(
+        rows=np.array(order),
+        footings=np.repeat(np.arange(len(order)), [len(areas) for _, _, areas in of_rows]),
+        places_m=np.concatenate([places for _, places, _ in of_rows]),
+        areas_m2=np.concatenate([areas for _, _, areas in of_rows]),
+        stiffness_n_m3=stiffness,
+        horizontal_n_m3=stiffness * np.array([each.horizontal_share for each, _, _ in of_rows]),
+        capacity_pa=np.array([each.capacity_pa for each, _, _ in of_rows]),
+        friction=np.array([each.ground.friction for each, _, _ in of_rows]),
+    )
+
+
+def on_footings(connections: Connections, soil: SoilSprings) -> Connections:
+    """Return connections with the middles and areas of footings in place of those of the faces that stand on them."""
+    points, areas = connections.points.copy(), connections.areas.copy()
+    areas[soil.rows] = _summed(soil, soil.areas_m2)
+    points[soil.rows] = _middles(soil)
+    return replace(connections, points=points, areas=areas)
+
+
+def second_moments_of(soil: SoilSprings) -> np.ndarray:
+    """Return the second moments (f, 2, 2) of footings, as `second_moments` has them; their z is along the road."""
+    x, y = (soil.places_m - _middles(soil)[soil.footings])[:, :2].T
+    area = soil.areas_m2
+    xx, yy, xy = (_summed(soil, area * each) for each in (x * x, y * y, x * y))
+    return np.stack((np.stack((xx, -xy), axis=-1), np.stack((-xy, yy), axis=-1)), axis=-2)
+
+
+def with_soil(stiffness: SectionStiffness, soil: SoilSprings) -> SectionStiffness:
+    """Return the stiffness of connections with that of pressed footings in it."""
+    moments, areas = second_moments_of(soil), _summed(soil, soil.areas_m2)
+    axial, shear = stiffness.axial_n_m.copy(), stiffness.shear_n_m.copy()
+    torsion, bending = stiffness.torsion_nm.copy(), stiffness.bending_nm.copy()
+    axial[soil.rows] = soil.stiffness_n_m3 * areas
+    shear[soil.rows] = (soil.horizontal_n_m3 * areas)[:, None]
+    torsion[soil.rows] = soil.horizontal_n_m3 * (moments[:, 0, 0] + moments[:, 1, 1])
+    bending[soil.rows] = soil.stiffness_n_m3[:, None, None] * moments
+    return SectionStiffness(axial, shear, torsion, bending)
+
+
+def _chosen(foundation: Foundation, members: Sequence[Member]) -> list[int]:
+    chosen = [index for index, each in enumerate(members) if foundation.member in (each.name, each.kind)]
+    if not chosen:
+        known = sorted({each.name for each in members} | {each.kind for each in members})
+        raise ScenarioError(
+            f'foundations.member is "{foundation.member}": expected the name or kind of a member, one of '
+            f"{', '.join(known)}"
+        )
+    return chosen
+
+
+def _standing_rows(connections: Connections, member_of_shard: np.ndarray, member: int) -> np.ndarray:
+    """Connections (k,) of a member with the ground."""
+    first, second = connections.pairs.T
+    return np.flatnonzero((second == GROUND) & (member_of_shard[first] == member))
+
+
+def _places(
+    foundation: Foundation,
+    member: Member,
+    rows: np.ndarray,
+    shards: Sequence[TriangleMesh],
+    connections: Connections,
+) -> list[tuple[int, np.ndarray, np.ndarray]]:
+    """Connection, places (p, 3) and their areas (p,) of all footings of a member."""
+    faces = [_standing_triangles(shards[connections.pairs[row, 0]], connections.points[row, 2]) for row in rows]
+    if not all(map(len, faces)):
+        raise ScenarioError(f"{member.name} stands on a slope: expected level ground under members with foundations")
+    corners = np.concatenate(faces).reshape(-1, 3)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    scale = np.ones(3)
+    if foundation.footing_m is not None:
+        scale[:2] = np.array(foundation.footing_m) / (high - low)[:2]
+        if (scale < 1.0 - 1e-6).any():
+            raise ScenarioError(
+                f"foundations.footing_m is {foundation.footing_m[0]:g} × {foundation.footing_m[1]:g} m under "
+                f"{member.name}: expected at least {high[0] - low[0]:.4g} × {high[1] - low[1]:.4g} m, which stand on it"
+            )
+    middle = 0.5 * (low + high)
+    found = []
+    for row, triangles in zip(rows.tolist(), faces, strict=True):
+        parts = _divided(triangles, int(np.ceil(np.sqrt(_PLACES / len(triangles)))))
+        areas, _ = triangle_areas_and_normals(parts)
+        found.append((row, middle + scale * (parts.mean(axis=1) - middle), scale[0] * scale[1] * areas))
+    return found
+
+
+def _standing_triangles(shard: TriangleMesh, height_m: float) -> np.ndarray:
+    """Triangles (t, 3, 3) of a shard that lie at a height."""
+    corners = shard.corners
+    return corners[(abs(corners[:, :, 2] - height_m) <= _LEVEL_M).all(axis=1)]
+
+
+def _divided(triangles: np.ndarray, count: int) -> np.ndarray:
+    """Each of t triangles (t, 3, 3) as count² smaller ones, alike: (t count², 3, 3)."""
+    steps = [(i, j) for i in range(count) for j in range(count - i)]
+    upright = [((i, j), (i + 1, j), (i, j + 1)) for i, j in steps]
+    turned = [((i + 1, j + 1), (i, j + 1), (i + 1, j)) for i, j in steps if i + j + 2 <= count]
+    shares = np.array(upright + turned, float) / count
+    first, along = triangles[:, :1], triangles[:, 1:] - triangles[:, :1]
+    moved = shares[None, :, :, :1] * along[:, None, None, 0] + shares[None, :, :, 1:] * along[:, None, None, 1]
+    return (first[:, None] + moved).reshape(-1, 3, 3)
+
+
+def _middles(soil: SoilSprings) -> np.ndarray:
+    """Centres (f, 3) of the footings."""
+    whole = _summed(soil, soil.areas_m2)
+    return np.stack([_summed(soil, soil.areas_m2 * each) / whole for each in soil.places_m.T], axis=1)
+
+
+def _summed(soil: SoilSprings, values: np.ndarray) -> np.ndarray:
+    return np.bincount(soil.footings, values, len(soil.rows))

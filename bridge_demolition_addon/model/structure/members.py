@@ -1,0 +1,286 @@
+"""All members cut into shards, and the faces that shards have in common, within a member and between two."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ...engineering.fracture.density import PointDensity, densest, density_around, painted_density
+from ...engineering.fracture.gaps import with_gaps
+from ...engineering.fracture.options import FractureOptions, Recursion
+from ...engineering.fracture.seeds import random_points
+from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
+from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.solids import contains
+from ...errors import GeometryError, ScenarioError
+from ..bridge.member import Member
+from ..scenario import FractureSettings, Scenario
+from ..scenario.fracture import MemberFracture
+from ..schema import SHORTEST_LENGTH_M
+from .point_files import paint_from_file, points_from_file
+
+_DENSITY_SAMPLES = 4000
+"""Points that the mean density of a member is taken over: it is off by some percent at most, and so is a number of
+shards."""
+
+
+@dataclass(frozen=True, slots=True)
+class FracturedMembers:
+    """Shards of all members, one member after the other.
+
+    Attributes
+    ----------
+    shards : tuple of TriangleMesh
+        The n shards' closed meshes, in the bridge's coordinates, without gaps.
+    member_of_shard : (n,) int
+        Index of the member that each shard was cut from.
+    masses_kg : (n,) float
+        Mass of each shard.
+    centres_m : (n, 3) float
+        Centre of mass of each shard.
+    points_m : (n, 3) float
+        The point whose Voronoi cell each shard is.
+    faces : SharedFaces
+        What neighbouring shards have in common.
+    """
+
+    shards: tuple[TriangleMesh, ...]
+    member_of_shard: np.ndarray
+    masses_kg: np.ndarray
+    centres_m: np.ndarray
+    points_m: np.ndarray
+    faces: SharedFaces
+
+
+def fractured_members(scenario: Scenario, members: Sequence[Member]) -> FracturedMembers:
+    """Members in shards as a scenario asks for; the same seed gives the same shards.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Says how many shards, and how they are cut.
+    members : sequence of Member
+        What is cut.
+
+    Raises
+    ------
+    ScenarioError
+        A member that the scenario names is not there, or a file of points or paint cannot be read.
+    GeometryError
+        The members cannot be cut into that many shards, or a point lies outside of all.
+    """
+    settings = scenario.fracture
+    density = _density(settings)
+    own_points = _points_by_member(settings, members)
+    rules = _rules(settings, members)
+    counts = _counts(scenario, members, rules, own_points, density)
+    seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
+    parts = []
+    for index, member in enumerate(members):
+        rule = rules[index]
+        options = FractureOptions(
+            density=density,
+            noise=settings.noise,
+            stretch=rule.stretch if rule and rule.stretch else settings.stretch,
+            recursion=_recursion(settings),
+        )
+        parts.append(_fractured(member, int(counts[index]), own_points[index], int(seeds[index]), options))
+    shards = tuple(shard for part in parts for shard in part.shards)
+    member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
+    return FracturedMembers(
+        shards=shards,
+        member_of_shard=member_of_shard,
+        masses_kg=np.concatenate([_masses(*each, settings.mass) for each in zip(members, parts, strict=True)]),
+        centres_m=np.concatenate([part.centres for part in parts]),
+        points_m=np.concatenate([part.points for part in parts]),
+        faces=_all_faces([part.faces for part in parts], shards, member_of_shard),
+    )
+
+
+def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
+    """The shards with gaps between those of one member.
+
+    Raises
+    ------
+    GeometryError
+        Nothing is left of a shard.
+    """
+    bounds = np.searchsorted(fractured.member_of_shard, np.arange(len(members) + 1))
+    return tuple(
+        shard
+        for index, member in enumerate(members)
+        for shard in with_gaps(fractured.shards[bounds[index] : bounds[index + 1]], member.solid, gap_m)
+    )
+
+
+def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
+    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together.
+
+    Raises
+    ------
+    GeometryError
+        There are fewer shards than members.
+    """
+    if shard_count < len(volumes):
+        raise GeometryError(
+            f"fracture.shards is {shard_count}: expected at least {len(volumes)}, one for each member of the bridge"
+        )
+    shares = volumes / volumes.sum() * (shard_count - len(volumes))
+    counts = 1 + np.floor(shares).astype(int)
+    largest_remainders = np.argsort(-(shares - np.floor(shares)), kind="stable")
+    counts[largest_remainders[: shard_count - counts.sum()]] += 1
+    return counts
+
+
+def _density(settings: FractureSettings) -> PointDensity | None:
+    """Where the points lie closer: around places, and where it is painted."""
+    found = []
+    if settings.finer:
+        columns = ([getattr(each, name) for each in settings.finer] for name in ("place_m", "radius_m", "factor"))
+        found.append(density_around(*columns))
+    if settings.painted_file is not None:
+        found.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
+    return densest(found) if found else None
+
+
+def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
+    if member.volume_m3 / count < SHORTEST_LENGTH_M * SHORTEST_LENGTH_M * SHORTEST_LENGTH_M:
+        raise GeometryError(
+            f"{member.name}: {count} shards do not fit into {member.volume_m3:.4g} m³, as each would be smaller than "
+            f"{SHORTEST_LENGTH_M} m; ask for fewer."
+        )
+    try:
+        if len(points):
+            return voronoi_cells(member.solid, points, seed, options)
+        if 1 < len(member.parts) <= count:
+            return _fractured_in_parts(member, count, seed, options)
+        return fracture(member.solid, count, seed, options)
+    except GeometryError as error:
+        raise GeometryError(f"{member.name}: {error}") from error
+
+
+def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:
+    """Each convex part of a member by itself, so that no shard reaches around a corner."""
+    amounts = np.array([_amount(part, options.density, seed) for part in member.parts])
+    seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))
+    counts = shards_per_member(amounts, count)
+    columns = zip(member.parts, counts.tolist(), seeds.tolist(), strict=True)
+    return joined_fractures([fracture(part, number, part_seed, options) for part, number, part_seed in columns])
+
+
+def _masses(member: Member, part: Fracture, mass: str) -> np.ndarray:
+    if mass == "uniform":
+        return np.full(len(part), member.density_kg_m3 * part.volumes.sum() / len(part))
+    return member.density_kg_m3 * part.volumes
+
+
+def _recursion(settings: FractureSettings) -> Recursion | None:
+    if settings.recursion_share == 0.0:
+        return None
+    return Recursion(settings.recursion_share, settings.recursion_shards, settings.recursion_smallest_m3)
+
+
+def _rules(settings: FractureSettings, members: Sequence[Member]) -> list[MemberFracture | None]:
+    """What is said of each member by its name, or else of its kind."""
+    by_name = {each.member: each for each in settings.members}
+    known = {member.name for member in members} | {member.kind for member in members}
+    for name in by_name:
+        if name not in known:
+            raise ScenarioError(
+                f'fracture.members.member is "{name}": expected the name or kind of a member, one of '
+                f"{', '.join(sorted(known))}"
+            )
+    return [by_name.get(member.name) or by_name.get(member.kind) for member in members]
+
+
+def _counts(
+    scenario: Scenario,
+    members: Sequence[Member],
+    rules: Sequence[MemberFracture | None],
+    own_points: Sequence[np.ndarray],
+    density: PointDensity | None,
+) -> np.ndarray:
+    """How many shards each member (k,) gets: its points, what is said of it, or its share of what is left."""
+    settings = scenario.fracture
+    amounts = np.array([_amount(member.solid, density, scenario.seed) for member in members])
+    counts = _explicit_counts(rules, own_points)
+    counts = _shared_counts(counts, settings, rules, amounts)
+    return _distribute_rest(counts, amounts, settings.shards)
+
+
+def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequence[np.ndarray]) -> np.ndarray:
+    """Shards (k,) of members that have points of their own, or a given number; 0 of any other."""
+    given = [rule.shards or 0 if rule else 0 for rule in rules]
+    return np.array([len(points) or number for points, number in zip(own_points, given, strict=True)])
+
+
+def _shared_counts(
+    counts: np.ndarray, settings: FractureSettings, rules: Sequence[MemberFracture | None], amounts: np.ndarray
+) -> np.ndarray:
+    """The counts (k,), with those of members (k,) that together get a given share of all shards."""
+    counts = counts.copy()
+    for rule in settings.members:
+        alike = np.array([each is rule for each in rules]) & (counts == 0)
+        if rule.share is not None and alike.any():
+            together = max(int(alike.sum()), round(rule.share * settings.shards))
+            counts[alike] = shards_per_member(amounts[alike], together)
+    return counts
+
+
+def _distribute_rest(counts: np.ndarray, amounts: np.ndarray, wanted: int) -> np.ndarray:
+    """The counts (k,), with the rest of the wanted shards distributed by volume among members that have none yet."""
+    is_open, taken = counts == 0, int(counts.sum())
+    if is_open.all():
+        return shards_per_member(amounts, wanted)
+    if not is_open.any():
+        if taken == wanted:
+            return counts
+        raise GeometryError(
+            f"fracture.shards is {wanted}: expected {taken}, as every member has points or a number of its own"
+        )
+    if wanted - taken < is_open.sum():
+        raise GeometryError(
+            f"fracture.shards is {wanted}: expected at least {taken + int(is_open.sum())}, as {taken} are for members "
+            "with points or a number of their own and the others need one each"
+        )
+    counts = counts.copy()
+    counts[is_open] = shards_per_member(amounts[is_open], wanted - taken)
+    return counts
+
+
+def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> float:
+    """Volume of a solid, m³; where points lie closer it counts as many times."""
+    if density is None:
+        return solid.volume
+    samples = random_points(solid, _DENSITY_SAMPLES, np.random.default_rng(seed))
+    return solid.volume * float(density.at(samples).mean())
+
+
+def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
+    """Points of the user's own in each member, (p, 3) in m."""
+    places = [each.place_m for each in settings.points]
+    if settings.points_file is not None:
+        places += points_from_file(Path(settings.points_file)).tolist()
+    points = np.array(places, dtype=float).reshape(-1, 3)
+    if not len(points):
+        return [points] * len(members)
+    inside = np.array([contains(member.solid, points) for member in members])
+    outside = np.flatnonzero(~inside.any(axis=0))
+    if len(outside):
+        raise GeometryError(
+            f"{len(outside)} of {len(points)} points of fracture.points and its file lie in no member, the first at "
+            f"{points[outside[0]].tolist()} m; move or drop them."
+        )
+    first = inside.argmax(axis=0)
+    return [points[first == index] for index in range(len(members))]
+
+
+def _all_faces(within: list[SharedFaces], shards: tuple[TriangleMesh, ...], member_of_shard: np.ndarray) -> SharedFaces:
+    """Faces shared within each member, and those where two members touch."""
+    first_shards = np.searchsorted(member_of_shard, np.arange(len(within)))
+    numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]
+    return joined_faces([*numbered, touching_faces(shards, member=member_of_shard)])

@@ -1,0 +1,213 @@
+"""From a scenario to the model that is simulated: shards with their masses, and the connections between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from ...engineering.elasticity.section_stiffness import SectionStiffness
+from ...engineering.foundations.footings import SoilSprings
+from ...engineering.fracture.shared_faces import SharedFaces
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.mechanics.reinforcement import FaceBars
+from ...engineering.structure import connections as connecting
+from ...engineering.structure.connections import Connections
+from ...engineering.structure.face_sections import second_moments
+from ..bridge.extent import room_around
+from ..bridge.member import Member, mean_density
+from ..bridge.preparation import prepared_members
+from ..scenario import ConnectionSettings, Scenario
+from ..terrain.built import BuiltGround, built_ground
+from .connection_rules import rules_of_pairs
+from .face_bars import face_bars
+from .footings import on_footings, second_moments_of, soil_springs, with_soil
+from .members import FracturedMembers, fractured_members, shards_with_gaps
+from .stiffness import connection_stiffness
+from .supports import fixed_shards
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A bridge cut into shards, and its connections.
+
+    Attributes
+    ----------
+    members : tuple of Member
+        Members of the bridge before they were fractured.
+    shards : tuple of TriangleMesh
+        The n shards' closed meshes, in the bridge's coordinates.
+    member_of_shard : (n,) int
+        Index of the member that each shard was cut from.
+    masses_kg : (n,) float
+        Mass of each shard.
+    centres_m : (n, 3) float
+        Centre of mass of each shard.
+    connections : Connections
+        Connections between shards and to the ground.
+    joint_of_connection : (m,) int
+        What each connection has in common with others: index of one of the scenario's joints.
+    second_moments_m4 : (m, 2, 2) float
+        Second moments of area of the connections' faces; 0 for one without a face.
+    fixed : (n,) bool
+        Whether each shard never moves, as supports hold it; no connection lies between two of these.
+    stiffness : SectionStiffness or None
+        Of the connections; None where they are rigid.
+    ground : BuiltGround
+        What it stands on.
+    soil : SoilSprings or None
+        What footings stand on; None where the ground does not give.
+    bars : FaceBars or None
+        Layers of reinforcement across the connections; None where the scenario has none.
+    """
+
+    members: tuple[Member, ...]
+    shards: tuple[TriangleMesh, ...]
+    member_of_shard: np.ndarray
+    masses_kg: np.ndarray
+    centres_m: np.ndarray
+    connections: Connections
+    joint_of_connection: np.ndarray
+    second_moments_m4: np.ndarray
+    fixed: np.ndarray
+    stiffness: SectionStiffness | None = None
+    ground: BuiltGround = field(default_factory=BuiltGround)
+    soil: SoilSprings | None = None
+    bars: FaceBars | None = None
+
+    def thicknesses_m(self) -> np.ndarray:
+        """Thickness (m,) of the thinner of the members that each connection is between."""
+        of_members = np.array([member.thickness_m for member in self.members])
+        of_shards = np.append(of_members[self.member_of_shard], np.inf)  # the ground, at index -1
+        return of_shards[self.connections.pairs].min(axis=1)
+
+    @property
+    def breakable(self) -> np.ndarray:
+        """Which connections (m,) can break: not those that are footings on soil."""
+        can = np.ones(len(self.connections), bool)
+        if self.soil:
+            can[self.soil.rows] = False
+        return can
+
+    @property
+    def density_kg_m3(self) -> float:
+        """Mean density of all members, kg/m³."""
+        return mean_density(self.members)
+
+
+def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
+    """Members, shards and connections of a scenario; the same scenario gives the same model.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What to build.
+    members : sequence of Member, optional
+        What is cut into shards, without overlap; by default all members that the scenario names.
+
+    Raises
+    ------
+    GeometryError
+        The bridge cannot be cut into that many shards.
+    """
+    members = prepared_members(scenario).members if members is None else tuple(members)
+    solids = [(member.name, member.solid) for member in members]
+    ground = built_ground(scenario, solids, room_around(scenario, members))
+    fractured = fractured_members(scenario, members)
+    shards, centres, faces = fractured.shards, fractured.centres_m, fractured.faces
+    rules = scenario.connections.between
+    rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
+    excluded = np.array([False, *(rule.none for rule in rules)])
+    heights_at = None if ground.terrain is None else ground.terrain.heights_at
+    connections = _connections(
+        scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)], heights_at
+    )
+    fixed = fixed_shards(scenario.supports, members, shards, fractured.member_of_shard)
+    # The ground, at index -1, is fixed as well.
+    moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
+    connections = connections.only(moves)
+    joint_of_connection = rules_of(connections.pairs)
+    moments = second_moments(
+        shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
+    )
+    soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
+    bars = None
+    if scenario.reinforcement:
+        bars = face_bars(
+            scenario.reinforcement,
+            members,
+            fractured.member_of_shard,
+            shards,
+            connections,
+            scenario.joints,
+            joint_of_connection,
+            scenario.connections.strength_factor,
+        )
+    stiffness = None
+    if scenario.connections.is_elastic:
+        stiffness = connection_stiffness(
+            connections,
+            moments,
+            scenario.joints,
+            joint_of_connection,
+            shards,
+            _middles(fractured),
+            members,
+            fractured.member_of_shard,
+            fixed,
+        )
+    if soil:
+        connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)
+        moments[soil.rows] = second_moments_of(soil)
+    return Model(
+        members=members,
+        shards=shards_with_gaps(fractured, members, scenario.fracture.margin_m),
+        member_of_shard=fractured.member_of_shard,
+        masses_kg=fractured.masses_kg,
+        centres_m=centres,
+        connections=connections,
+        joint_of_connection=joint_of_connection,
+        second_moments_m4=moments,
+        fixed=fixed,
+        stiffness=stiffness,
+        ground=ground,
+        soil=soil,
+        bars=bars,
+    )
+
+
+def _middles(fractured: FracturedMembers) -> np.ndarray:
+    """Return the points (n, 3) from which shards reach to their faces, each half way to the next one.
+
+    A member that was not cut has its centre of mass: its point, around which it would have been, is anywhere in it.
+    """
+    whole = np.bincount(fractured.member_of_shard)[fractured.member_of_shard] == 1
+    return np.where(whole[:, None], fractured.centres_m, fractured.points_m)
+
+
+def _connections(
+    settings: ConnectionSettings,
+    shards: tuple[TriangleMesh, ...],
+    centres: np.ndarray,
+    faces: SharedFaces,
+    allowed: Callable[[np.ndarray], np.ndarray],
+    heights_at: Callable[[np.ndarray], np.ndarray] | None,
+) -> Connections:
+    """Connections between shards and to the ground, flat or of such heights; of pairs (k, 2) that are allowed (k,)."""
+    match settings.method:
+        case "face":
+            pairs, distances = connecting.neighbours_by_face(faces)
+        case "centre":
+            pairs, distances = connecting.neighbours_by_centre(centres, settings.search_radius_m)
+        case "vertex":
+            pairs, distances = connecting.neighbours_by_vertex(shards, settings.search_radius_m)
+        case "nearest":
+            pairs, distances = connecting.neighbours_by_count(centres, settings.neighbours)
+    kept = allowed(pairs)
+    between = connecting.connect(centres, faces, pairs[kept], distances[kept], settings.limit_per_shard)
+    if not settings.foundation:
+        return between
+    standing = connecting.foundations(shards, heights_at)
+    return connecting.joined([between, standing.only(allowed(standing.pairs))])

@@ -1,0 +1,60 @@
+"""How far footings on soil have settled, leant and slid at the end of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...engineering.arithmetic import arctangent
+from ...engineering.geometry.vectors import length, transformed, transformed_back
+from ..foundations.settings import Foundation
+from ..results.arrays import Results
+from ..results.motion import relative_to_ground
+
+
+def settlements(results: Results, foundations: Sequence[Foundation]) -> list[dict[str, Any]]:
+    """Return what became of the footings of each member that stands on soil, by its name, ready for JSON.
+
+    Returns
+    -------
+    list of dict
+        ``member``; ``settled_m``, downwards in the mean of its shards that stand on the ground, and ``most_settled_m``,
+        the largest in any frame; ``slid_m``, along the ground; ``tilt_rad`` of the shard that leans most at the end.
+    """
+    inventory, seen = results.inventory, relative_to_ground(results)
+    ground = set(inventory.of_kind("ground").tolist())
+    rows = [row for row, pair in enumerate(inventory.pairs.tolist()) if ground.intersection(pair)]
+    standing = np.array([next(b for b in inventory.pairs[row].tolist() if b not in ground) for row in rows], int)
+    named = [{each.member for each in foundations} & {*_names(results, body)} for body in standing.tolist()]
+    is_on_soil = np.array([bool(each) for each in named], bool)
+    members = inventory.body_members[standing]
+    found = []
+    for member in dict.fromkeys(members[is_on_soil].tolist()):
+        chosen = np.flatnonzero(is_on_soil & (members == member))
+        bodies, points = standing[chosen], inventory.points_m[np.array(rows)[chosen]]
+        moved = _moved(seen, bodies, points)
+        down = -moved[..., 2].mean(axis=1)
+        upwards = np.asarray(seen.frames.rotations[-1, bodies, :, 2], float)
+        found.append(
+            {
+                "member": member,
+                "settled_m": float(down[-1]),
+                "most_settled_m": float(down.max()),
+                "slid_m": float(length(moved[-1, :, :2].mean(axis=0))),
+                "tilt_rad": float(arctangent(length(upwards[:, :2]), upwards[:, 2]).max()),
+            }
+        )
+    return found
+
+
+def _names(results: Results, body: int) -> tuple[str, str]:
+    return str(results.inventory.body_members[body]), str(results.inventory.body_member_kinds[body])
+
+
+def _moved(results: Results, bodies: np.ndarray, points_m: np.ndarray) -> np.ndarray:
+    """How far points (b, 3) that are fixed in bodies (b,) have moved by each frame, (k, b, 3)."""
+    places, rotations = results.frames.positions_m[:, bodies], results.frames.rotations[:, bodies]
+    own = transformed_back(rotations[0], points_m - places[0])
+    return places + transformed(rotations, np.broadcast_to(own, places.shape)) - points_m

@@ -1,0 +1,174 @@
+"""Study files: TOML read strictly into a `Study`, with the scenario that it varies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+from ...errors import ScenarioError
+from ..results.files import SCENARIO_FILE
+from ..scenario import Scenario
+from ..scenario.file import read_scenario, scenario_text
+from ..schema import shown
+from ..toml_tables import document_of_file, table_of_document, tables_text
+from .criteria import Criterion, check_criteria
+from .distributions import Distribution
+from .files import STUDY_FILE
+from .keys import ScenarioKey, changed, keys_named
+from .settings import StudySettings, Vary
+from .statements import check_runs
+
+SEED = f"{Scenario.table}.seed"
+"""Key that each run draws, and that no table varies."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Variation:
+    """A key of the scenario, and how it is drawn.
+
+    Attributes
+    ----------
+    key : ScenarioKey
+        Which key.
+    distribution : Distribution
+        What is drawn.
+    factor : bool
+        Whether that is a factor on the scenario's value.
+    """
+
+    key: ScenarioKey
+    distribution: Distribution
+    factor: bool
+
+    def value(self, drawn: Any) -> Any:
+        """Return the value of the key for what was drawn."""
+        return drawn * self.key.value if self.factor else drawn
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Study:
+    """A study: a scenario, what varies in it, and what is asked.
+
+    Attributes
+    ----------
+    settings : StudySettings
+        What the file says.
+    scenario : Scenario
+        What is varied.
+    variations : tuple of Variation
+        One for each key that is drawn besides `SEED`, in the order of the file.
+    """
+
+    settings: StudySettings
+    scenario: Scenario
+    variations: tuple[Variation, ...]
+
+    @property
+    def criteria(self) -> tuple[Criterion, ...]:
+        """Return what makes a run count as a success."""
+        return self.settings.criteria
+
+    @property
+    def file_name(self) -> str:
+        """Return what the file is called in the folder of the study."""
+        return STUDY_FILE
+
+    @property
+    def text(self) -> str:
+        """Return the study file in one way of writing, for a folder that has the scenario in ``scenario.toml``."""
+        return tables_text(replace(self.settings, scenario=SCENARIO_FILE))
+
+    @property
+    def scenario_text(self) -> str:
+        """Return the scenario file that goes with `text`."""
+        return scenario_text(self.scenario)
+
+
+def read_study(path: str | PathLike[str]) -> Study:
+    """Read a study file, and the scenario that it varies.
+
+    Parameters
+    ----------
+    path : str or path
+        A TOML file; the reference of all keys is ``docs/studies.md``.
+
+    Raises
+    ------
+    ScenarioError
+        A file cannot be read or is not TOML; a key is unknown, missing or has a wrong value; a distribution can leave
+        the range of its key; or the runs are too few for what is to be said. The text is one line: the path as given,
+        and what was expected.
+    """
+    path = Path(path)
+    try:
+        settings = table_of_document(StudySettings, document_of_file(path, "a study"))
+        scenario = read_scenario(path.parent / settings.scenario)
+        return study_of(settings, scenario)
+    except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
+        raise ScenarioError(f"{fspath(path)}: {error}") from error
+
+
+def study_of(settings: StudySettings, scenario: Scenario) -> Study:
+    """Return the study of a scenario.
+
+    Raises
+    ------
+    ScenarioError
+        The scenario lacks what is varied or asked, or a draw could not be run.
+    """
+    check_runs(settings.runs, settings.quantile, settings.confidence, settings.rank)
+    check_criteria(settings.criteria, scenario)
+    return Study(settings, scenario, variations_of(settings.vary, scenario))
+
+
+def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation, ...]:
+    """Return what varies in a scenario, for each key of all tables.
+
+    Raises
+    ------
+    ScenarioError
+        The scenario lacks it, or a draw could not be run.
+    """
+    variations: dict[str, Variation] = {}
+    for number, vary in enumerate(tables, start=1):
+        try:
+            found = _variations(scenario, vary)
+            _check_not_twice(found, variations)
+            _check_range(scenario, found)
+        except ScenarioError as error:
+            raise ScenarioError(f"[[{Vary.table}]] number {number}: {error}") from error
+        variations |= {each.key.name: each for each in found}
+    return tuple(variations.values())
+
+
+def _variations(scenario: Scenario, vary: Vary) -> list[Variation]:
+    found = [Variation(key, vary.drawn_from, vary.factor) for key in keys_named(scenario, vary.key)]
+    for each in found:
+        if each.key.name == SEED:
+            raise ScenarioError(f"vary.key is {SEED}, which is always drawn: leave it out")
+        if vary.factor and (isinstance(each.key.value, bool) or not isinstance(each.key.value, int | float)):
+            raise ScenarioError(f"vary.factor is true: {each.key.name} has no number in the scenario to multiply")
+    return found
+
+
+def _check_not_twice(found: list[Variation], earlier: dict[str, Variation]) -> None:
+    for each in found:
+        if each.key.name in earlier:
+            raise ScenarioError(f"{each.key.name} is drawn more than once: expected one table for it")
+
+
+def _check_range(scenario: Scenario, found: list[Variation]) -> None:
+    """Check that the scenario may have the ends of a distribution, all keys of a list together, or each choice."""
+    for drawn in found[0].distribution.tried:
+        values = {each.key: each.value(drawn) for each in found}
+        try:
+            changed(scenario, values)
+        except ScenarioError as error:
+            first = f"{found[0].key.name} = {shown(values[found[0].key])}"
+            raise ScenarioError(
+                f"draws may come to {first}, which the scenario cannot have: {error}. Set lowest and highest, or take "
+                "another distribution"
+            ) from error

@@ -1,0 +1,210 @@
+"""The outcome of one run of a study: its outputs, and where its debris was on plan."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, Self
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ...engineering.blast.models import BlastModel
+from ...engineering.geometry.plan_areas import outlines
+from ...errors import OutputError
+from ..blast.receptors import loads_at
+from ..debris.footprint import footprint, plan_hulls, swept_footprint
+from ..debris.reach import bodies_that_moved, reaches_on_the_way
+from ..debris.throws import debris_of
+from ..debris.touchdown import landings, shaking_at
+from ..debris.zones import watch_zone
+from ..results.arrays import Results
+from ..results.collapse import Span, collapse_progress, spans_of
+from ..results.motion import relative_to_ground
+from ..results.removed_shards import without_removed
+from ..scenario import Scenario
+from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
+
+SUCCESS = "success"
+"""Output that says whether all criteria are met; only where there are some."""
+
+_STRAIGHT_M = 1e-3
+"""How far kept outlines may stray from what was covered."""
+
+_NO_OUTLINES = np.zeros((0, 2), np.float32)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outlines:
+    """What is kept of a run on plan: closed outlines (k, 2), m; those of holes run clockwise.
+
+    Attributes
+    ----------
+    bridge
+        What all shards covered at first.
+    resting
+        What each hazardous body that moved covers at the end; where several overlap, each has its own.
+    swept
+        What these covered at any time, all together.
+    """
+
+    bridge: tuple[np.ndarray, ...]
+    resting: tuple[np.ndarray, ...]
+    swept: tuple[np.ndarray, ...]
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """All outlines as arrays by name, in single precision: ``bridge_m`` (c, 2), ``bridge_counts`` (o,), …"""
+        found = {}
+        for each in fields(self):
+            rings = getattr(self, each.name)
+            found[f"{each.name}_m"] = np.concatenate([_NO_OUTLINES, *rings]).astype(np.float32)
+            found[f"{each.name}_counts"] = np.array([len(ring) for ring in rings], np.int32)
+        return found
+
+    @classmethod
+    def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Self:
+        """Outlines from what `arrays` gives.
+
+        Raises
+        ------
+        KeyError, ValueError
+            It is something else.
+        """
+        return cls(*(_rings(arrays[f"{each.name}_m"], arrays[f"{each.name}_counts"]) for each in fields(cls)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outcome:
+    """The outcome of a run that finished.
+
+    Attributes
+    ----------
+    outputs : dict
+        Numbers, whole numbers, truth values, or None for what is not known, by name, with units in the names.
+    outlines : Outlines
+        Debris on plan.
+    """
+
+    outputs: dict[str, float | int | bool | None]
+    outlines: Outlines
+
+
+def outcome_of(
+    results: Results,
+    summary: Mapping[str, Any],
+    scenario: Scenario,
+    criteria: Sequence[Criterion] = (),
+    least_mass_kg: float = 0.0,
+) -> Outcome:
+    """Return the outcome of a run.
+
+    Hazardous are shards of some mass or more, and balls, that moved; shards that were removed on purpose are none.
+
+    Parameters
+    ----------
+    results, summary
+        What was recorded, and its summary, as in ``summary.json``.
+    scenario
+        What was run.
+    criteria
+        What makes it a success.
+    least_mass_kg
+        Of the lightest shard that is a hazard.
+
+    Raises
+    ------
+    OutputError
+        The bridge covers no area in plan, or a body is nowhere.
+    """
+    left = relative_to_ground(without_removed(results)[0])
+    shards, balls = left.inventory.of_kind("shard"), left.inventory.of_kind("ball")
+    plan = footprint(left, shards, 0)
+    _check(left, plan)
+    heavy = shards[left.inventory.masses_kg[shards] >= least_mass_kg]
+    hazards = bodies_that_moved(left, np.concatenate([heavy, balls]))
+    outputs = {
+        **_throws(left, hazards, plan),
+        **_course(left, summary, scenario),
+        **_surroundings(left, scenario, np.concatenate([shards, balls])),
+    }
+    met = {each.output: each.is_met(outputs) for each in criteria}
+    outputs |= met | ({SUCCESS: all(met.values())} if met else {})
+    return Outcome(outputs, _outlines(left, hazards, plan))
+
+
+def _check(results: Results, plan: CrossSection) -> None:
+    if not plan.area() > 0.0:
+        raise OutputError("the bridge covers no area in plan: distances from it are not known")
+    if not (np.isfinite(results.frames.positions_m).all() and np.isfinite(results.frames.rotations).all()):
+        raise OutputError("a body was lost: Blender has no finite place for it")
+
+
+def _throws(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[str, Any]:
+    on_the_way = reaches_on_the_way(results, hazards, plan)
+    debris = debris_of(results)
+    return {
+        "reach_m": float(on_the_way.max(initial=0.0)),
+        "largest_throw_m": float(debris.throws_m.max(initial=0.0)),
+        "resting_reach_m": float(debris.reaches_m.max(initial=0.0)),
+        "debris_kg": float(debris.masses_kg.sum()),
+        "debris_area_m2": float(debris.area.area()),
+    }
+
+
+def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) -> dict[str, Any]:
+    force, energy = summary["largest_resultant"], summary["energy"]
+    found = {
+        COLLAPSED: float(collapse_progress(results)[-1]),
+        "broken": summary["connections"]["broken"],
+        "came_to_rest_s": summary.get("came_to_rest_s"),
+        "largest_force_N": force and force["force_N"],
+        "made_by_solver_share": energy and energy["made_by_solver"]["share_of_dissipated"],
+        "doubtful_throws": energy and energy["doubtful_throws"],
+    }
+    lengths = scenario.bridge.span_lengths_m if scenario.bridge else ()
+    for span in spans_of(results, lengths):
+        number = int(span.name.removeprefix("span ")) if span.name.startswith("span ") else 1
+        found |= _span(number, span)
+    return found
+
+
+def _span(number: int, span: Span) -> dict[str, Any]:
+    lost_m, height_m = span.heights_m[0] - span.heights_m, float(span.heights_m[0])
+    return {
+        span_output(number, "drop_m"): span.drop_m,
+        span_output(number, "lost_share"): float(lost_m[-1]) / height_m if height_m > 0.0 else None,
+        span_output(number, "most_lost_share"): float(lost_m.max()) / height_m if height_m > 0.0 else None,
+    }
+
+
+def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for zone in scenario.zones:
+        watched = watch_zone(results, zone, bodies)
+        found[zone_output(zone.name, "entered")] = bool(watched.entries)
+        found[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
+    charges = [each for each in scenario.charges if each.mass_kg > 0.0] if scenario.blast.explosion else []
+    model, landed = BlastModel(scenario.blast.model), landings(results)
+    for neighbour in scenario.neighbours:
+        loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None
+        found[neighbour_output(neighbour.name, "pressure_kPa")] = loads.peak_pa / 1e3 if loads else 0.0
+        found[neighbour_output(neighbour.name, "vibration_mm_s")] = loads.peak_velocity_m_s * 1e3 if loads else 0.0
+        shaking = shaking_at(neighbour.place_m, landed)
+        found[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
+    return found
+
+
+def _outlines(results: Results, hazards: np.ndarray, plan: CrossSection) -> Outlines:
+    resting = plan_hulls(results, hazards, -1)
+    swept = swept_footprint(results, hazards).simplify(_STRAIGHT_M)
+    return Outlines(
+        tuple(outlines(plan.simplify(_STRAIGHT_M))),
+        tuple(ring for each in resting for ring in outlines(each)),
+        tuple(outlines(swept)),
+    )
+
+
+def _rings(corners: np.ndarray, counts: np.ndarray) -> tuple[np.ndarray, ...]:
+    if int(counts.sum()) != len(corners):
+        raise ValueError(f"{len(corners)} corners: expected {int(counts.sum())}")
+    return tuple(np.split(np.asarray(corners, float), np.cumsum(counts)[:-1])) if len(counts) else ()

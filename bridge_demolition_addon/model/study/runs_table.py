@@ -1,0 +1,191 @@
+"""Table of the runs of a study: a row for each draw, with what went in and what came out.
+
+``pandas.read_csv("runs.csv")`` reads it. Columns of inputs begin with ``in.``, those of outputs with ``out.``, and both
+end in their unit. A cell of a run that did not finish, or of what it does not know, is empty.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import OutputError, UnreadableError
+from ...system.disk import whole_file
+from ...system.reading import MEGABYTE, file_text
+
+RUN, STATUS = "run", "status"
+INPUT, OUTPUT = "in.", "out."
+
+DONE, REFUSED, FAILED, CRASHED = "done", "refused", "failed", "crashed"
+TIMED_OUT, OUT_OF_MEMORY, KILLED = "timed_out", "out_of_memory", "killed"
+STATUSES = (DONE, REFUSED, FAILED, CRASHED, TIMED_OUT, OUT_OF_MEMORY, KILLED)
+"""What became of a draw."""
+
+REACH = "reach_m"
+
+_MOST_BYTES = 1000 * MEGABYTE
+_TRUTHS = {"true": True, "false": False}
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A draw.
+
+    Attributes
+    ----------
+    number : int
+        From 1 on.
+    status : str
+        One of `STATUSES`.
+    inputs, outputs : dict
+        Values by name, without the beginning of their columns: numbers, texts, truths, or None for what is not known.
+    """
+
+    number: int
+    status: str
+    inputs: Mapping[str, Any]
+    outputs: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class RunsTable:
+    """All draws of a study, by number."""
+
+    rows: tuple[Row, ...]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    @cached_property
+    def numbers(self) -> np.ndarray:
+        """Numbers (n,) of the draws."""
+        return np.array([row.number for row in self.rows], int)
+
+    @cached_property
+    def done(self) -> np.ndarray:
+        """Which draws (n,) finished."""
+        return np.array([row.status == DONE for row in self.rows], bool)
+
+    @cached_property
+    def median_row(self) -> int | None:
+        """Row with the median reach of those that finished, of an even number the lower one; None where none did."""
+        return int(self._by_reach[(len(self._by_reach) - 1) // 2]) if len(self._by_reach) else None
+
+    @cached_property
+    def worst_row(self) -> int | None:
+        """Row with the largest reach of those that finished; None where none did."""
+        return int(self._by_reach[-1]) if len(self._by_reach) else None
+
+    @property
+    def _by_reach(self) -> np.ndarray:
+        reaches_m = self.largest(REACH)
+        order = np.argsort(reaches_m, kind="stable")
+        return order[np.isfinite(reaches_m[order])]
+
+    @cached_property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of all inputs."""
+        return _names(row.inputs for row in self.rows)
+
+    @cached_property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of all outputs."""
+        return _names(row.outputs for row in self.rows)
+
+    def input(self, name: str) -> np.ndarray:
+        """Values (n,) of an input: float where all of them are numbers, else object."""
+        return _column([row.inputs.get(name) for row in self.rows])
+
+    def output(self, name: str) -> np.ndarray:
+        """Values (n,) of an output: float, nan for what is not known, if all others are numbers; else object."""
+        return _column([row.outputs.get(name) for row in self.rows])
+
+    def largest(self, name: str) -> np.ndarray:
+        """Values (n,) of an output that is the worse the larger it is: infinity for what is not known."""
+        values = self.output(name)
+        return np.where(self.done & np.isfinite(values), values, np.inf)
+
+    def met(self, name: str) -> np.ndarray:
+        """Which draws (n,) finished with an output that is true."""
+        return np.array([row.status == DONE and row.outputs.get(name) is True for row in self.rows], bool)
+
+
+def cells_of(inputs: Mapping[str, Any], names: Sequence[str]) -> tuple[str, ...]:
+    """Return values as they stand in the table, by which a draw is known: no other has the same inputs."""
+    return tuple(_cell(inputs.get(name)) for name in names)
+
+
+def write_runs(table: RunsTable, path: Path) -> None:
+    """Write the table of a study, whole or not at all; the same rows give the same bytes."""
+    with whole_file(path) as part, part.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(
+            [RUN, STATUS, *(INPUT + name for name in table.inputs), *(OUTPUT + name for name in table.outputs)]
+        )
+        for row in table.rows:
+            values = [*map(row.inputs.get, table.inputs), *map(row.outputs.get, table.outputs)]
+            writer.writerow([row.number, row.status, *map(_cell, values)])
+
+
+def read_runs(path: Path) -> RunsTable:
+    """Read the table of a study.
+
+    Raises
+    ------
+    OutputError
+        It cannot be read, or is no such table.
+    """
+    try:
+        lines = csv.reader(io.StringIO(file_text(path, _MOST_BYTES), newline=""))
+        columns = next(lines, [])
+        if columns[:2] != [RUN, STATUS]:
+            raise OutputError(f"{path}: expected a table of runs, whose columns begin with {RUN} and {STATUS}")
+        return RunsTable(tuple(_row(path, columns, cells) for cells in lines))
+    except (UnreadableError, csv.Error) as error:
+        raise OutputError(f"{path}: {error}") from error
+
+
+def _row(path: Path, columns: Sequence[str], cells: Sequence[str]) -> Row:
+    if len(cells) != len(columns) or not cells[0].isdecimal() or cells[1] not in STATUSES:
+        shown = ",".join(cells)[:40]
+        raise OutputError(f"{path}: expected rows of {len(columns)} cells with a number and a status, found {shown}")
+    values = dict(zip(columns, map(_value, cells), strict=True))
+    inputs = {name.removeprefix(INPUT): value for name, value in values.items() if name.startswith(INPUT)}
+    outputs = {name.removeprefix(OUTPUT): value for name, value in values.items() if name.startswith(OUTPUT)}
+    return Row(int(cells[0]), cells[1], inputs, outputs)
+
+
+def _cell(value: Any) -> str:
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _value(cell: str) -> Any:
+    if cell in _TRUTHS or not cell:
+        return _TRUTHS.get(cell)
+    for number in (int, float):
+        try:
+            return number(cell)
+        except ValueError:
+            continue
+    return cell
+
+
+def _names(mappings: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
+    """Names in the order in which they come first."""
+    return tuple(dict.fromkeys(name for mapping in mappings for name in mapping))
+
+
+def _column(values: Sequence[Any]) -> np.ndarray:
+    if all(value is None or (isinstance(value, int | float) and not isinstance(value, bool)) for value in values):
+        return np.array([math.nan if value is None else value for value in values], float)
+    return np.array(values, object)

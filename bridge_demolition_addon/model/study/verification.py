@@ -1,0 +1,47 @@
+"""Verify a zone: which runs left it, of those that came after it was fixed.
+
+A zone that is drawn around runs holds these runs, and says little of others. One that stands in the scenario was fixed
+before any run of that scenario; so how many of these leave it says how likely the next one does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from manifold3d import CrossSection
+
+from ...engineering.geometry.plan_areas import signed_area
+from ..scenario import Zone
+from .statements import Chance, chance_of
+
+_BEYOND_M2 = 1e-4
+"""Area beyond a zone that counts; what is kept of a run may stray by a millimetre."""
+
+
+def zone_area(zone: Zone) -> CrossSection:
+    """Return what a zone covers in plan."""
+    corners = np.array(zone.corners_m, float)
+    return CrossSection([corners if signed_area(corners) > 0.0 else corners[::-1]])
+
+
+def holds(zone: Zone, area: CrossSection) -> bool:
+    """Return whether an area lies within a zone."""
+    return (area - zone_area(zone)).area() <= _BEYOND_M2
+
+
+def chance_of_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], confidence: float) -> Chance:
+    """Return how likely debris leaves a zone in plan.
+
+    Parameters
+    ----------
+    zone
+        The zone, which was fixed before the runs.
+    swept
+        Of each run the outlines (k, 2) of all that its debris covered at any time; None of a run that did not finish,
+        which counts as one that left it.
+    confidence
+        Of the limits.
+    """
+    left = [rings is None or (bool(len(rings)) and not holds(zone, CrossSection(list(rings)))) for rings in swept]
+    return chance_of(f"left the zone {zone.name}", np.array(left, bool), confidence)

@@ -1,0 +1,86 @@
+"""ESRI ASCII grids: a header, and rows of heights from north to south."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...engineering.terrain.raster import Raster
+from ...errors import GeometryError
+from ...system.reading import MEGABYTE, file_text
+
+_MOST_BYTES = 500 * MEGABYTE
+
+_NO_DATA = -9999.0
+"""What stands for no data where the header does not say (ESRI, *ArcGIS*, ASCII raster format)."""
+
+_EXPECTED = "expected ncols, nrows, xllcorner and yllcorner (or xllcenter and yllcenter), and cellsize"
+
+
+def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
+    """Read a grid.
+
+    Raises
+    ------
+    UnreadableError
+        The file cannot be read.
+    GeometryError
+        It is no such grid; the text does not name the file.
+    """
+    header, numbers = _header_and_rest(file_text(path, _MOST_BYTES))
+    columns, rows = (_count(header, name) for name in ("ncols", "nrows"))
+    dx, dy = (_number(header, name, "cellsize") for name in ("dx", "dy"))
+    if dx <= 0.0 or dy <= 0.0:
+        raise GeometryError(f"cellsize is {min(dx, dy):g}: expected more than 0")
+    try:
+        heights = np.array(numbers.split(), dtype=float)
+    except ValueError as error:
+        raise GeometryError(f"a height is no number ({error})") from error
+    if len(heights) != rows * columns:
+        raise GeometryError(f"holds {len(heights)} heights: expected {rows} rows of {columns}")
+    unknown = header.get("nodata_value", _NO_DATA) if no_data is None else no_data
+    heights = np.where(heights == unknown, np.nan, heights).reshape(rows, columns)[::-1]
+    first = [_first(header, axis, step) for axis, step in (("x", dx), ("y", dy))]
+    return Raster(np.array(first), np.array([dx, dy]), heights)
+
+
+def _header_and_rest(text: str) -> tuple[dict[str, float], str]:
+    header: dict[str, float] = {}
+    position = 0
+    while position < len(text):
+        end = text.find("\n", position)
+        end = len(text) if end < 0 else end
+        words = text[position:end].split()
+        if words and not words[0][0].isalpha():
+            break
+        if words:
+            if len(words) != 2 or words[0].lower() == "nan":
+                raise GeometryError(f"has no header of a grid: {_EXPECTED}")
+            try:
+                header[words[0].lower()] = float(words[1])
+            except ValueError as error:
+                raise GeometryError(f"{words[0]} is {words[1]}: expected a number") from error
+        position = end + 1
+    return header, text[position:]
+
+
+def _number(header: dict[str, float], *names: str) -> float:
+    for name in names:
+        if name in header:
+            return header[name]
+    raise GeometryError(f"its header has no {names[-1]}: {_EXPECTED}")
+
+
+def _count(header: dict[str, float], name: str) -> int:
+    value = _number(header, name)
+    if not (value == int(value) and value >= 2):
+        raise GeometryError(f"{name} is {value:g}: expected a whole number of at least 2")
+    return int(value)
+
+
+def _first(header: dict[str, float], axis: str, step: float) -> float:
+    """Return where the middle of the first cell lies along an axis."""
+    if (centre := f"{axis}llcenter") in header:
+        return header[centre]
+    return _number(header, f"{axis}llcorner") + step / 2.0

@@ -1,0 +1,249 @@
+"""The ground of a scenario as it is built: terrain cut to the site, and surfaces on it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.terrain.levelling import Levelled, levelled
+from ...engineering.terrain.recorded import NamedSurface, RecordedGround
+from ...engineering.terrain.surface import Surface
+from ...engineering.terrain.thinning import Grid, thinned
+from ...errors import GeometryError
+from ..scenario import Scenario
+from .placed import Terrain, terrain_of
+from .surfaces import BuiltSurface, built_surfaces
+
+COARSEST_STEP_M = 0.5
+"""Steps of the ground where it is not thinned, at most, where the site allows: columns are some decimetres wide."""
+
+LONGEST_SIDE_M = 8.0
+"""Shorter sides of its triangles: Bullet finds contacts on much larger ones less well, in single precision."""
+
+_FEWEST_HALVINGS, _MOST_HALVINGS = 5, 10
+"""A side of the site has 2^5 to 2^10 cells."""
+
+_COMMON = 95.0
+
+
+@dataclass(frozen=True, slots=True)
+class TerrainFacts:
+    """What became of a file of terrain.
+
+    Attributes
+    ----------
+    name : str
+        Of the file.
+    heights : int
+        How many of its heights lie on the site.
+    triangles : int
+        What they were made.
+    step_m : float
+        Side of the smallest of these.
+    largest_error_m : float
+        How far the ground lies above or below a height of the file at most, where it was not levelled.
+    error_place_m : (2,) tuple of float
+        Where that is.
+    common_error_m : float
+        What 95 % of the heights do not exceed.
+    lowest_m, highest_m : float
+        Of the ground.
+    filled_in_share : float
+        Part of the site without data, level on from the nearest.
+    levelled : tuple of Levelled
+        What was done to it for members.
+    """
+
+    name: str
+    heights: int
+    triangles: int
+    step_m: float
+    largest_error_m: float
+    error_place_m: tuple[float, float]
+    common_error_m: float
+    lowest_m: float
+    highest_m: float
+    filled_in_share: float
+    levelled: tuple[Levelled, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltGround:
+    """The ground of a model.
+
+    Attributes
+    ----------
+    terrain : Surface or None
+        The ground; None where it is flat, at height 0.
+    facts : TerrainFacts or None
+        How it was made.
+    surfaces : tuple of BuiltSurface
+        What lies on it.
+    """
+
+    terrain: Surface | None = None
+    facts: TerrainFacts | None = None
+    surfaces: tuple[BuiltSurface, ...] = ()
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is flat, with nothing on it."""
+        return self.terrain is None and not self.surfaces
+
+    def recorded(self) -> RecordedGround:
+        """Return the ground as the results of a run have it."""
+        surfaces = (NamedSurface(each.settings.name, each.settings.kind, Surface(each.mesh)) for each in self.surfaces)
+        return RecordedGround(self.terrain, tuple(surfaces))
+
+    def heights_at(self, places_m: np.ndarray) -> np.ndarray:
+        """Heights (n,) of the ground at places (n, 2), m; nan beyond its edge."""
+        return np.zeros(len(places_m)) if self.terrain is None else self.terrain.heights_at(places_m)
+
+
+def built_ground(scenario: Scenario, members: Sequence[tuple[str, TriangleMesh]], half_size_m: float) -> BuiltGround:
+    """Return the ground of a scenario, from the origin `half_size_m` to every side.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What is to be built.
+    members : sequence of (str, TriangleMesh)
+        Names and solids of its members.
+    half_size_m : float
+        How far it reaches from the origin to every side.
+
+    Raises
+    ------
+    ScenarioError, GeometryError
+        The file cannot be used, misses the bridge, or has no data under a pier; a surface lies under the ground, or a
+        member reaches through it.
+    """
+    terrain = terrain_of(scenario)
+    if terrain is None:
+        ground = BuiltGround()
+    else:
+        ground = BuiltGround(*_cut(terrain, members, half_size_m, scenario.ground.tolerance_m))
+    return BuiltGround(ground.terrain, ground.facts, built_surfaces(scenario, members, ground.heights_at))
+
+
+def check_under(terrain: Terrain, members: Sequence[tuple[str, TriangleMesh]]) -> None:
+    """Make sure that a terrain has data somewhere under a bridge.
+
+    Raises
+    ------
+    GeometryError
+        It has none.
+    """
+    vertices = np.concatenate([solid.vertices[:, :2] for _, solid in members])
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    x, y = (np.linspace(low[axis], high[axis], 33) for axis in (0, 1))
+    places = np.concatenate([vertices, np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)])
+    if np.isfinite(terrain.heights_at(places)).any():
+        return
+    (west, south), (east, north) = terrain.source.bounds
+    raise GeometryError(
+        f"{terrain.name} misses the bridge: it covers eastings {west:.10g} to {east:.10g} and northings {south:.10g} "
+        f"to {north:.10g}, and the middle of the bridge is at {terrain.told_place((low + high) / 2.0)}; set "
+        "ground.origin to where the scenario's origin is in the file, and ground.scale to metres in its unit."
+    )
+
+
+def _cut(
+    terrain: Terrain, members: Sequence[tuple[str, TriangleMesh]], half_m: float, tolerance_m: float
+) -> tuple[Surface, TerrainFacts]:
+    check_under(terrain, members)
+    grid = _sampled(terrain, half_m)
+    known = np.isfinite(grid.heights)
+    grid = _without_gaps(grid, known)
+    try:
+        ground, kept, done = levelled(grid, members, terrain.heights_at)
+    except GeometryError as error:
+        raise GeometryError(f"{terrain.name}: {error}; give it heights there, or move the bridge.") from error
+    surface = Surface(thinned(ground, tolerance_m, kept, LONGEST_SIDE_M))
+    points = terrain.points_within(grid.low, -grid.low)
+    points = points[~_near(kept, grid, points)]
+    errors = np.abs(surface.heights_at(points[:, :2]) - points[:, 2])
+    worst = int(errors.argmax()) if len(errors) else 0
+    heights = surface.mesh.vertices[:, 2]
+    facts = TerrainFacts(
+        name=terrain.name,
+        heights=len(points),
+        triangles=len(surface.mesh.triangles),
+        step_m=grid.step_m,
+        largest_error_m=float(errors.max(initial=0.0)),
+        error_place_m=(float(points[worst, 0]), float(points[worst, 1])) if len(errors) else (0.0, 0.0),
+        common_error_m=float(np.percentile(errors, _COMMON)) if len(errors) else 0.0,
+        lowest_m=float(heights.min()),
+        highest_m=float(heights.max()),
+        filled_in_share=1.0 - float(known.mean()),
+        levelled=done,
+    )
+    return surface, facts
+
+
+def _sampled(terrain: Terrain, half_m: float) -> Grid:
+    """Heights of a terrain on a grid around the origin, as fine as its own where that is needed; nan where unknown."""
+    step = min(terrain.spacing_m or COARSEST_STEP_M, COARSEST_STEP_M)
+    halvings = next((k for k in range(_FEWEST_HALVINGS, _MOST_HALVINGS) if 2.0 * half_m <= step * (1 << k)), None)
+    cells = 1 << (_MOST_HALVINGS if halvings is None else halvings)
+    empty = Grid(np.full(2, -half_m), 2.0 * half_m / cells, np.zeros((cells + 1, cells + 1)))
+    heights = terrain.heights_at(empty.places()).reshape(cells + 1, cells + 1)
+    return Grid(empty.low, empty.step_m, heights)
+
+
+def _without_gaps(grid: Grid, known: np.ndarray) -> Grid:
+    if known.all():
+        return grid
+    from scipy.ndimage import distance_transform_edt  # most files have no gaps on the site
+
+    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
+    return Grid(grid.low, grid.step_m, grid.heights[tuple(nearest)])
+
+
+def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:
+    """Whether points (n, 3) lie in a cell with a node that was levelled."""
+    cells = np.clip(np.floor((points[:, :2] - grid.low) / grid.step_m).astype(np.int64), 0, grid.size - 2)
+    corners = [kept[cells[:, 1] + down, cells[:, 0] + right] for down in (0, 1) for right in (0, 1)]
+    return np.any(corners, axis=0)
+
+
+def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
+    """Return the facts that a run's summary keeps.
+
+    Raises
+    ------
+    KeyError, TypeError
+        They are others.
+    """
+    known = {each.name: values[each.name] for each in fields(TerrainFacts)}
+    x, y = known["error_place_m"]
+    return TerrainFacts(
+        **known | {"error_place_m": (x, y), "levelled": tuple(Levelled(**each) for each in known["levelled"])}
+    )
+
+
+def told(facts: TerrainFacts) -> list[tuple[str, str]]:
+    """Return what became of the file, as names and sentences."""
+    x, y = facts.error_place_m
+    lines = [
+        ("from", f"{facts.name}, {facts.heights} heights on the site"),
+        ("made", f"{facts.triangles} triangles, the least with sides of {facts.step_m:.3g} m"),
+        ("heights", f"from {facts.lowest_m:.2f} m to {facts.highest_m:.2f} m"),
+        (
+            "error",
+            f"{facts.largest_error_m:.3f} m at most, near ({x:.1f}, {y:.1f}) m; 95 % of the heights within "
+            f"{facts.common_error_m:.3f} m",
+        ),
+    ]
+    if facts.filled_in_share > 0.0:
+        share = f"{100.0 * facts.filled_in_share:.1f} %"
+        lines.append(("without data", f"{share} of the site: level on from the nearest height"))
+    lines += [
+        (f"under {each.name}", f"dug up to {each.dug_m:.2f} m, filled up to {each.filled_m:.2f} m")
+        for each in facts.levelled
+    ]
+    return lines

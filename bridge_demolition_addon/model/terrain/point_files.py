@@ -1,0 +1,125 @@
+"""Points as text: x, y and z in each line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.terrain.raster import Raster
+from ...engineering.terrain.surface import Surface
+from ...errors import GeometryError
+from ...system.reading import MEGABYTE, file_text
+
+_MOST_BYTES = 500 * MEGABYTE
+
+MOST_SCATTERED = 1_000_000
+"""Points that do not lie on a grid, between which triangles are looked for."""
+
+_OFF_GRID = 1e-3
+"""How far a point may lie off a grid, as a part of its step: decimals that were cut off."""
+
+_CELLS_PER_POINT = 3
+"""Cells of a grid for each point on it, fewer than that: what is left out of it has no data."""
+
+
+def read_points(path: Path, no_data: float | None) -> Raster | Surface:
+    """Read points: on a grid where they lie on one, else the triangles of Delaunay between them.
+
+    Raises
+    ------
+    UnreadableError
+        The file cannot be read.
+    GeometryError
+        It holds no such points.
+    """
+    points = _numbers(file_text(path, _MOST_BYTES))
+    if no_data is not None:
+        points = points[points[:, 2] != no_data]
+    if len(points) < 3:
+        raise GeometryError(f"holds {len(points)} points: expected at least 3")
+    return on_grid(points) or triangulated(points)
+
+
+def on_grid(points: np.ndarray) -> Raster | None:
+    """Return points (n, 3) as a grid; None where they lie on none."""
+    axes = [_regular(points[:, axis]) for axis in (0, 1)]
+    if any(each is None for each in axes):
+        return None
+    (columns, first_x, dx), (rows, first_y, dy) = axes
+    shape = int(rows.max()) + 1, int(columns.max()) + 1
+    if min(shape) < 2 or shape[0] * shape[1] >= _CELLS_PER_POINT * len(points):
+        return None
+    heights = np.full(shape, np.nan)
+    heights[rows, columns] = points[:, 2]
+    return Raster(np.array([first_x, first_y]), np.array([dx, dy]), heights)
+
+
+def triangulated(points: np.ndarray) -> Surface:
+    """Return the triangles of Delaunay between points (n, 3) in plan.
+
+    Raises
+    ------
+    GeometryError
+        They are too many, or lie on a line.
+    """
+    if len(points) > MOST_SCATTERED:
+        raise GeometryError(
+            f"holds {len(points)} points that lie on no grid: expected at most {MOST_SCATTERED}; make a grid of them"
+        )
+    from scipy.spatial import Delaunay, QhullError
+
+    middle = points[:, :2].mean(axis=0)
+    try:
+        triangles = Delaunay(points[:, :2] - middle).simplices
+    except QhullError as error:
+        raise GeometryError("holds points that lie on a line: expected an area of them") from error
+    return Surface(TriangleMesh(points, triangles.astype(np.int64)))
+
+
+def _numbers(text: str) -> np.ndarray:
+    for separator in ",;\t":
+        text = text.replace(separator, " ")
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if lines and not _are_numbers(lines[0]):
+        lines = lines[1:]  # what the columns are called
+    width = len(lines[0].split()) if lines else 0
+    if width < 3:
+        raise GeometryError("expected lines of x, y and z")
+    try:
+        values = np.array(" ".join(lines).split(), dtype=float)
+    except ValueError as error:
+        raise GeometryError(f"expected lines of x, y and z ({error})") from error
+    if len(values) != width * len(lines):
+        raise GeometryError(f"expected {width} numbers in each line, as in the first")
+    points = values.reshape(-1, width)[:, :3]
+    if not np.isfinite(points[:, :2]).all():
+        raise GeometryError("a point has no place: expected numbers for x and y")
+    return points[np.isfinite(points[:, 2])]
+
+
+def _are_numbers(line: str) -> bool:
+    try:
+        return bool([float(word) for word in line.split()])
+    except ValueError:
+        return False
+
+
+def _regular(values: np.ndarray) -> tuple[np.ndarray, float, float] | None:
+    """Return number (n,) of each value in a regular row, its first value and its step; None where there is no step."""
+    different = np.unique(values)
+    gaps = np.diff(different)
+    scale = float(np.abs(values).max())
+    gaps = gaps[gaps > 1e-9 * max(scale, 1.0)]
+    if not len(gaps):
+        return None
+    step = float(gaps.min())
+    numbers = np.rint((values - different[0]) / step)
+    if numbers.max() > 1e6:
+        return None
+    step = float((different[-1] - different[0]) / max(numbers.max(), 1.0))
+    numbers = np.rint((values - different[0]) / step)
+    if (np.abs(values - different[0] - numbers * step) > _OFF_GRID * step).any():
+        return None
+    return numbers.astype(np.int64), float(different[0]), step

@@ -1,0 +1,1 @@
+"""Files, locks, archives and signals: what the operating system does for the program."""

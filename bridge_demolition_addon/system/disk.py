@@ -1,0 +1,86 @@
+"""Files that a kill, a full disk or somebody else at work may hit: written whole or not at all, or found to be gone."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import OutputError
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """Give a file beside a path to write to, and have it take the place of the path once it is on the disk.
+
+    Whatever was at the path stays until then, and stays where writing fails; an error of the system names the path.
+    """
+    part = part_of(path)
+    try:
+        yield part
+        with part.open("rb+") as written:
+            os.fsync(written.fileno())  # some file systems say only now that the disk is full
+        os.replace(part, path)
+    except BaseException as error:
+        part.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno and error.filename in (None, part, str(part)):
+            raise OSError(error.errno, error.strerror, str(path)) from error
+        raise
+
+
+@contextmanager
+def whole_folder(path: Path) -> Iterator[Path]:
+    """Give a new folder beside a path to write to, and have it take the place of the path once all is in it.
+
+    There must be nothing at the path. Where writing fails, nothing is left; an error of the system that does not say
+    more names the path.
+    """
+    part = part_of(path)
+    try:
+        part.mkdir()
+    except FileExistsError as error:
+        raise FileExistsError(
+            error.errno, "left by something that was killed while it wrote; delete it", str(part)
+        ) from error
+    try:
+        yield part
+        os.rename(part, path)
+    except BaseException as error:
+        shutil.rmtree(part, ignore_errors=True)
+        if isinstance(error, OSError) and error.errno and str(error.filename or part).startswith(str(part)):
+            raise OSError(error.errno, error.strerror, str(path)) from error
+        raise
+
+
+def part_of(path: Path) -> Path:
+    """Return where a file is written until it is whole; its ending is kept, as that may choose the format."""
+    return path.with_name(f"{path.stem}.part{path.suffix}")
+
+
+def write_whole_text(path: Path, text: str, *, encoding: str = "utf-8", newline: str | None = None) -> None:
+    """Write a text file whole or not at all."""
+    with whole_file(path) as part:
+        part.write_text(text, encoding=encoding, newline=newline)
+
+
+def is_in_place(descriptor: int, path: Path) -> bool:
+    """Return whether an open file is the one at a path, neither moved nor deleted with its folder or by itself."""
+    try:
+        return os.path.samestat(os.fstat(descriptor), path.stat())
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Say which path cannot be written, where what is done in the block fails for it.
+
+    Raises
+    ------
+    OutputError
+        The system refuses to write.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror})") from error

@@ -1,0 +1,58 @@
+"""Files of the user, read only where they are files, and no larger than what is expected of them."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+from ..errors import UnreadableError
+
+MEGABYTE = 1_000_000
+
+
+def check_file(path: Path, most_bytes: int | None = None) -> None:
+    """Make sure that a path leads to a file: a pipe would be waited for, and a device read without end.
+
+    Parameters
+    ----------
+    path : Path
+        What is to be read.
+    most_bytes : int, optional
+        How large it may be; of any size unless given.
+
+    Raises
+    ------
+    UnreadableError
+        It is no file, cannot be looked at, or is larger. The text does not name it.
+    """
+    try:
+        found = path.stat()
+    except FileNotFoundError as error:
+        raise UnreadableError("no such file") from error
+    except OSError as error:
+        raise UnreadableError(f"cannot be read: {error.strerror}") from error
+    except ValueError as error:
+        raise UnreadableError(f"no path of a file: {error}") from error
+    if stat.S_ISDIR(found.st_mode):
+        raise UnreadableError("is a directory")
+    if not stat.S_ISREG(found.st_mode):
+        raise UnreadableError("is a pipe or a device, not a file")
+    if most_bytes is not None and found.st_size > most_bytes:
+        raise UnreadableError(f"has {found.st_size / MEGABYTE:.1f} MB: expected at most {most_bytes / MEGABYTE:g} MB")
+
+
+def file_text(path: Path, most_bytes: int) -> str:
+    """Return the text of a file in UTF-8, without the mark that editors on Windows may put at its beginning.
+
+    Raises
+    ------
+    UnreadableError
+        It is no file, cannot be read, is larger than `most_bytes` or no such text. The text does not name it.
+    """
+    check_file(path, most_bytes)
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UnreadableError(f"not a text in UTF-8, at byte {error.start}") from error
+    except OSError as error:
+        raise UnreadableError(f"cannot be read: {error.strerror}") from error

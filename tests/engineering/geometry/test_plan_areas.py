@@ -1,0 +1,31 @@
+"""Areas in plan, against areas and distances of squares."""
+
+import numpy as np
+import pytest
+from manifold3d import CrossSection
+
+from bridge_demolition_addon.engineering.geometry import plan_areas
+from bridge_demolition_addon.engineering.geometry.plan_areas import distances_outside, united
+
+SQUARE = CrossSection.square((1.0, 1.0))
+
+
+@pytest.mark.parametrize("count", [0, 1, 7, 8, 9, 100])
+def test_any_number_of_areas_is_united(count):
+    row = [SQUARE.translate((0.5 * number, 0.0)) for number in range(count)]
+    shuffled = [row[place] for place in np.random.default_rng(1).permutation(count)]
+    assert united(shuffled).area() == pytest.approx(0.5 * (count + 1) if count else 0.0)
+
+
+def test_many_points_are_measured_as_single_ones(monkeypatch):
+    area = SQUARE - SQUARE.scale((0.5, 0.5)).translate((0.25, 0.25)) + SQUARE.translate((3.0, 0.0))
+    points = np.random.default_rng(1).uniform(-1.0, 5.0, (200, 2))
+    singly = [distances_outside(area, point[None])[0] for point in points]
+    monkeypatch.setattr(plan_areas, "_PAIRS_PER_BLOCK", 70)
+    assert distances_outside(area, points).tolist() == singly
+    x, y = abs(points - 0.5).T
+    alone = points[:, 0] < 1.75  # nearer to the first square, whose hole is 0.25 from its sides
+    expected = np.where(np.maximum(x, y) > 0.5, np.hypot(np.maximum(x - 0.5, 0), np.maximum(y - 0.5, 0)), 0.0)
+    in_hole = np.maximum(x, y) < 0.25
+    expected[in_hole] = 0.25 - np.maximum(x, y)[in_hole]
+    assert np.array(singly)[alone] == pytest.approx(expected[alone])

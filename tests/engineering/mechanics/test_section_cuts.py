@@ -1,0 +1,106 @@
+"""A cut through a member carries what all its faces carry, however the load is shared among them."""
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.engineering.mechanics.section_cuts import SectionCuts, worst_around
+from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
+from bridge_demolition_addon.engineering.mechanics.strength import Strength, rectangular_sections, utilisation
+
+NORMALS = np.tile([1.0, 0.0, 0.0], (3, 1))
+IS_SHARD = np.array([False, True, True, True, True])
+
+# A wall (body 0) holds shard 1 by one face of 1 m × 0.4 m. To its right are shards 2, 3 and 4, one above the other,
+# with faces of 0.1, 0.7 and 0.2 m of that height.
+PAIRS = np.array([(0, 1), (1, 2), (1, 3), (4, 1)])
+HEIGHTS = np.array([1.0, 0.1, 0.7, 0.2])
+MIDDLES = np.array([0.5, 0.05, 0.45, 0.9])
+WIDTH = 0.4
+AREAS = WIDTH * HEIGHTS
+POINTS = np.column_stack((np.array([0.0, 1.0, 1.0, 1.0]), np.zeros(4), MIDDLES))
+DIRECTIONS = np.array([(1.0, 0, 0), (1.0, 0, 0), (1.0, 0, 0), (-1.0, 0, 0)])
+SECOND_MOMENTS = np.zeros((4, 2, 2))
+SECOND_MOMENTS[:, 0, 0] = WIDTH * HEIGHTS**3 / 12.0
+SECOND_MOMENTS[:, 1, 1] = WIDTH**3 * HEIGHTS / 12.0
+INTACT = np.ones(4, bool)
+
+
+def cut_sections(rows, forces, moments, intact=INTACT):
+    cuts = SectionCuts.between(PAIRS, DIRECTIONS, AREAS, IS_SHARD)
+    rows = np.array(rows)
+    axes = section_axes(DIRECTIONS[rows])
+    return cuts.sections(rows, intact, forces, moments, POINTS, axes, AREAS, SECOND_MOMENTS)
+
+
+def test_faces_of_one_side_make_the_whole_section():
+    zero = np.zeros((4, 3))
+    _, areas, moments = cut_sections([1, 2], zero, zero)
+    assert areas == pytest.approx([0.4, 0.4, AREAS[1], AREAS[2]])  # through shard 1: all three; beyond: one each
+    whole = np.diag([WIDTH / 12.0, WIDTH**3 / 12.0])
+    np.testing.assert_allclose(moments[:2], [whole, whole], atol=1e-15)
+    np.testing.assert_allclose(moments[2:], SECOND_MOMENTS[1:3])
+
+
+@pytest.mark.parametrize("shares", [(0.1, 0.7, 0.2), (1 / 3, 1 / 3, 1 / 3), (1.0, 0.0, 0.0)])
+def test_load_is_that_of_the_section_however_it_is_shared(shares):
+    # A beam whose right-hand end is pulled with 90 kN along x and pressed down with 60 kN, 2 m from the cut.
+    force, lever = np.array([90e3, 0.0, -60e3]), np.array([2.0, 0.0, 0.0])
+    middle = np.array([1.0, 0.0, 0.5])
+    forces, moments = np.zeros((4, 3)), np.zeros((4, 3))
+    for row, share in zip((1, 2, 3), shares, strict=True):
+        forces[row] = share * force
+        moments[row] = share * (np.cross(lever, force) + np.cross(middle - POINTS[row], force))
+    forces[3], moments[3] = -forces[3], -moments[3]  # its first body is the one beyond the cut
+    loads, areas, second_moments = cut_sections([1, 2], forces, moments)
+    assert loads.axial_n[:2] == pytest.approx(90e3)
+    assert loads.shear_n[:2] == pytest.approx(np.tile([0.0, -60e3], (2, 1)))
+    assert loads.bending_nm[:2] == pytest.approx(np.tile([120e3, 0.0], (2, 1)))
+    strength = Strength.in_n_mm2(compression=1e9, tension=10.0, shear=1e9, torsion=1e9, bending=10.0)
+    used = utilisation(loads, rectangular_sections(areas, second_moments), strength)[0]
+    # By hand: N/A + M/W with W = b h² / 6.
+    assert used == pytest.approx((90e3 / 0.4 + 120e3 / (WIDTH / 6.0)) / 10e6, rel=1e-6)
+
+
+def test_a_broken_face_is_in_no_cut():
+    zero = np.zeros((4, 3))
+    _, areas, _ = cut_sections([1], zero, zero, intact=np.array([True, True, False, True]))
+    assert areas[0] == pytest.approx(AREAS[1] + AREAS[3])
+
+
+def test_through_what_is_no_shard_goes_one_face():
+    zero = np.zeros((4, 3))
+    _, areas, _ = cut_sections([0], zero, zero)
+    assert areas == pytest.approx([AREAS[0], AREAS[0]])  # the wall; and shard 1, whose other faces look the other way
+
+
+def test_slanted_faces_count_with_what_they_show():
+    pairs = np.array([(0, 1), (0, 2), (0, 3)])
+    slanted = np.array([(1.0, 0, 0), (0.6, 0.8, 0), (0.0, 1.0, 0)])
+    cuts = SectionCuts.between(pairs, slanted, np.array([1.0, 1.0, 1.0]), np.ones(4, bool))
+    zero = np.zeros((3, 3))
+    row = np.array([0])
+    _, areas, _ = cuts.sections(
+        row, np.ones(3, bool), zero, zero, zero, section_axes(slanted[:1]), np.ones(3), np.zeros((3, 2, 2))
+    )
+    assert areas.tolist() == [1.6, 1.0]
+
+
+def test_no_rows_and_no_connections():
+    loads, areas, moments = cut_sections(np.zeros(0, int), np.zeros((4, 3)), np.zeros((4, 3)))
+    assert len(areas) == len(moments) == len(loads.axial_n) == 0
+    empty = SectionCuts.between(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.ones(2, bool))
+    assert empty.starts.tolist() == [0]
+
+
+def test_the_worst_around_each_shard_is_found():
+    pairs = np.array([(1, 2), (2, 3), (3, 4), (0, 4), (0, 1)])
+    is_shard = np.array([False, True, True, True, True])
+    # 3-4 is the worst of both its shards; 1-2 of both of its, as 2-3 uses less; ground joints compete over no ground.
+    assert worst_around(pairs, np.array([5.0, 4.0, 9.0, 1.0, 2.0]), is_shard).tolist() == [
+        True,
+        False,
+        True,
+        False,
+        False,
+    ]
+    assert worst_around(pairs[3:], np.array([1.0, 2.0]), is_shard).tolist() == [True, True]

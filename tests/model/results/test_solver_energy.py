@@ -1,0 +1,59 @@
+"""Throws that the energy of a fall does not explain, and what a summary says of the solver's energy."""
+
+import numpy as np
+import pytest
+from sample_results import changed, hanging_chain
+
+from bridge_demolition_addon.model.results.solver_energy import (
+    energy_summary,
+    flies_on_solver_energy,
+    is_known,
+    made_share,
+    throws_of,
+)
+
+
+def thrown(distance_m, **arrays):
+    """The chain, whose shards begin 12 and 10 m up or so, with the lower one that far off at the end."""
+    results = hanging_chain()
+    places = results.frames.positions_m.copy()
+    places[-1, 2] = places[0, 2] + (distance_m, 0.0, -1.0)
+    return changed(results, places_m=places, **arrays)
+
+
+def test_share_is_what_was_made_over_what_was_dissipated():
+    # 200 J in the last of five frames with 500 J each.
+    assert made_share(hanging_chain()) == pytest.approx(200.0 / 2500.0)
+
+
+def test_summary_adds_up_by_cause_and_names_the_farthest_first():
+    energy = energy_summary(thrown(3.0))
+    made = energy["made_by_solver"]
+    assert made["J"] == made["by_connections_J"] + made["by_contacts_J"] + made["by_lifting_J"] == 200.0
+    assert energy["gravity_J"] == 5000.0
+    assert [each["body"] for each in energy["farthest_shards"]] == ["lower", "upper"]
+    assert [each["made_by_solver_J"] for each in energy["farthest_shards"]] == [150.0, 50.0]
+
+
+def test_a_throw_above_twice_the_height_of_fall_is_doubtful():
+    height = hanging_chain().frames.positions_m[0, 2, 2]
+    assert not throws_of(thrown(1.99 * height)).beyond_fall.any()
+    assert throws_of(thrown(2.01 * height)).beyond_fall.tolist() == [True, False]
+
+
+def test_charges_throw_as_far_as_they_like():
+    blast = np.zeros_like(hanging_chain().frames.positions_m)
+    blast[2, 2] = 5.0
+    assert not throws_of(thrown(1000.0, blast_impulses_ns=blast)).beyond_fall.any()
+
+
+def test_half_of_the_kinetic_energy_marks_a_shard_that_was_thrown():
+    throws, made, kinetic = np.array([5.0, 5.0, 0.05]), np.array([49.0, 50.0, 90.0]), np.full(3, 100.0)
+    assert flies_on_solver_energy(throws, made, kinetic).tolist() == [False, True, False]
+
+
+def test_energy_that_was_not_recorded_is_not_made_up():
+    unknown = np.full(5, np.nan)
+    results = changed(hanging_chain(), work_of_gravity_j=unknown)
+    assert not is_known(results)
+    assert energy_summary(results) is None

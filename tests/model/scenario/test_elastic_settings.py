@@ -1,0 +1,93 @@
+"""What a scenario with elastic connections needs, and is told where it lacks that."""
+
+from dataclasses import replace
+
+import pytest
+
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario.connections import ConnectionBetween, ConnectionSettings
+
+ELASTIC = ConnectionSettings(type="FIXED", method="face", material="concrete", stiffness="elastic")
+
+TIED = {"ductile_share": 0.5, "ductile_elongation_m": 0.1}
+
+
+def test_reinforcement_is_of_class_b_unless_another_is_given():
+    """EN 1992-1-1:2004, table C.1: f_yk 500 N/mm² here, k at least 1.08, eps_uk at least 5 %."""
+    assert replace(ELASTIC, **TIED).steel == Steel(500e6, 1.08, 0.05)
+    own = replace(ELASTIC, **TIED, ductile_yield_n_mm2=240.0, ductile_hardening=1.3, ductile_rupture_strain=0.2)
+    assert own.steel == Steel(240e6, 1.3, 0.2)
+
+
+def test_moduli_are_those_of_the_material_unless_others_are_given():
+    own, steel, soft, bearing = replace(
+        ELASTIC,
+        poisson_ratio=0.1,
+        between=(
+            ConnectionBetween(members=("girder", "girder"), material="steel"),
+            ConnectionBetween(members=("pier", "pier"), elastic_modulus_n_mm2=5000.0),
+            ConnectionBetween(members=("deck", "pier"), type="GENERIC", free=("turn y",)),
+        ),
+    ).joints()
+    assert own.moduli == ElasticModuli(34e9, 0.1)
+    assert steel.moduli == ELASTIC_MODULI["steel"]
+    assert soft.moduli == ElasticModuli(5e9, 0.1)
+    assert bearing.moduli == own.moduli
+
+
+def test_every_material_with_strengths_has_moduli():
+    assert ELASTIC_MODULI.keys() == MATERIALS.keys()
+
+
+def test_rigid_connections_have_no_moduli():
+    assert all(each.moduli is None for each in replace(ELASTIC, stiffness="rigid").joints())
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"type": "HINGE"}, "connections.type is 'HINGE': expected one of FIXED, GENERIC, GENERIC_SPRING"),
+        (
+            {"method": "vertex", "search_radius_m": 1.0, "material": None, "breaking_force_n": 1.0},
+            '"face" with stiffness "elastic"',
+        ),
+        ({"material": None, "breaking_force_n": 1e6}, "connections.material is missing"),
+        (
+            {"between": (ConnectionBetween(members=("deck", "pier"), breaking_force_n=1.0),)},
+            "connections.between has a breaking force",
+        ),
+        (
+            {"between": (ConnectionBetween(members=("deck", "pier"), type="POINT"),)},
+            "connections.between.type is 'POINT': expected one of",
+        ),
+        ({"stiffness": "soft"}, "connections.stiffness"),
+        ({"stiffness": "rigid", "poisson_ratio": 0.2}, 'none where connections.stiffness is "rigid"'),
+        ({"stiffness": "rigid", "damping_ratio": 0.2}, 'none where connections.stiffness is "rigid"'),
+        ({"poisson_ratio": 0.5}, "connections.poisson_ratio"),
+        ({"elastic_modulus_n_mm2": 0.0}, "connections.elastic_modulus_n_mm2"),
+        ({"elastic_modulus_n_mm2": 1e8}, "connections.elastic_modulus_n_mm2"),
+        ({"damping_ratio": 1.5}, "connections.damping_ratio"),
+        (
+            {"ductile_hardening": 1.1},
+            'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m',
+        ),
+        (TIED | {"stiffness": "rigid", "ductile_rupture_strain": 0.1}, "none but with connections.stiffness"),
+        (TIED | {"ductile_hardening": 0.9}, "connections.ductile_hardening"),
+        (TIED | {"ductile_rupture_strain": 0.002}, "more than 0.0025, the strain at which the reinforcement yields"),
+        (TIED | {"ductile_yield_n_mm2": 2000.0, "ductile_rupture_strain": 0.009}, "more than 0.01, the strain"),
+        (TIED | {"ductile_yield_n_mm2": 0.0}, "connections.ductile_yield_n_mm2"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(changes, message):
+    with pytest.raises(ScenarioError) as refused:
+        replace(ELASTIC, **changes)
+    assert message in str(refused.value).replace('"HINGE"', "'HINGE'").replace('"POINT"', "'POINT'")
+
+
+@pytest.mark.parametrize("numbers", [(0.0, 0.2), (float("nan"), 0.2), (1e9, -0.1), (1e9, 0.5)])
+def test_no_material_has_such_moduli(numbers):
+    with pytest.raises(ScenarioError, match="expected"):
+        ElasticModuli(*numbers)

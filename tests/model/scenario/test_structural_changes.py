@@ -1,0 +1,128 @@
+"""Changes find the shards and connections that they mean, and are refused where they mean nothing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenarios import I235
+
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario import Removal, SawCut, Weakening
+from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
+from bridge_demolition_addon.model.sequence.events import Structure, model_structure, schedule
+from bridge_demolition_addon.model.structure.model import build_model
+
+# Two piers of two blocks each, 10 m apart, with a deck of one block on top; the last body is the ground.
+STRUCTURE = Structure(
+    centres_m=np.array([(0, 0, 1), (0, 0, 3), (10, 0, 1), (10, 0, 3), (5, 0, 4.5), (0, 0, -1)], float),
+    member_names=np.array(["pier 1", "pier 1", "pier 2", "pier 2", "deck", ""]),
+    member_kinds=np.array(["pier"] * 4 + ["deck", ""]),
+    is_shard=np.array([True] * 5 + [False]),
+    pairs=np.array([(0, 1), (2, 3), (1, 4), (3, 4), (0, 5), (2, 5)]),
+    points_m=np.array([(0, 0, 2), (10, 0, 2), (0, 0, 4), (10, 0, 4), (0, 0, 0), (10, 0, 0)], float),
+)
+
+
+@pytest.mark.parametrize(
+    "change, bodies, connections",
+    [
+        (Removal(time_s=1, members=["pier 1"]), [0, 1], [0, 2, 4]),
+        (Removal(time_s=1, members=["pier"]), [0, 1, 2, 3], [0, 1, 2, 3, 4, 5]),
+        (Removal(time_s=1, members=["pier"], lowest_corner_m=(9, -1, 2), highest_corner_m=(11, 1, 9)), [3], [1, 3]),
+        (Removal(time_s=1, lowest_corner_m=(-1, -1, -9), highest_corner_m=(1, 1, 2)), [0], [0, 4]),
+        (Weakening(time_s=1, factor=0.5), [], [0, 1, 2, 3, 4, 5]),
+        (Weakening(time_s=1, factor=0.5, members=["deck"]), [], [2, 3]),
+        (SawCut(time_s=1, point_m=(0, 0, 2), normal=(0, 0, 3)), [], [0, 1]),
+        (SawCut(time_s=1, point_m=(0, 0, 2), normal=(0, 0, -1), members=["pier 2"]), [], [1]),
+        # The ground's own centre, at 0 and -1, would put it on the wrong side of a vertical plane.
+        (SawCut(time_s=1, point_m=(5.5, 0, 0), normal=(1, 0, 0)), [], [3]),
+        (SawCut(time_s=1, point_m=(0, 0, 0.1), normal=(0, 0, 1)), [], [4, 5]),
+    ],
+)
+def test_changes_find_what_they_mean(change, bodies, connections):
+    (event,) = schedule([change], STRUCTURE)
+    assert event.bodies.tolist() == bodies
+    assert event.connections.tolist() == connections
+    assert event.factor == (0.5 if isinstance(change, Weakening) else 0.0)
+
+
+def test_events_are_in_order_of_time():
+    changes = [Weakening(time_s=time, factor=0.5) for time in (3, 1, 2)]
+    assert [event.time_s for event in schedule(changes, STRUCTURE)] == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    "change, text",
+    [
+        (
+            Removal(time_s=1, members=["pier 3"]),
+            'removals.members names "pier 3": expected names or kinds of members, ',
+        ),
+        (Removal(time_s=1, members=["pier 3"]), "which are deck, pier, pier 1, pier 2"),
+        (
+            Removal(time_s=1, lowest_corner_m=(2, 0, 0), highest_corner_m=(3, 1, 1)),
+            "removals at 1 s: no shard of the bridge is there",
+        ),
+        (
+            SawCut(time_s=1, point_m=(0, 0, 9), normal=(0, 0, 1)),
+            "saw_cuts at 1 s: no connection of the bridge is there",
+        ),
+    ],
+)
+def test_what_concerns_nothing_is_refused(change, text):
+    with pytest.raises(ScenarioError, match=text.replace("[", r"\[")):
+        schedule([change], STRUCTURE)
+
+
+@pytest.mark.parametrize(
+    "make, text",
+    [
+        (lambda: Removal(time_s=1), "removals.members is missing: expected it, or the two corners of a box"),
+        (lambda: Removal(time_s=1, members=[]), "members is a list of length 0: expected a list of one or more texts"),
+        (lambda: Removal(time_s=1, members=["deck", 3]), r"removals.members\[1\] is 3: expected a list of one or more"),
+        (
+            lambda: Removal(time_s=1, lowest_corner_m=(0, 0, 0)),
+            "removals.highest_corner_m is missing: expected it with removals.lowest_corner_m",
+        ),
+        (
+            lambda: Removal(time_s=1, lowest_corner_m=(0, 0, 0), highest_corner_m=(1, 0, 1)),
+            r"removals.highest_corner_m\[1\] is 0.0: expected more than that of the lowest corner, 0.0 \(m\)",
+        ),
+        (lambda: SawCut(time_s=1, point_m=(0, 0, 0), normal=(0, 0, 0)), "saw_cuts.normal is a list of length 3, all 0"),
+        (lambda: Weakening(time_s=1, factor=0), "weakenings.factor is 0: expected a number above 0 and up to 1"),
+        (lambda: Weakening(time_s=-1, factor=1), "weakenings.time_s is -1: expected a number of at least 0"),
+        (lambda: replace(I235, removals=[Removal(time_s=5, members=["deck"])]), "removals.time_s is 5.0: expected at "),
+        (
+            lambda: replace(
+                I235,
+                connections=replace(I235.connections, warm_up_s=1),
+                weakenings=[Weakening(time_s=0.5, factor=0.5)],
+            ),
+            "weakenings.time_s is 0.5: expected at least connections.warm_up_s, 1.0",
+        ),
+    ],
+)
+def test_wrong_changes_are_refused(make, text):
+    with pytest.raises(ScenarioError, match=text):
+        make()
+
+
+def test_changes_are_written_without_loss():
+    box = {"lowest_corner_m": (0.1, -9, 0), "highest_corner_m": (13, 9, 0.3)}
+    scenario = replace(
+        I235,
+        removals=[Removal(time_s=1, members=["pier 1", 'odd "name"']), Removal(time_s=0.1 + 0.2, **box)],
+        saw_cuts=[SawCut(time_s=1, point_m=(6.5, 0, 5), normal=(1, 0, 0), members=["deck"])],
+        weakenings=[Weakening(time_s=2, factor=0.3, **box)],
+    )
+    assert scenario_from_text(scenario_text(scenario)) == scenario
+
+
+def test_removed_pier_of_a_model_is_all_of_its_shards():
+    model = build_model(I235)
+    names = [member.name for member in model.members]
+    (event,) = schedule([Removal(time_s=1, members=["pier 1 column 1"])], model_structure(model))
+    expected = np.flatnonzero(model.member_of_shard == names.index("pier 1 column 1"))
+    assert event.bodies.tolist() == expected.tolist()
+    pairs = model.connections.pairs
+    assert event.connections.tolist() == np.flatnonzero(np.isin(pairs, expected).any(axis=1)).tolist()

@@ -1,0 +1,169 @@
+"""Stages of beams in irregular shards, held against statics, and against the same beams in Blender."""
+
+import csv
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from places import EXAMPLES
+from scenarios import I235
+from stage_beams import (
+    DENSITY_KG_M3,
+    DEPTH_M,
+    MODULUS_M3,
+    STRENGTH_PA,
+    WEIGHT_N_M,
+    WIDTH_M,
+    beam_file,
+    largest_stress_pa,
+    staged,
+)
+
+from bridge_demolition_addon.cli.main import main
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.stages.made_elastic import made_elastic
+from bridge_demolition_addon.model.stages.stages import criticality, reactions_n
+from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.simulation.motion_run import motion_run
+
+EXCAVATOR = """
+[[equipment]]
+name = "excavator"
+mass_kg = 1000.0
+place_m = [3.0, 0.0]
+footprint_m = [0.4, 0.6]
+from_s = 0.5
+"""
+
+
+def test_a_cantilever_bears_itself_and_an_excavator(tmp_path):
+    length_m, arm_m, weight_n = 4.0, 3.0, 1000.0 * STANDARD_GRAVITY_M_S2
+    (before, after), bridge = staged(beam_file(tmp_path, length_m, more=EXCAVATOR))
+    own_n = WEIGHT_N_M * length_m
+    # Loads are in the axes of shards that have turned a little as the beam sagged.
+    assert reactions_n(bridge.model, before) == pytest.approx([0.0, 0.0, own_n], abs=1e-4 * own_n)
+    assert reactions_n(bridge.model, after) == pytest.approx([0.0, 0.0, own_n + weight_n], abs=1e-4 * own_n)
+    assert (before.equipment, after.equipment) == ((), ("excavator",))
+    for stage, moment in ((before, own_n * length_m / 2.0), (after, own_n * length_m / 2.0 + arm_m * weight_n)):
+        stress = moment / MODULUS_M3
+        # The root is one plane. In irregular shards, tilted sections near it bear up to a tenth more.
+        assert 0.98 * stress < largest_stress_pa(stage) < 1.15 * stress
+        # It is brittle, so that it comes down when the first section is overloaded.
+        assert stage.collapse_factor == pytest.approx(STRENGTH_PA / stress, rel=0.1)
+
+
+CUT = """
+[[saw_cuts]]
+time_s = 0.5
+point_m = [2.5, 0.0, 10.0]
+normal = [1.0, 0.0, 0.0]
+"""
+
+
+def test_a_fixed_beam_that_is_cut_is_two_cantilevers(tmp_path):
+    length_m = 5.0
+    (before, after), bridge = staged(beam_file(tmp_path, length_m, ("start", "end"), more=CUT))
+    own_n = WEIGHT_N_M * length_m
+    for stage, moment in ((before, own_n * length_m / 12.0), (after, own_n * length_m / 8.0)):
+        assert reactions_n(bridge.model, stage)[2] == pytest.approx(own_n, rel=1e-4)
+        # A cut goes along the faces of shards, so that one half is up to a shard, 0.4 m of 2.5 m, longer.
+        assert 0.95 * moment < largest_stress_pa(stage) * MODULUS_M3 < 1.4 * moment
+    assert after.step.startswith("saw cut of ") and not after.loose.any()
+    assert after.collapse_factor < before.collapse_factor
+
+
+REMOVAL = """
+[[removals]]
+time_s = 0.5
+lowest_corner_m = [1.0, -1.0, 9.0]
+highest_corner_m = [2.0, 1.0, 11.0]
+"""
+
+
+def test_what_nothing_holds_any_more_is_told(tmp_path):
+    (before, after), bridge = staged(beam_file(tmp_path, 4.0, more=REMOVAL))
+    assert not before.loose.any()
+    masses, centres = bridge.model.masses_kg, bridge.model.centres_m
+    beyond = (centres[:, 0] > 2.0) & ~bridge.model.fixed
+    assert (after.loose == beyond).all() and masses[beyond].sum() > 0.4 * DENSITY_KG_M3 * 4.0 * DEPTH_M * WIDTH_M
+    assert after.removed.any() and not (after.removed & after.loose).any()
+    assert after.step.startswith("removal of beam")
+
+
+def test_a_bridge_whose_support_is_cut_off_has_no_factor(tmp_path):
+    cut = CUT.replace("2.5", "0.0")
+    (_, after), _ = staged(beam_file(tmp_path, 4.0, more=cut))
+    assert not after.standing.held.any() and np.isnan(after.collapse_factor)
+
+
+def test_a_member_that_holds_all_is_critical_and_one_that_hangs_on_it_is_not(tmp_path):
+    scenario = read_scenario(beam_file(tmp_path, 4.0))
+    found = criticality(StandingBridge(checked_model(scenario), scenario.joints), lambda done, total: None)
+    falls = {each.member: each.share for each in found}
+    assert falls["start"] == pytest.approx(1.0) and falls["beam"] == 0.0
+
+
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_it_falls_in_blender_where_its_factor_is_below_1(blender, tmp_path, factor):
+    length_m = float(np.sqrt(2.0 * STRENGTH_PA * MODULUS_M3 / WEIGHT_N_M))
+    path = beam_file(tmp_path, length_m)
+    [stage], _ = staged(path)
+    assert stage.collapse_factor == pytest.approx(1.0, rel=0.12)
+    scenario = read_scenario(path)
+    connections = replace(scenario.connections, strength_factor=factor / stage.collapse_factor)
+    scenario = replace(scenario, connections=connections)
+    with motion_run(scenario, checked_model(scenario), tmp_path) as (results, _):
+        heights = results.frames.positions_m[:, results.inventory.moves, 2]
+        assert ((heights[0] - heights[-1]).max() > 0.5) == (factor < 1.0)
+
+
+def test_examples_are_scenarios_with_steps_and_equipment():
+    paths = sorted((EXAMPLES / "stages").glob("*.toml"))
+    assert paths
+    for path in paths:
+        scenario = read_scenario(path)
+        assert scenario.equipment and scenario.changes and checked_model(scenario).connections
+
+
+def test_tables_and_what_is_printed(tmp_path, capfd):
+    path, output = beam_file(tmp_path, 4.0, more=EXCAVATOR), tmp_path / "out"
+    assert main(["stages", str(path), "--output", str(output)]) == 0
+    said = capfd.readouterr().out
+    assert "stage 2, from 0.5 s" in said and "with excavator" in said and "comes down at" in said
+    assert "without start: 4.8 t come down, 100%" in said
+    rows = list(csv.DictReader((output / "stages.csv").open(encoding="utf-8")))
+    assert [row["equipment"] for row in rows] == ["", "excavator"]
+    assert [row["step"] for row in rows] == ["as it was built", "equipment comes or goes"]
+    for row in rows:
+        assert float(row["reaction_z_kN"]) == pytest.approx(float(row["weight_kN"]), rel=1e-4)
+        assert row["governed_by"] == "bending" and float(row["collapse_factor"]) > 1.0
+    used = list(csv.DictReader((output / "utilisation.csv").open(encoding="utf-8")))
+    assert {row["stage"] for row in used} == {"1", "2"}
+    largest = max(float(row["utilisation"]) for row in used if row["stage"] == "1")
+    assert largest == pytest.approx(float(rows[0]["largest_utilisation"]), rel=1e-4)
+    members = list(csv.DictReader((output / "criticality.csv").open(encoding="utf-8")))
+    assert {row["member"]: row["stands"] for row in members} == {"beam": "true", "start": "false"}
+    assert main(["stages", str(path), "--output", str(output)]) == 2
+    assert "exists already; choose another folder, or add --overwrite" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("[3.0, 0.0]", "[9.0, 0.0]"), "equipment 'excavator': nothing of the bridge is under [8.8"),
+        (("from_s = 0.5", "from_s = 0.5\nuntil_s = 0.2"), "equipment.until_s is 0.2"),
+        (("mass_kg = 1000.0", "mass_kg = 0.0"), "equipment.mass_kg is 0.0"),
+    ],
+)
+def test_wrong_equipment_is_refused_in_words(tmp_path, change, said, capfd):
+    path, output = beam_file(tmp_path, 4.0, more=EXCAVATOR.replace(*change)), tmp_path / "out"
+    assert main(["stages", str(path), "--output", str(output), "--quiet"]) == 2
+    assert said in capfd.readouterr().err and not output.exists()
+
+
+def test_connections_that_cannot_be_elastic_are_refused_by_what_they_are_needed_for():
+    with pytest.raises(ScenarioError, match=r'how a bridge rests .* connections.method is "vertex": expected "face"'):
+        made_elastic(I235)

@@ -1,0 +1,114 @@
+"""Bars across faces of shards: however a member is cut, each section has all of its steel, at its depth."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scenarios import I235
+
+from bridge_demolition_addon.engineering.geometry.vectors import transformed
+from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario import BarLayer, ConnectionSettings
+from bridge_demolition_addon.model.structure.face_bars import layers_of_members
+from bridge_demolition_addon.model.structure.model import build_model
+
+THICKNESS_M, WIDTH_M = 0.25, 8.5
+BOTTOM = BarLayer(members=("deck",), depth_m=0.04, area_mm2=12_000.0)
+TOP = BarLayer(members=("deck",), side="top", depth_m=0.05, area_mm2=8_000.0)
+
+
+@cache
+def model_with(*layers, **settings):
+    """The I-235 span in 60 irregular shards, with bars."""
+    connections = ConnectionSettings(
+        method="face", material="reinforced concrete slab", ductile_elongation_m=0.1, **settings
+    )
+    fracture = replace(I235.fracture, shards=60)
+    return build_model(replace(I235, fracture=fracture, connections=connections, reinforcement=layers))
+
+
+def pull_across(model, place_m):
+    """Force of all bars between the shards on both sides of a plane x, where those that fold back count against."""
+    is_before = np.append(model.centres_m[:, 0] < place_m, False)
+    first, second = is_before[model.connections.pairs].T
+    signs = np.sign(model.connections.normals[:, 0]) * (first.astype(int) - second)
+    return float((signs * model.bars.yield_n).sum())
+
+
+@pytest.mark.parametrize("place_m", [2.0, 6.5, 11.0])
+def test_every_section_has_all_of_a_layer(place_m):
+    model = model_with(BOTTOM)
+    (section,) = [group.section(35e6) for group in layers_of_members((BOTTOM,), model.members)]
+    pull = 12_000e-6 * 500e6
+    # By hand: M = A f_y (d - a / 2) of the deck about its top, and as a tie M / d.
+    moment = pull * (0.21 - 0.5 * pull / (WIDTH_M * 35e6))
+    assert section.moments_nm()[0] == pytest.approx(moment, rel=1e-9)
+    assert pull_across(model, place_m) == pytest.approx(moment / 0.21, rel=1e-6)
+
+
+def test_bars_pull_at_their_depth():
+    model = model_with(BOTTOM)
+    across = section_axes(model.connections.normals)[:, :, 1:]
+    places = model.connections.points + transformed(across, model.bars.offsets_m)
+    with_bars = model.bars.yield_n > 0.0
+    level = model.members[0].solid.bounds[0, 2] + 0.04
+    np.testing.assert_allclose(places[with_bars, 2], level, atol=1e-9)
+    assert 0 < with_bars.sum() < len(with_bars)
+
+
+def test_only_the_member_that_is_named_has_bars_and_none_end_in_others():
+    model = model_with(BOTTOM)
+    members = np.append(model.member_of_shard, -1)[model.connections.pairs]
+    is_deck = np.array([each.kind == "deck" for each in model.members] + [False])[members].all(axis=1)
+    assert (model.bars.yield_n[~is_deck] == 0.0).all()
+
+
+def test_two_layers_bear_both_moments():
+    model = model_with(BOTTOM, TOP)
+    (section,) = [group.section(35e6) for group in layers_of_members((BOTTOM, TOP), model.members)]
+    assert pull_across(model, 6.5) * THICKNESS_M == pytest.approx(sum(section.moments_nm()), rel=1e-6)
+
+
+def test_a_stronger_bridge_has_stronger_bars():
+    weak, strong = model_with(BOTTOM), model_with(BOTTOM, strength_factor=2.0)
+    np.testing.assert_allclose(strong.bars.yield_n, 2.0 * weak.bars.yield_n, rtol=1e-9)
+
+
+def test_columns_have_upright_bars():
+    layers = [
+        BarLayer(members=("pier",), along="z", side=side, depth_m=0.05, area_mm2=1e3) for side in ("start", "end")
+    ]
+    groups = list(layers_of_members(layers, model_with(BOTTOM).members))
+    assert len(groups) == 4
+    for group in groups:
+        assert group.axes == (2, 0, 1)
+        assert group.widths_m == pytest.approx((0.7, 0.7))
+        assert group.levels_m[1] - group.levels_m[0] == pytest.approx(0.6)
+
+
+def test_layers_have_to_be_in_their_members():
+    with pytest.raises(ScenarioError, match=r"reinforcement.depth_m is 0.3: .* size of 'deck' along z, 0.25 \(m\)"):
+        model_with(replace(BOTTOM, depth_m=0.3))
+    with pytest.raises(ScenarioError, match=r"reinforcement.members .* expected names or kinds of members, such as"):
+        model_with(replace(BOTTOM, members=("dec",)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"ductile_elongation_m": None}, "connections.ductile_elongation_m is missing: expected a number above 0"),
+        ({"material": None, "breaking_force_n": 1e5}, r"connections.material is missing: expected it with \[\[reinf"),
+    ],
+)
+def test_bars_need_a_material_and_an_opening(changes, message):
+    settings = {"method": "face", "material": "concrete", "ductile_elongation_m": 0.1, **changes}
+    with pytest.raises(ScenarioError, match=message):
+        replace(I235, connections=ConnectionSettings(**settings), reinforcement=(BOTTOM,))
+
+
+def test_an_opening_needs_reinforcement():
+    connections = ConnectionSettings(method="face", material="concrete", ductile_elongation_m=0.1)
+    with pytest.raises(ScenarioError, match=r"connections.ductile_elongation_m is 0.1: expected none where"):
+        replace(I235, connections=connections)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Conclusions of whole studies, from their tables."""
+
+import json
+
+import numpy as np
+import pytest
+from study_folders import told_row, told_study
+
+from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.study.conclusions import conclusions
+from bridge_demolition_addon.model.study.runs_table import RunsTable
+
+STUDY = told_study()
+
+
+def table(runs=93, crashed=()):
+    return RunsTable(
+        tuple(told_row(STUDY, number, "crashed" if number in crashed else "done") for number in range(1, runs + 1))
+    )
+
+
+def test_a_study_says_how_far_and_how_likely():
+    said = conclusions(STUDY, table())
+    reaches_m = [row.outputs["reach_m"] for row in table().rows]
+    assert (said.statuses, said.reach.limit_m) == ({"done": 93}, sorted(reaches_m)[-2])
+    met = [[row.outputs[each.output] for row in table().rows] for each in STUDY.criteria]
+    assert [each.happened for each in said.criteria] == np.sum(met, axis=1).tolist()
+    assert [each.what for each in said.criteria][:2] == [
+        "met the criterion mid span down",
+        "met the criterion road stays free",
+    ]
+    assert said.success.happened == np.all(met, axis=0).sum() < 93
+    assert said.at_once.limits["reach_m"] == max(reaches_m)
+
+
+def test_a_run_that_crashed_reaches_without_end_and_meets_nothing():
+    everything_met = [number for number, row in enumerate(table().rows, start=1) if row.outputs["success"]]
+    crashed = everything_met[:2]
+    said, before = conclusions(STUDY, table(crashed=crashed)), conclusions(STUDY, table())
+    assert said.statuses == {"crashed": 2, "done": 91}
+    assert said.as_json()["reach"]["limit_m"] is None
+    assert [each.happened + 2 for each in said.criteria] == [each.happened for each in before.criteria]
+    assert said.success.happened == before.success.happened - 2
+
+
+def test_conclusions_are_json():
+    bare = told_study(criteria=())
+    rows = tuple(told_row(bare, number, "killed" if number == 5 else "done") for number in range(1, 94))
+    text = json.dumps(conclusions(bare, RunsTable(rows)).as_json(), allow_nan=False)
+    assert json.loads(text)["success"] is None
+
+
+@pytest.mark.parametrize("runs", [0, 92, 94])
+def test_no_conclusion_is_drawn_before_all_runs_are_there(runs):
+    with pytest.raises(OutputError, match=f"{runs} of 93 runs are there"):
+        conclusions(STUDY, table(runs))
