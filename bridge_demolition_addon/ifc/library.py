@@ -29,7 +29,7 @@ def library(part: str = "") -> ModuleType:
         whole = importlib.import_module("ifcopenshell")
         found = importlib.import_module(f"ifcopenshell.{part}") if part else whole
     except ImportError as error:
-        if missing := why_not():
+        if missing := missing_reason():
             raise MissingLibraryError(missing) from error
         raise MissingLibraryError(f"IfcOpenShell cannot be loaded ({error}): {_HOW}") from error
     version = tuple(int(each) for each in str(whole.version).split(".")[:2] if each.isdigit())
@@ -38,6 +38,6 @@ def library(part: str = "") -> ModuleType:
     return found
 
 
-def why_not() -> str | None:
+def missing_reason() -> str | None:
     """Return why IFC cannot be read here, in a sentence, or None where IfcOpenShell is installed."""
     return None if find_spec("ifcopenshell") else f"IFC is read by IfcOpenShell: {_HOW}"

@@ -12,7 +12,7 @@ from . import messages
 from .sidebar import path_property
 
 
-class Refusing:
+class GuardedOperator:
     """Base of buttons that are greyed, with a reason in their tooltip, as long as they cannot work.
 
     Attributes
@@ -27,7 +27,7 @@ class Refusing:
     changes_objects = False
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         """Return why the button cannot work now, in a sentence, or None where it can."""
         return None
 
@@ -36,14 +36,14 @@ class Refusing:
         reason = (
             (cls.changes_scene and _linked(context))
             or (cls.changes_objects and other_mode(context))
-            or cls.why_not(context)
+            or cls.disabled_reason(context)
         )
         if reason:
             cls.poll_message_set(reason)
         return not reason
 
 
-class Action(Refusing):
+class Action(GuardedOperator):
     """Base of operators that act in one go."""
 
     def act(self, context: bpy.types.Context) -> str | None:

@@ -6,7 +6,7 @@ from functools import cache
 
 import bpy
 
-from . import first_help, long_action, messages, workspace
+from . import first_help, messages, modal_task, workspace
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
@@ -67,7 +67,7 @@ def unregister() -> None:
     study_session.unregister()
     search_session.unregister()
     checked_stages.unregister()
-    long_action.unregister()
+    modal_task.unregister()
     workspace.unregister()
     session.unregister()
     ground_operator.unregister()

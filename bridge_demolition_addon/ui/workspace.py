@@ -41,7 +41,7 @@ class BDA_OT_make_workspace(Action, bpy.types.Operator):
     bl_label = "BDA Workspace"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return None if context.window else "There is no window to make a workspace in"
 
     def act(self, context: bpy.types.Context) -> None:

@@ -68,15 +68,15 @@ def call(person: Person, button: str) -> Steps:
 
 
 def going_on() -> object | None:
-    return module("ui.course").going_on()
+    return module("ui.task_progress").going_on()
 
 
 def follow(person: Person, what: str, pictured_at: int) -> Steps:
     """Note what is said as it goes on, and compare when it is over."""
     said, pictured, turns, first = [], False, 0, going_on()
-    while (course := going_on()) is first:
-        if course.left_s is not None and FROM_SHARE <= course.share <= TO_SHARE:
-            said.append((time.perf_counter(), course.left_s))
+    while (progress := going_on()) is first:
+        if progress.left_s is not None and FROM_SHARE <= progress.share <= TO_SHARE:
+            said.append((time.perf_counter(), progress.left_s))
         turns += 1
         if turns == pictured_at and not pictured:
             pictured = True

@@ -385,7 +385,7 @@ def look_at_results(person: Person, panels: Panels) -> Steps:
     person.scene.bda.contour_peak = False
     yield from person.click("bda.draw_charts")
     yield from person.wait_for("there are charts", lambda: len(list(charts(person))) > 1, 120.0)
-    yield from person.wait_for("all are drawn", lambda: module("ui.course").going_on() is None, 120.0)
+    yield from person.wait_for("all are drawn", lambda: module("ui.task_progress").going_on() is None, 120.0)
     yield 1.0
     person.expect_reports("nothing but the charts is reported", f"charts are in {person.folder / 'results' / 'charts'}")
     yield from person.click("bda.open_results")

@@ -20,7 +20,7 @@ def steps(person: Person) -> Steps:
     yield 0.5
     with person._in_sidebar():
         bpy.ops.bda.draw_charts("INVOKE_DEFAULT")
-    yield from person.wait_for("the chart is drawn", lambda: module("ui.course").going_on() is None, 60.0)
+    yield from person.wait_for("the chart is drawn", lambda: module("ui.task_progress").going_on() is None, 60.0)
     yield from person.click("bda.make_workspace")
     yield from person.wait_for("the workspace opens at the tab BDA", lambda: tab(person) == "BDA", 20.0)
     person.expect("the workspace is shown", person.window.workspace.name, "BDA")

@@ -58,7 +58,7 @@ def recording_runs() -> bool:
 
 def something_goes_on() -> bool:
     """Whether a recording runs, or its pictures are taken, or anything else shows how far it is."""
-    return recording_runs() or module("ui.course").going_on() is not None
+    return recording_runs() or module("ui.task_progress").going_on() is not None
 
 
 def handlers() -> Counter[str]:

@@ -62,7 +62,7 @@ class BDA_OT_delete_source_point(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return "Choose a charge in the list first" if shown_charge(context.scene) is None else None
 
     def act(self, context: bpy.types.Context) -> None:
@@ -79,7 +79,7 @@ class BDA_OT_build_force_objects(Action, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
-    why_not = staticmethod(no_world)
+    disabled_reason = staticmethod(no_world)
 
     def act(self, context: bpy.types.Context) -> str:
         scene, layer = context.scene, context.view_layer
@@ -98,7 +98,7 @@ class BDA_OT_show_total_mass(Action, bpy.types.Operator):
     bl_label = "Show Total Mass of Particles"
     bl_options = {"REGISTER", "UNDO"}
 
-    why_not = staticmethod(no_world)
+    disabled_reason = staticmethod(no_world)
 
     def act(self, context: bpy.types.Context) -> str:
         text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")

@@ -14,7 +14,7 @@ from ...scene.world import start_over
 from ...simulation.blender_events import contours_of
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
 from .. import messages
-from ..long_action import RenderingAction
+from ..modal_task import RenderingTask
 from ..operators import Action, absolute, recording_runs
 from ..scenario.values import table_of
 from . import view as contour_view
@@ -27,7 +27,7 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
     bl_label = "Load Results"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return recording_runs(context) or (
             None if context.scene.bda.results_path else "Choose a file results.npz first"
         )
@@ -50,7 +50,7 @@ class BDA_OT_forget_results(Action, bpy.types.Operator):
     bl_label = "Show Blender's Own Motion"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         shows = contours_of(context.scene).shows_loaded
         return recording_runs(context) or (None if shows else "No results were loaded: Blender's own motion is shown")
 
@@ -61,7 +61,7 @@ class BDA_OT_forget_results(Action, bpy.types.Operator):
         contour_view.follow(scene)
 
 
-class BDA_OT_render_contours(RenderingAction, bpy.types.Operator):
+class BDA_OT_render_contours(RenderingTask, bpy.types.Operator):
     """Render the recorded frames with their contours, as a film or as pictures, to the folder; Esc stops"""
 
     bl_idname = "bda.render_contours"
@@ -70,7 +70,7 @@ class BDA_OT_render_contours(RenderingAction, bpy.types.Operator):
     _rendering: FilmRendering
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if reason := recording_runs(context):
             return reason
         if not context.scene.bda.film_directory:
@@ -102,7 +102,7 @@ class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if not has_symbols(context.view_layer, context.scene):
             return "This scene has neither connections nor force objects"
         return None

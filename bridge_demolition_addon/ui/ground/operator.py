@@ -15,7 +15,7 @@ from ...scene.rendering.ground import terrain_under
 from ...scene.rendering.site_plan import lay_site_plan
 from ...simulation.blender_events import contours_of
 from ..contours import view as contour_view
-from ..operators import Action, Refusing, absolute, recording_runs, refused
+from ..operators import Action, GuardedOperator, absolute, recording_runs, refused
 from ..viewport import draw_lines
 from . import areas
 from .prop import ZONES
@@ -26,7 +26,7 @@ _LEAVE = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE"}
 """Events with which the view is turned meanwhile."""
 
 
-class BDA_OT_draw_zone(Refusing, bpy.types.Operator):
+class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
     """Click the corners of a zone on the ground; Enter or a right click ends it, Backspace takes a corner back"""
 
     bl_idname = "bda.draw_zone"
@@ -37,7 +37,7 @@ class BDA_OT_draw_zone(Refusing, bpy.types.Operator):
     _handle = None
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if context.area is None or context.area.type != "VIEW_3D":
             return "Zones are drawn in a 3D view"
         return recording_runs(context)
@@ -105,7 +105,7 @@ class BDA_OT_lay_site_plan(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return recording_runs(context) or (None if context.scene.bda.plan_picture else "Choose a picture first")
 
     def act(self, context: bpy.types.Context) -> str:
@@ -126,7 +126,7 @@ class BDA_OT_raise_dust(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if reason := recording_runs(context):
             return reason
         return None if areas.results_of(context.scene) is not None else "Run the scene first, or load its results"
@@ -148,7 +148,7 @@ class BDA_OT_settle_dust(Action, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
-    why_not = staticmethod(recording_runs)
+    disabled_reason = staticmethod(recording_runs)
 
     def act(self, context: bpy.types.Context) -> str:
         return f"{remove_dust(context.scene)} clouds of dust removed"

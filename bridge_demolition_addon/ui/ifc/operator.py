@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ImportHelper
 from ...errors import IfcError
 from ...ifc.bridge import ImportedBridge, read_bridge
 from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
-from ...ifc.library import why_not
+from ...ifc.library import missing_reason
 from ...ifc.settings import UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
 from ..operators import Action, absolute
@@ -58,8 +58,8 @@ class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
     )
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return why_not()
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
+        return missing_reason()
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the choices beside the files."""

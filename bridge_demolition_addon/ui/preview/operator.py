@@ -32,7 +32,7 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
     is_upright: BoolProperty(name="Upright", description="Whether it goes up and down only", options={"HIDDEN"})
     place_m: FloatVectorProperty(name="Place", description="Where to", size=3, subtype="XYZ", unit="LENGTH")
 
-    why_not = staticmethod(recording_runs)
+    disabled_reason = staticmethod(recording_runs)
 
     def act(self, context: bpy.types.Context) -> None:
         self._handle(context)

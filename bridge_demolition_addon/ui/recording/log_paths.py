@@ -20,7 +20,7 @@ class _LogPathOperator(Action, FileWriter):
     setting: str
     usual_name: str
 
-    why_not = staticmethod(recording_runs)
+    disabled_reason = staticmethod(recording_runs)
 
     def usual_path(self, context: bpy.types.Context) -> str:
         return getattr(context.scene.bda, self.setting) or self.usual_name

@@ -37,7 +37,7 @@ from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ...system.folder_lock import FolderLock
 from .. import messages
 from ..blast.operator import keep_shown_blast
-from ..operators import Action, Refusing, absolute, no_world, recording_runs, refused
+from ..operators import Action, GuardedOperator, absolute, no_world, recording_runs, refused
 from ..scenario.built import scenario_to_run
 from ..scenario.values import table_of
 from . import session
@@ -50,7 +50,7 @@ _locks: WeakKeyDictionary[Recording, FolderLock] = WeakKeyDictionary()
 """What keeps others out of each recording's folder, as long as it goes on."""
 
 
-def why_not_recorded(context: bpy.types.Context) -> str | None:
+def recording_disabled_reason(context: bpy.types.Context) -> str | None:
     """Return why a scene cannot be recorded now, in a sentence, or None where it can."""
     if reason := no_world(context) or recording_runs(context):
         return reason
@@ -65,7 +65,7 @@ class BDA_OT_register_handler(Action, bpy.types.Operator):
     bl_idname = "bda.register_handler"
     bl_label = "Register Handler"
 
-    why_not = staticmethod(why_not_recorded)
+    disabled_reason = staticmethod(recording_disabled_reason)
 
     def act(self, context: bpy.types.Context) -> str:
         recording = new_recording(context.scene)
@@ -75,7 +75,7 @@ class BDA_OT_register_handler(Action, bpy.types.Operator):
         return f"Recording to {recording.folder}: play the timeline"
 
 
-class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
+class BDA_OT_unregister_handler(GuardedOperator, bpy.types.Operator):
     """End the recording and write its results"""
 
     bl_idname = "bda.unregister_handler"
@@ -83,7 +83,7 @@ class BDA_OT_unregister_handler(Refusing, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         if not running_recording():
             return "No handler is registered"
         return "Run is at work: Esc stops it" if session.run_goes_on() else None

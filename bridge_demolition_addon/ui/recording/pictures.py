@@ -9,13 +9,13 @@ from ...model.results.files import PICTURES
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.display.pictures import rendered_pictures
 from .. import messages
-from ..long_action import RenderingAction
+from ..modal_task import RenderingTask
 from ..operators import no_world, recording_runs
 from . import session
 from .operator import view_of
 
 
-class BDA_OT_render_run(RenderingAction, bpy.types.Operator):
+class BDA_OT_render_run(RenderingTask, bpy.types.Operator):
     """Render the bridge before, at the frame of the largest force and after the last run, into its folder; Esc stops"""
 
     bl_idname = "bda.render_run"
@@ -24,7 +24,7 @@ class BDA_OT_render_run(RenderingAction, bpy.types.Operator):
     _folder: Path
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if reason := no_world(context) or recording_runs(context):
             return reason
         last = session.last_recording()

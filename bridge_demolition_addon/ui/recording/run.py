@@ -7,17 +7,17 @@ from ...errors import DemolitionError, SimulationError
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.playback import Playing, frames_to_play
-from .. import course, messages
-from ..long_action import LOOKING_ROUND
-from ..operators import Action, Refusing, no_world, other_mode, recording_runs, refused
+from .. import messages, task_progress
+from ..modal_task import LOOKING_ROUND
+from ..operators import Action, GuardedOperator, no_world, other_mode, recording_runs, refused
 from ..scenario.operator import BDA_OT_build_anew, build
 from . import session
 from .operator import (
     check_output,
     end_with_results,
     new_recording,
+    recording_disabled_reason,
     rest_to_stop_at,
-    why_not_recorded,
     withdraw_recording,
 )
 
@@ -27,7 +27,7 @@ _TICK_S = 0.001
 _SLOW_FRAME_S = 0.5
 
 
-class BDA_OT_run(Refusing, bpy.types.Operator):
+class BDA_OT_run(GuardedOperator, bpy.types.Operator):
     """Simulate and record from the start frame to the last one, and write the results; Esc stops"""
 
     bl_idname = "bda.run"
@@ -43,9 +43,9 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         name="Pictures", description="Render the run's pictures when it has ended", options={"SKIP_SAVE"}
     )
 
-    _course: course.Course | None = None
+    _progress: task_progress.TaskProgress | None = None
 
-    why_not = staticmethod(why_not_recorded)
+    disabled_reason = staticmethod(recording_disabled_reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """The whole run in one call, for scripts."""
@@ -63,7 +63,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
             bpy.ops.screen.animation_cancel(restore_frame=False)
         if not self._begin(context):
             return {"CANCELLED"}
-        self._course = session.begin_run(context, _TICK_S, self._playing.total)
+        self._progress = session.begin_run(context, _TICK_S, self._playing.total)
         context.window_manager.modal_handler_add(self)
         session.redraw_while_recording()
         return {"RUNNING_MODAL"}
@@ -111,10 +111,10 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
         bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _show(self, context: bpy.types.Context) -> None:
-        self._course.share = self._playing.done / self._playing.total
-        self._course.left_s = self._playing.left_s
-        self._course.note = note_of(self._playing, pictures=self.pictures)
-        course.show(context)
+        self._progress.share = self._playing.done / self._playing.total
+        self._progress.left_s = self._playing.left_s
+        self._progress.note = note_of(self._playing, pictures=self.pictures)
+        task_progress.show(context)
 
     def _leave(self, context: bpy.types.Context) -> set[str]:
         session.end_run(context)
@@ -132,7 +132,7 @@ class BDA_OT_run(Refusing, bpy.types.Operator):
     def _take_pictures(self) -> None:
         """Render pictures as their own button does, in the window picture by picture."""
         try:
-            bpy.ops.bda.render_run("INVOKE_DEFAULT" if self._course else "EXEC_DEFAULT")
+            bpy.ops.bda.render_run("INVOKE_DEFAULT" if self._progress else "EXEC_DEFAULT")
         except RuntimeError as error:  # so a script learns of a refusal, which the panel has kept by now
             self.report({"WARNING"}, f"No pictures of the run: {error}")
 
@@ -144,7 +144,7 @@ class BDA_OT_bake(Action, bpy.types.Operator):
     bl_label = "Bake"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if reason := no_world(context) or recording_runs(context):
             return reason
         if context.scene.rigidbody_world.point_cache.is_baked:
@@ -165,7 +165,7 @@ class BDA_OT_delete_bake(Action, bpy.types.Operator):
     bl_label = "Delete Bake"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         world = context.scene.rigidbody_world
         return None if world and world.point_cache.is_baked else "There is no bake"
 

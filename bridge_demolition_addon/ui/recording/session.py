@@ -9,7 +9,7 @@ import bpy
 
 from ...simulation.blender_events import running_recording, stop_recording
 from ...simulation.recording.recorder import Recording
-from .. import course
+from .. import task_progress
 from ..sidebar import redraw_sidebars
 
 _REDRAWN_EVERY_S = 0.25
@@ -45,10 +45,10 @@ def last_recording() -> LastRecording | None:
     return _recordings[0] if _recordings else None
 
 
-def begin_run(context: bpy.types.Context, tick_s: float, frames: int) -> course.Course:
+def begin_run(context: bpy.types.Context, tick_s: float, frames: int) -> task_progress.TaskProgress:
     """Have Blender call the operator Run again and again, and show its progress."""
     _timers.append(context.window_manager.event_timer_add(tick_s, window=context.window))
-    return course.begin(context, "Running", "frames", frames)
+    return task_progress.begin(context, "Running", "frames", frames)
 
 
 def end_run(context: bpy.types.Context) -> None:
@@ -56,7 +56,7 @@ def end_run(context: bpy.types.Context) -> None:
     if not _timers:
         return
     context.window_manager.event_timer_remove(_timers.pop())
-    course.end(context)
+    task_progress.end(context)
 
 
 def run_goes_on() -> bool:

@@ -17,10 +17,10 @@ from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...simulation.results_folder import keep_site
 from ...system.disk import writing
 from ..bridge_view import look_at_shards, shards_in_view
-from ..long_action import LongAction, Work
+from ..modal_task import ModalTask, Work
 from ..operators import Action, absolute, no_world, recording_runs
 from ..scenario.built import shown_site
-from ..turns import Turns
+from ..stepped_thread import SteppedThread
 from ..viewport import look_at_selected, select_only
 from .shown_run import shown_run
 
@@ -53,7 +53,7 @@ class BDA_OT_go_to_body(Action, bpy.types.Operator):
     frame: IntProperty(name="Frame", description="Frame to go to", min=0)
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> str | None:
@@ -75,7 +75,7 @@ class BDA_OT_look_at_bridge(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return no_world(context) or recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> None:
@@ -92,7 +92,7 @@ class _OfShownRun(Action):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         try:
             return None if shown_run(context.scene) else "Nothing was recorded yet: run the scene first"
         except OutputError as error:
@@ -109,7 +109,7 @@ class BDA_OT_open_results(_OfShownRun, bpy.types.Operator):
         open_path(shown_run(context.scene).folder)
 
 
-class BDA_OT_draw_charts(LongAction, _OfShownRun, bpy.types.Operator):
+class BDA_OT_draw_charts(ModalTask, _OfShownRun, bpy.types.Operator):
     """Draw forces over time into the folder of the run, and charts to choose charges by if it had any; Esc stops"""
 
     bl_idname = "bda.draw_charts"
@@ -125,18 +125,18 @@ class BDA_OT_draw_charts(LongAction, _OfShownRun, bpy.types.Operator):
         folder, results = run.folder / CHARTS, run.results()
         settings = ChartSettings(model=BlastModel(context.scene.bda.scenario.blast.model))
 
-        def draw(turns: Turns) -> str:
+        def draw(thread: SteppedThread) -> str:
             with writing(folder):
                 folder.mkdir(exist_ok=True)
-                turns.stage("forces over time")
+                thread.stage("forces over time")
                 plot_forces(results, folder / FORCE_CHART, run.title, first_hit_s(run.summary))
-                paths = write_charts(folder, settings, turns.part) if had_charges(run.summary) else []
+                paths = write_charts(folder, settings, thread.part) if had_charges(run.summary) else []
             return f"{len(paths) + 1} charts are in {folder}" if paths else f"{folder / FORCE_CHART}"
 
         return draw
 
 
-class BDA_OT_export_run(LongAction, _OfShownRun, bpy.types.Operator):
+class BDA_OT_export_run(ModalTask, _OfShownRun, bpy.types.Operator):
     """Write the run into its folder for another program: all bodies in every frame; Esc stops"""
 
     bl_idname = "bda.export_run"
@@ -150,23 +150,23 @@ class BDA_OT_export_run(LongAction, _OfShownRun, bpy.types.Operator):
     )
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return super().why_not(context) or recording_runs(context)
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
+        return super().disabled_reason(context) or recording_runs(context)
 
     def work(self, context: bpy.types.Context) -> Work:
         from ...exports.write import export_run
 
         folder, form, blender = shown_run(context.scene).folder, FORMATS[self.form], bpy.app.binary_path
 
-        def write(turns: Turns) -> str:
+        def write(thread: SteppedThread) -> str:
             output = new_export(folder, form)
-            export_run(folder, form, output, turns, blender)
+            export_run(folder, form, output, thread, blender)
             return f"{form.title}: {output}"
 
         return write
 
 
-class BDA_OT_make_report(LongAction, bpy.types.Operator):
+class BDA_OT_make_report(ModalTask, bpy.types.Operator):
     """Make a report of the results, as a page and as a PDF, with zones and neighbours as shown here; Esc stops"""
 
     bl_idname = "bda.make_report"
@@ -175,7 +175,7 @@ class BDA_OT_make_report(LongAction, bpy.types.Operator):
     what, unit = "Making the report", "parts"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if not (context.scene.bda.output_directory or has_run(context.scene)):
             return "Run the scene first, or choose the folder with the results"
         return recording_runs(context)
@@ -188,15 +188,15 @@ class BDA_OT_make_report(LongAction, bpy.types.Operator):
         if is_run_of(scene, folder):
             keep_site(folder, shown_site(scene.bda))
 
-        def write(turns: Turns) -> str:
-            written = write_report([folder], None, progress=turns)
+        def write(thread: SteppedThread) -> str:
+            written = write_report([folder], None, progress=thread)
             return f"Report: {written[0]} and {written[1].name}"
 
         return write
 
-    def share_of(self, turns: Turns) -> float:
-        begun, ended = next((shares for word, shares in _SHARES.items() if word in turns.stage_text), (0.0, 0.0))
-        return begun + (ended - begun) * super().share_of(turns)
+    def share_of(self, thread: SteppedThread) -> float:
+        begun, ended = next((shares for word, shares in _SHARES.items() if word in thread.stage_text), (0.0, 0.0))
+        return begun + (ended - begun) * super().share_of(thread)
 
 
 class BDA_OT_open_report(Action, bpy.types.Operator):
@@ -207,8 +207,8 @@ class BDA_OT_open_report(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        return BDA_OT_make_report.why_not(context)
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
+        return BDA_OT_make_report.disabled_reason(context)
 
     def act(self, context: bpy.types.Context) -> None:
         path = folder_to_report(context.scene) / REPORT_PAGE

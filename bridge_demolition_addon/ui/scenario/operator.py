@@ -33,7 +33,7 @@ class BDA_OT_load_scenario(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return None if context.scene.bda.scenario_path else "Choose a scenario file first"
 
     def act(self, context: bpy.types.Context) -> str:
@@ -102,7 +102,7 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if context.scene.rigidbody_world:
             return "This scene has a rigid-body world already: build it anew, or use a new scene"
         return None
@@ -127,7 +127,7 @@ class BDA_OT_build_anew(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if no_world(context):
             return "Nothing is built here yet: build the scenario"
         if context.scene.rigidbody_world.point_cache.is_baked:
@@ -147,7 +147,7 @@ class BDA_OT_show_built(Action, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return None if context.scene.bda.built_scenario else "Nothing is built here yet: build the scenario"
 
     def act(self, context: bpy.types.Context) -> None:
@@ -161,7 +161,7 @@ class _Removal(Action):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if no_world(context):
             return "This scene has no rigid-body world: there is nothing to remove"
         return recording_runs(context)
@@ -194,8 +194,8 @@ class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
     bl_label = "Remove Loose Connections"
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
-        if reason := super().why_not(context):
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
+        if reason := super().disabled_reason(context):
             return reason
         if lacks_ground(context.scene):
             return "The ground is gone: undo what took it away, or build anew; without it the bridge hangs in the air"

@@ -11,10 +11,10 @@ import bpy
 from ...model.scenario import Scenario
 from ...model.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
-from ..course import draw_course, going_on
 from ..first_help import draw_first_help
 from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
+from ..task_progress import draw_task_progress, going_on
 from .breaking_note import breaking_note
 from .built import Change, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .next_step import next_step
@@ -88,8 +88,8 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
-        if course := going_on():
-            draw_course(layout, context, course)
+        if progress := going_on():
+            draw_task_progress(layout, context, progress)
         else:
             draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
         column = layout.column(align=True)

@@ -43,7 +43,7 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
     )
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if not any(each.type == "MESH" for each in context.selected_objects):
             return "Select the meshes that are to be members first"
         return None
@@ -86,7 +86,7 @@ class BDA_OT_use_paint(Action, FileWriter, bpy.types.Operator):
     filter_glob: StringProperty(default="*" + _PAINT_SUFFIX, options={"HIDDEN"})
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         body = context.active_object
         if body is None or body.type != "MESH" or not body.vertex_groups:
             return "Choose a mesh with a vertex group first, such as one that was painted with weights"

@@ -31,7 +31,7 @@ class BDA_OT_start_search(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if session.search_at_work():
             return "A search is at work already"
         return None if context.scene.bda.search_directory else "Choose a folder for the search first"
@@ -51,7 +51,7 @@ class BDA_OT_stop_search(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         return None if session.search_at_work() else "No search is at work"
 
     def act(self, _context: bpy.types.Context) -> str:
@@ -68,7 +68,7 @@ class BDA_OT_open_search_curve(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         return None if session.found_by_search() else "No search has ended yet"
 
     def act(self, _context: bpy.types.Context) -> None:

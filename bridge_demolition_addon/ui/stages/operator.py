@@ -14,10 +14,10 @@ from ...model.stages.standing import StandingBridge
 from ...model.stages.tables import stage_row, write_tables
 from ...simulation.blender_events import contours_of
 from ...system.disk import writing
-from ..long_action import LongAction, Work
+from ..modal_task import ModalTask, Work
 from ..operators import Action, absolute, no_world
 from ..scenario.values import scenario_of
-from ..turns import Turns
+from ..stepped_thread import SteppedThread
 from .checked import CheckedStages, checked_in, keep
 
 _STAGES, _MEMBERS = "stages", "without each member"
@@ -25,7 +25,7 @@ _SHARES = {_STAGES: (0.0, 0.83), _MEMBERS: (0.83, 1.0)}
 """Parts of the time that both take, measured with the example of four stages and ten members."""
 
 
-class BDA_OT_check_stages(LongAction, bpy.types.Operator):
+class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
     """Work out how the bridge in the panels stands before each step and after the last; Esc stops"""
 
     bl_idname = "bda.check_stages"
@@ -41,14 +41,14 @@ class BDA_OT_check_stages(LongAction, bpy.types.Operator):
         scenario, scene = scenario_of(settings), context.scene.session_uid
         folder = absolute(settings.stages_directory) if settings.stages_directory else None
 
-        def check(turns: Turns) -> str:
-            turns.stage("cutting the bridge")
+        def check(thread: SteppedThread) -> str:
+            thread.stage("cutting the bridge")
             model = checked_model(made_elastic(scenario))
-            bridge = StandingBridge(model, scenario.joints, lambda: turns.part(turns.done, turns.total))
-            turns.stage(_STAGES)
-            stages = stages_of(scenario, bridge, turns.part)
-            turns.stage(_MEMBERS)
-            members = criticality(bridge, turns.part)
+            bridge = StandingBridge(model, scenario.joints, lambda: thread.part(thread.done, thread.total))
+            thread.stage(_STAGES)
+            stages = stages_of(scenario, bridge, thread.part)
+            thread.stage(_MEMBERS)
+            members = criticality(bridge, thread.part)
             if folder is None:
                 rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
             else:
@@ -61,9 +61,9 @@ class BDA_OT_check_stages(LongAction, bpy.types.Operator):
 
         return check
 
-    def share_of(self, turns: Turns) -> float:
-        begun, ended = _SHARES.get(turns.stage_text, (0.0, 0.0))
-        return begun + (ended - begun) * super().share_of(turns)
+    def share_of(self, thread: SteppedThread) -> float:
+        begun, ended = _SHARES.get(thread.stage_text, (0.0, 0.0))
+        return begun + (ended - begun) * super().share_of(thread)
 
     def act(self, context: bpy.types.Context) -> str | None:
         done = super().act(context)
@@ -84,7 +84,7 @@ class BDA_OT_show_utilisation(Action, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return no_world(context) or (None if checked_in(context.scene) else "Check the stages first")
 
     def act(self, context: bpy.types.Context) -> None:

@@ -6,8 +6,8 @@ import math
 
 import bpy
 
-from ..course import draw_course, going_on
 from ..sidebar import SidebarPanel, draw_sentence
+from ..task_progress import draw_task_progress, going_on
 from .checked import checked_in
 from .operator import BDA_OT_check_stages
 
@@ -22,8 +22,8 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
         layout, settings = self.layout, context.scene.bda
         layout.prop(settings, "stages_directory", text="", placeholder="Folder for tables")
         layout.operator("bda.check_stages")
-        if (course := going_on()) and course.what == BDA_OT_check_stages.what:
-            draw_course(layout, context, course)
+        if (progress := going_on()) and progress.what == BDA_OT_check_stages.what:
+            draw_task_progress(layout, context, progress)
         found = checked_in(context.scene)
         if found is None:
             return

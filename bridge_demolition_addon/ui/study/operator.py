@@ -25,7 +25,7 @@ class BDA_OT_load_study(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         return None if context.scene.bda.study_path else "Choose a study file first"
 
     def act(self, context: bpy.types.Context) -> str:
@@ -44,7 +44,7 @@ class BDA_OT_start_study(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if session.study_at_work():
             return "A study is at work already"
         return None if context.scene.bda.study_directory else "Choose a folder for the study first"
@@ -64,7 +64,7 @@ class BDA_OT_pause_study(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         at_work = session.study_at_work()
         if at_work is None:
             return "No study is at work"
@@ -82,7 +82,7 @@ class BDA_OT_resume_study(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         at_work = session.study_at_work()
         return None if at_work and at_work.run.is_paused else "No study is paused"
 
@@ -98,7 +98,7 @@ class BDA_OT_stop_study(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, _context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         return None if session.study_at_work() else "No study is at work"
 
     def act(self, _context: bpy.types.Context) -> str:
@@ -115,7 +115,7 @@ class BDA_OT_show_study(Action, bpy.types.Operator):
     changes_scene = False
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if session.study_at_work():
             return "The study is shown once it ends or is stopped"
         return None if context.scene.bda.study_directory else "Choose the folder of a study first"
@@ -134,10 +134,10 @@ class BDA_OT_open_worst_draw(Action, bpy.types.Operator):
     changes_objects = True
 
     @classmethod
-    def why_not(cls, context: bpy.types.Context) -> str | None:
+    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if not session.shown_study():
             return "Show a study first"
-        return BDA_OT_build_anew.why_not(context) if context.scene.rigidbody_world else None
+        return BDA_OT_build_anew.disabled_reason(context) if context.scene.rigidbody_world else None
 
     def act(self, context: bpy.types.Context) -> str:
         runs, settings = session.shown_study().runs, context.scene.bda

@@ -43,14 +43,14 @@ def test_a_run_that_cannot_be_read_is_told_and_nothing_is_written(shown):
 
 
 def test_without_a_run_it_is_greyed_with_the_reason(extension):
-    assert BDA_OT_export_run.why_not(extension.context) == "Nothing was recorded yet: run the scene first"
+    assert BDA_OT_export_run.disabled_reason(extension.context) == "Nothing was recorded yet: run the scene first"
 
 
 def test_a_run_that_is_gone_is_named(shown):
     bpy, folder = shown
     session.unregister()  # as after Blender was closed
     shutil.rmtree(folder)
-    assert "holds the results of this scene's run no more" in BDA_OT_export_run.why_not(bpy.context)
+    assert "holds the results of this scene's run no more" in BDA_OT_export_run.disabled_reason(bpy.context)
 
 
 def test_names_are_those_of_the_format(tmp_path):

@@ -12,7 +12,7 @@ from .sidebar import draw_sentence, redraw_sidebars
 
 
 @dataclass(slots=True)
-class Course:
+class TaskProgress:
     """How far some work is.
 
     Attributes
@@ -63,24 +63,24 @@ class Course:
             self.left_s = (time.perf_counter() - self._began_s) * (1.0 - share) / share
 
 
-_going_on: list[Course] = []
+_going_on: list[TaskProgress] = []
 """One at most: whoever begins another has ended the one before."""
 
 
-def begin(context: bpy.types.Context, what: str, unit: str, total: int) -> Course:
+def begin(context: bpy.types.Context, what: str, unit: str, total: int) -> TaskProgress:
     """Show from now on how far some work is."""
     end(context)
-    _going_on[:] = [Course(what, unit, total)]
+    _going_on[:] = [TaskProgress(what, unit, total)]
     context.window_manager.progress_begin(0, 1000)
     return _going_on[0]
 
 
 def show(context: bpy.types.Context) -> None:
     """Show how far it is now."""
-    course = going_on()
-    context.window_manager.progress_update(round(1000 * course.share))
+    progress = going_on()
+    context.window_manager.progress_update(round(1000 * progress.share))
     if context.workspace:
-        context.workspace.status_text_set(" | ".join(course.lines))
+        context.workspace.status_text_set(" | ".join(progress.lines))
     redraw_sidebars(context)
 
 
@@ -95,14 +95,14 @@ def end(context: bpy.types.Context) -> None:
     redraw_sidebars(context)
 
 
-def going_on() -> Course | None:
+def going_on() -> TaskProgress | None:
     """Return the work that goes on, None where none does."""
     return _going_on[0] if _going_on else None
 
 
-def draw_course(layout: bpy.types.UILayout, context: bpy.types.Context, course: Course) -> None:
+def draw_task_progress(layout: bpy.types.UILayout, context: bpy.types.Context, progress: TaskProgress) -> None:
     """Draw how far some work is."""
-    first, *others = course.lines
-    layout.progress(factor=min(course.share, 1.0), text=first)
+    first, *others = progress.lines
+    layout.progress(factor=min(progress.share, 1.0), text=first)
     for line in others:
         draw_sentence(layout, context, line, icon="NONE")

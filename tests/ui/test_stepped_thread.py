@@ -6,7 +6,7 @@ import threading
 import pytest
 
 from bridge_demolition_addon.errors import OutputError
-from bridge_demolition_addon.ui.turns import Turns
+from bridge_demolition_addon.ui.stepped_thread import SteppedThread
 
 PARTS = 4
 
@@ -19,7 +19,7 @@ def counted(turns):
 
 
 def test_it_goes_on_from_part_to_part_and_gives_what_comes_of_it():
-    turns, seen = Turns(counted), []
+    turns, seen = SteppedThread(counted), []
     while not turns.is_finished:
         turns.step()
         seen.append((turns.stage_text, turns.done))
@@ -38,7 +38,7 @@ def test_it_never_works_while_it_is_not_its_turn():
             at_work.pop()
             turns.part(number, 1000)
 
-    turns = Turns(work)
+    turns = SteppedThread(work)
     for _ in range(500):
         turns.step()
         assert at_work == []
@@ -58,7 +58,7 @@ def test_stopping_ends_it_where_it_is_and_its_files_are_closed(tmp_path):
             ended.append("cleaned up")
 
     before = threading.active_count()
-    turns = Turns(work)
+    turns = SteppedThread(work)
     turns.step()
     turns.stop()
     turns._thread.join(10.0)
@@ -66,7 +66,7 @@ def test_stopping_ends_it_where_it_is_and_its_files_are_closed(tmp_path):
 
 
 def test_stopping_before_it_began_starts_nothing():
-    turns = Turns(lambda _turns: pytest.fail("it ran"))
+    turns = SteppedThread(lambda _turns: pytest.fail("it ran"))
     turns.stop()
     assert turns.is_finished and turns.outcome() is None
 
@@ -76,7 +76,7 @@ def test_an_error_is_raised_where_the_outcome_is_asked_for():
         turns.stage("writing")
         raise OutputError("the disk is full")
 
-    turns = Turns(work)
+    turns = SteppedThread(work)
     while not turns.is_finished:
         turns.step()
     with pytest.raises(OutputError, match="the disk is full"):

@@ -8,9 +8,9 @@ from pathlib import Path
 import bpy
 
 from ..errors import DemolitionError
-from . import course, messages
-from .operators import Action, Refusing, refused
-from .turns import Turns
+from . import messages, task_progress
+from .operators import Action, GuardedOperator, refused
+from .stepped_thread import SteppedThread
 
 _TICK_S = 0.005
 LOOKING_ROUND = {
@@ -23,50 +23,50 @@ LOOKING_ROUND = {
 }
 """Events that Blender still gets while something goes on; all others would change what it works on."""
 
-Work = Callable[[Turns], str | None]
+Work = Callable[[SteppedThread], str | None]
 """Does the work, which needs no Blender, and returns a sentence on what was done."""
 
 
-class LongAction(Action):
+class ModalTask(Action):
     """Base of operators that go on beside the window; from a script they work in one go.
 
     Attributes
     ----------
     what, unit
-        What is done, and what its parts are, as the course says it.
+        What is done, and what its parts are, as its progress says it.
     """
 
     what: str
     unit: str
-    _turns: Turns
+    _thread: SteppedThread
     _timer: bpy.types.Timer | None = None
 
     def work(self, context: bpy.types.Context) -> Work:
         """Look up in Blender all that the work needs, and return it."""
         raise NotImplementedError
 
-    def share_of(self, turns: Turns) -> float:
+    def share_of(self, thread: SteppedThread) -> float:
         """Return how much of the work is done."""
-        return turns.done / turns.total if turns.total else 0.0
+        return thread.done / thread.total if thread.total else 0.0
 
     def act(self, context: bpy.types.Context) -> str | None:
-        turns = Turns(self.work(context))
-        while not turns.is_finished:
-            turns.step()
-        return turns.outcome()
+        thread = SteppedThread(self.work(context))
+        while not thread.is_finished:
+            thread.step()
+        return thread.outcome()
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         messages.clear(self)
         if reason := _what_goes_on():
             return refused(self, DemolitionError(reason))
         try:
-            self._turns = Turns(self.work(context))
+            self._thread = SteppedThread(self.work(context))
         except (DemolitionError, OSError) as error:
             return refused(self, error)
         manager = context.window_manager
         self._timer = manager.event_timer_add(_TICK_S, window=context.window)
         manager.modal_handler_add(self)
-        course.begin(context, self.what, self.unit, 1)
+        task_progress.begin(context, self.what, self.unit, 1)
         _at_work[:] = [self]
         return {"RUNNING_MODAL"}
 
@@ -79,8 +79,8 @@ class LongAction(Action):
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"} if event.type in LOOKING_ROUND else {"RUNNING_MODAL"}
-        self._turns.step()
-        if self._turns.is_finished:
+        self._thread.step()
+        if self._thread.is_finished:
             return self._finish(context)
         self._show(context)
         return {"RUNNING_MODAL"}
@@ -91,33 +91,33 @@ class LongAction(Action):
 
     def stop(self, context: bpy.types.Context) -> None:
         """End the work where it is."""
-        self._turns.stop()
+        self._thread.stop()
         self._take_back(context)
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         self._take_back(context)
         try:
-            if done := self._turns.outcome():
+            if done := self._thread.outcome():
                 self.report({"INFO"}, done)
         except (DemolitionError, OSError) as error:
             return refused(self, error)
         return {"FINISHED"}
 
     def _show(self, context: bpy.types.Context) -> None:
-        going_on, turns = course.going_on(), self._turns
-        going_on.total, going_on.note = max(turns.total, 1), turns.stage_text
-        going_on.reach(self.share_of(turns))
-        course.show(context)
+        going_on, thread = task_progress.going_on(), self._thread
+        going_on.total, going_on.note = max(thread.total, 1), thread.stage_text
+        going_on.reach(self.share_of(thread))
+        task_progress.show(context)
 
     def _take_back(self, context: bpy.types.Context) -> None:
         _at_work.clear()
         if self._timer:
             context.window_manager.event_timer_remove(self._timer)
             self._timer = None
-        course.end(context)
+        task_progress.end(context)
 
 
-class RenderingAction(Refusing):
+class RenderingTask(GuardedOperator):
     """Base of operators that render pictures, between which Blender draws its window; from a script in one go."""
 
     _pictures: Iterator[Path]
@@ -155,8 +155,8 @@ class RenderingAction(Refusing):
         except (DemolitionError, OSError) as error:
             return refused(self, error)
         manager = context.window_manager
-        self._course = course.begin(context, "Rendering", "pictures", self._total)
-        course.show(context)
+        self._progress = task_progress.begin(context, "Rendering", "pictures", self._total)
+        task_progress.show(context)
         self._timer = manager.event_timer_add(_TICK_S, window=context.window)
         manager.modal_handler_add(self)
         _at_work[:] = [self]
@@ -167,15 +167,15 @@ class RenderingAction(Refusing):
             return {"CANCELLED"}
         if event.type == "ESC":
             self.stop(context)
-            done = round(self._course.share * self._total)
+            done = round(self._progress.share * self._total)
             messages.tell(self, "WARNING", f"Stopped after {done} of {self._total} pictures")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         try:
             if next(self._pictures, None) is not None:
-                self._course.step()
-                course.show(context)
+                self._progress.step()
+                task_progress.show(context)
                 return {"RUNNING_MODAL"}
             self.stop(context)
             return self.finish()
@@ -192,16 +192,16 @@ class RenderingAction(Refusing):
         _at_work.clear()
         self._pictures.close()
         context.window_manager.event_timer_remove(self._timer)
-        course.end(context)
+        task_progress.end(context)
 
 
 def _what_goes_on() -> str:
     """Return in a sentence what else goes on and has to end first; empty where nothing does."""
-    going_on = course.going_on()
+    going_on = task_progress.going_on()
     return f"{going_on.what} goes on: wait for it, or stop it with Esc" if going_on else ""
 
 
-_at_work: list[LongAction | RenderingAction] = []
+_at_work: list[ModalTask | RenderingTask] = []
 """The one that goes on, if any does."""
 
 

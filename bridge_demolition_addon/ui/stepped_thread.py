@@ -1,4 +1,4 @@
-"""Work of some seconds that does not need Blender, beside Blender's window: both take turns, and never work at once."""
+"""Work of some seconds that needs no Blender, in steps: Blender and the work take turns, never both at once."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ class _StoppedError(BaseException):
     """Ends the work from within; no `except Exception` keeps it going."""
 
 
-class Turns:
+class SteppedThread:
     """Work in a thread of its own, which goes on from one of its parts to the next only when it is its turn.
 
     Blender waits meanwhile, so it is as if it did the work itself, but gets round to mouse and keyboard in between.
@@ -29,7 +29,7 @@ class Turns:
         Whether the work has ended, in whatever way.
     """
 
-    def __init__(self, work: Callable[[Turns], Any]):
+    def __init__(self, work: Callable[[SteppedThread], Any]):
         self.done, self.total, self.stage_text = 0, 0, ""
         self.is_finished = False
         self._work = work
