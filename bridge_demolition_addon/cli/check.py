@@ -23,7 +23,7 @@ from ..model.stages.made_elastic import made_elastic
 from ..model.structure.equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
 from ..model.structure.face_bars import layers_of_members
 from ..model.structure.model import Model
-from ..model.terrain.built import BuiltGround, told
+from ..model.terrain.built import BuiltGround, terrain_summary
 from .arguments import naming
 
 MOST_FIELDS = 300
@@ -71,7 +71,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield from _section("Time", _time_facts(scenario))
     model = checked_model(scenario, prepared.members)
     if not model.ground.is_plain:
-        yield from _section("Ground", _ground_facts(model.ground))
+        yield from _section("Ground", _terrain_facts(model.ground))
     yield from _section("Shards and connections", _connection_facts(scenario, model))
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
@@ -80,7 +80,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("At rest", _rest_facts(scenario, model))
     yield from _section("Overlap at the start", _overlap_facts(model))
     if scenario.ground_motion:
-        yield from _section("Ground motion", _ground_facts(scenario))
+        yield from _section("Ground motion", _shaking_facts(scenario))
     if model.soil:
         yield from _section("Foundations", _foundation_facts(scenario, model))
     if scenario.ball:
@@ -108,13 +108,13 @@ def _bridge_facts(bridge: Bridge, *, is_flat: bool) -> Iterator[tuple[str, str]]
     yield "deck top above ground" if is_flat else "height of deck top", f"{deck_top(bridge):.2f} m"
 
 
-def _ground_facts(ground: BuiltGround) -> Iterator[tuple[str, str]]:
-    """Yield what the terrain became, and what lies on it."""
+def _terrain_facts(ground: BuiltGround) -> Iterator[tuple[str, str]]:
+    """Yield how the terrain was made, and what lies on it."""
     if ground.facts:
-        yield from told(ground.facts)
+        yield from terrain_summary(ground.facts)
     recorded = ground.recorded()
-    for each in recorded.surfaces:
-        yield each.name, f"{each.kind}, {recorded.shown(each).area():.1f} m² in plan"
+    for surface in recorded.surfaces:
+        yield surface.name, f"{surface.kind}, {recorded.shown(surface).area():.1f} m² in plan"
 
 
 def _member_facts(members: Sequence[Member]) -> Iterator[tuple[str, str]]:
@@ -220,7 +220,7 @@ def _rest_facts(scenario: Scenario, model: Model) -> Iterator[tuple[str, str]]:
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
 
 
-def _ground_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
+def _shaking_facts(scenario: Scenario) -> Iterator[tuple[str, str]]:
     """Yield how the ground shakes."""
     record, start_s = scenario.ground_record, scenario.ground_motion.start_s
     yield "from, to", f"{start_s:g} s, {start_s + record.duration_s:g} s, of {scenario.time.duration_s:g} s"

@@ -16,7 +16,7 @@ from ..model.results.summary import first_hit_s
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.undisturbed import told_fall
+from ..model.sequence.undisturbed import self_collapse_text
 from ..model.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
 from ..system.signals import interrupted_afterwards
@@ -183,7 +183,7 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
 
 def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path]) -> None:
     print()
-    if fall := told_fall(summary):
+    if fall := self_collapse_text(summary):
         print(f"{fall}.\n")
     for name, value in _result_facts(summary):
         print(f"{name:<24}{value}")

@@ -32,7 +32,7 @@ from ..model.results.removed_shards import without_removed
 from ..model.results.summary import first_hit_s, hits_of_balls, impact_of
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
-from ..model.sequence.undisturbed import told_fall
+from ..model.sequence.undisturbed import self_collapse_text
 from ..system.folder_lock import LOCK_FILE, writer_in
 from ..system.reading import MEGABYTE, check_file, file_text
 
@@ -149,7 +149,7 @@ def read_run(folder: Path) -> Run:
     summary = _summary(folder, shortcomings)
     if summary and not summary.get("completed", True):
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
-    if summary and (fall := told_fall(summary)):
+    if summary and (fall := self_collapse_text(summary)):
         shortcomings.append(f"{fall}.")
     if summary and (by_hand := summary.get("made_by_hand")):
         shortcomings.append(

@@ -11,7 +11,7 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.terrain.levelling import Levelled
 from bridge_demolition_addon.engineering.terrain.recorded import NamedSurface, RecordedGround
 from bridge_demolition_addon.engineering.terrain.surface import Surface
-from bridge_demolition_addon.model.terrain.built import TerrainFacts, facts_from, told
+from bridge_demolition_addon.model.terrain.built import TerrainFacts, facts_from, terrain_summary
 
 CORNERS = np.array([[-100, -100, 60], [100, -100, -40], [100, 100, -40], [-100, 100, 60]], float)
 TWO = np.array([[0, 1, 2], [0, 2, 3]])
@@ -51,10 +51,10 @@ def test_surfaces_are_outlined_and_named():
     assert [each.get_text() for each in axes.texts if "river" in each.get_text()] == [r"river <1> \$2\$"]
 
 
-def test_what_became_of_the_file_is_told_again_from_a_summary():
+def test_a_summary_describes_the_terrain_again():
     pier = Levelled("pier 1", 0.25, 0.125)
     facts = TerrainFacts("dtm.tif", 3000, 900, 0.4, 0.04, (3.0, -7.5), 0.02, -4.5, 6.25, 0.031, (pier,))
-    words = dict(told(facts))
+    words = dict(terrain_summary(facts))
     assert words["error"] == "0.040 m at most, near (3.0, -7.5) m; 95 % of the heights within 0.020 m"
     assert words["without data"].startswith("3.1 % of the site")
     assert words["under pier 1"] == "dug up to 0.25 m, filled up to 0.12 m"

@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from places import I235_FILE, SMALL
 from processes import run_bda, run_program
 from scenarios import I235
+from terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
 
 from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_facts
 from bridge_demolition_addon.cli.main import main
@@ -268,3 +270,34 @@ def test_help_is_no_failure(capsys):
     assert "check" in capsys.readouterr().out
     assert main(["run", "--help"]) == 0
     assert "--no-pictures" in capsys.readouterr().out
+
+
+def test_terrain_is_described_with_its_error_and_what_lies_on_it(tmp_path, capsys):
+    """docs/ground.md: where it has no data, where the largest error is, how far it is levelled, what lies on it."""
+
+    def with_a_gap(x, y):
+        return np.where(x + y < EASTING + NORTHING + 20.0, np.nan, plane(x, y))
+
+    write_asc(tmp_path / "site.asc", with_a_gap)
+    ground = (
+        f'\n[ground]\nfile = "site.asc"\norigin = [{EASTING + 50.0}, {NORTHING + 50.0}, {HEIGHT + 12.5}]\n'
+        '\n[[ground.surfaces]]\nname = "road"\nkind = "carriageway"\nheight_m = 3.0\n'
+        "corners_m = [[8.0, 8.0], [12.0, 8.0], [12.0, 18.0]]\n"
+    )
+    path = tmp_path / "bridge.toml"
+    path.write_text(I235_FILE.read_text(encoding="utf-8") + ground, encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert any(line.startswith("  height of deck top") for line in lines)
+    start = lines.index("Ground") + 1
+    section = {line[2:26].strip(): line[26:] for line in lines[start : lines.index("", start)]}
+    assert section["from"].startswith("site.asc, ") and section["from"].endswith(" heights on the site")
+    assert "triangles" in section["made"] and section["heights"].startswith("from ")
+    assert " m at most, near (" in section["error"] and "95 % of the heights within" in section["error"]
+    assert section["without data"].endswith("% of the site: level on from the nearest height")
+    columns = [name for name in section if name.startswith("under pier")]
+    assert len(columns) == 4
+    for name in columns:  # 0.7 m by 0.7 m on a slope of 1 in 5 and 1 in 20: ± 0.0875 m, and a cell beside
+        assert section[name].startswith("dug up to ") and 0.08 < float(section[name].split()[3]) < 0.4
+    # A triangle of 20 m², less the one with corners (12, 12), (12, 18) and (11.08, 15.69) where the ground is higher.
+    assert section["road"] == "carriageway, 17.2 m² in plan"

@@ -64,7 +64,7 @@ def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | Non
     }
 
 
-def told_fall(summary: Mapping[str, Any]) -> str:
+def self_collapse_text(summary: Mapping[str, Any]) -> str:
     """Return what a summary says under ``fell_by_itself``, as a sentence without a full stop; empty for nothing."""
     fall = summary.get("fell_by_itself")
     if not fall:

@@ -226,8 +226,8 @@ def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
     )
 
 
-def told(facts: TerrainFacts) -> list[tuple[str, str]]:
-    """Return what became of the file, as names and sentences."""
+def terrain_summary(facts: TerrainFacts) -> list[tuple[str, str]]:
+    """Return labels and texts: where the heights come from, the triangles made of them, and the error."""
     x, y = facts.error_place_m
     lines = [
         ("from", f"{facts.name}, {facts.heights} heights on the site"),

@@ -19,7 +19,7 @@ from ...model.results.motion import MOVED_M
 from ...model.results.removed_shards import without_removed
 from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
-from ...model.terrain.built import facts_from, told
+from ...model.terrain.built import facts_from, terrain_summary
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import Run
 
@@ -160,7 +160,7 @@ def terrain_section(run: Run) -> Section | None:
     under, ground = bodies_under_ground(results), results.ground()
     blocks: list[Block] = []
     if run.summary and run.summary.get("terrain"):
-        blocks.append(facts("Ground", told(facts_from(run.summary["terrain"])), "terrain"))
+        blocks.append(facts("Ground", terrain_summary(facts_from(run.summary["terrain"])), "terrain"))
     if ground.surfaces:
         rows = [(each.name, f"{each.kind}, {ground.shown(each).area():.1f} m² in plan") for each in ground.surfaces]
         blocks.append(facts("Surfaces on the ground", rows, "surfaces"))

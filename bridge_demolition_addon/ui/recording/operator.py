@@ -13,7 +13,7 @@ from ...model.results.files import SCENARIO_FILE
 from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
 from ...model.sequence.rest import Rest
-from ...model.sequence.undisturbed import told_fall
+from ...model.sequence.undisturbed import self_collapse_text
 from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...scene.world import start_over
@@ -188,7 +188,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         messages.tell(operator, "WARNING", f"The recording ended early: {recording.error}")
     elif stopped:
         messages.tell(operator, "WARNING", stopped)
-    if fall := told_fall(session.last_recording().summary):
+    if fall := self_collapse_text(session.last_recording().summary):
         messages.tell(operator, "WARNING", fall)
     if by_hand := _contexts[recording].made_by_hand:
         messages.tell(

@@ -14,7 +14,7 @@ from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.checks import checked_summary
 from ...model.results.files import SUMMARY_FILE
-from ...model.sequence.undisturbed import told_fall
+from ...model.sequence.undisturbed import self_collapse_text
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ...system.reading import MEGABYTE, file_text
 from ..recording.session import LastRecording, last_recording
@@ -81,7 +81,7 @@ class ShownRun:
                 folder=folder,
                 title=str(summary["title"]),
                 summary=summary,
-                fall=told_fall(summary),
+                fall=self_collapse_text(summary),
                 lines=tuple(lines_of(summary)),
                 peak_force=force and Place(f"{force['force_N'] / _N_PER_KN:,.0f} kN", force["body"], force["frame"]),
                 largest_throw=throw and Place(f"{throw['throw_m']:.2f} m", throw["body"], last_frame),
