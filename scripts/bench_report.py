@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from run_folders import TOLD, flying_shards, keep_run
+from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.report.write import write_report

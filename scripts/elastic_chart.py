@@ -39,7 +39,7 @@ def main(arguments: list[str]) -> int:
 def measured(iterations: int, stiffness: str) -> tuple[float, float]:
     """Return sag and moment at the end of the beam, over those of theory."""
     import bpy
-    from blocks import Blocks
+    from support.blocks import Blocks
 
     from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
     from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2

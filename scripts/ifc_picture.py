@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw docs/pictures/ifc_two_spans.jpg: the bridge of tests/ifc_bridges.py, imported from IFC and hit by a ball."""
+"""Draw docs/pictures/ifc_two_spans.jpg: the bridge of tests/support/ifc_bridges.py, read from IFC and hit by a ball."""
 
 import subprocess
 import sys
@@ -34,7 +34,7 @@ release_time_s = 0.2
 def main() -> None:
     """Write the bridge as IFC, import and run it, and put its pictures side by side."""
     sys.path.insert(0, str(ROOT / "tests"))
-    from ifc_bridges import whole_bridge
+    from support.ifc_bridges import whole_bridge
 
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

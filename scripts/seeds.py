@@ -2,7 +2,7 @@
 """Run examples with many seeds of their fracture, and print the range and the median of what is measured.
 
 A demolition is chaotic: another draw of shards breaks and throws differently. What is claimed of an example has to hold
-for any draw, and its limits come from here. What is measured stands in `tests/example_measures.py`.
+for any draw, and its limits come from here. What is measured stands in `tests/support/example_measures.py`.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 
 def main() -> int:
@@ -73,8 +73,8 @@ def measured(
 
 def print_measured(name: str, seed: int, duration_s: float | None) -> None:
     """Run an example with a seed in this process, print what was measured, and end the process."""
-    from example_measures import measures_of
-    from example_runs import example, run_example
+    from support.example_measures import measures_of
+    from support.example_runs import example, run_example
 
     with tempfile.TemporaryDirectory() as folder:
         run = run_example(replace(example(name, duration_s), seed=seed), Path(folder))

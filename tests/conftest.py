@@ -14,7 +14,7 @@ import bridge_demolition_addon
 from bridge_demolition_addon.cli.process_end import end_process
 
 # Asserts that stand outside of test files say what they compared, too.
-pytest.register_assert_rewrite("falling_pair")
+pytest.register_assert_rewrite("support.falling_pair", "support.example_claims")
 
 _session = pytest.StashKey[pytest.Session]()
 _user_folder = pytest.StashKey[str]()

@@ -6,8 +6,8 @@ import sys
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
-from places import ROOT
+from support.checkout import ROOT
+from support.moving_boxes import moving_boxes
 
 sys.path.insert(1, str(ROOT / "validation"))
 

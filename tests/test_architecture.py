@@ -10,7 +10,7 @@ from itertools import chain
 from xml.etree import ElementTree
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts"))
 

@@ -1,7 +1,7 @@
 """Engineering, model and system work where Blender is not installed."""
 
-from places import ROOT
-from processes import run_program
+from support.checkout import ROOT
+from support.processes import run_program
 
 
 def module_names():

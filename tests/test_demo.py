@@ -4,7 +4,7 @@
 import subprocess
 import sys
 
-from places import ROOT
+from support.checkout import ROOT
 
 
 def test_it_runs_the_example_into_the_folder_that_is_named(tmp_path):

@@ -4,7 +4,7 @@ import re
 from collections import Counter
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
 

@@ -6,8 +6,8 @@ import tomllib
 from operator import attrgetter
 
 import pytest
-from places import ROOT
-from scenarios import I235
+from support.checkout import ROOT
+from support.scenarios import I235
 
 TEXT = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
 
@@ -209,7 +209,7 @@ def test_every_option_of_a_command_is_one(capsys):
 
 
 def test_a_force_object_is_as_the_table_says(extension):
-    from blocks import Blocks
+    from support.blocks import Blocks
 
     from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, SHARE_OF_WAY, WIDEST_M
     from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects

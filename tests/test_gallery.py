@@ -4,7 +4,7 @@
 import sys
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts"))
 

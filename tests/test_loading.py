@@ -1,7 +1,7 @@
 """What loading the command line and the extension brings along, and what has to wait until it is needed."""
 
 import pytest
-from processes import run_program
+from support.processes import run_program
 
 
 @pytest.mark.parametrize(("loading", "brought"), [("command line", []), ("extension", ["bpy"])])

@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 import bridge_demolition_addon
 from bridge_demolition_addon.errors import DemolitionError

@@ -6,8 +6,8 @@ import sys
 
 import numpy as np
 import pytest
-from example_claims import beyond_claims
-from places import EXAMPLES, ROOT
+from support.checkout import EXAMPLES, ROOT
+from support.example_claims import beyond_claims
 
 sys.path.insert(0, str(ROOT / "scripts"))
 

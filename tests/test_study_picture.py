@@ -5,7 +5,7 @@ import json
 import sys
 
 import pytest
-from places import EXAMPLES, ROOT
+from support.checkout import EXAMPLES, ROOT
 
 sys.path.insert(0, str(ROOT / "scripts"))
 

@@ -3,7 +3,7 @@
 import sys
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts"))
 sys.path.insert(1, str(ROOT / "validation"))

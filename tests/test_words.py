@@ -9,7 +9,7 @@ import tomllib
 from functools import cache
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 PACKAGE = ROOT / "bridge_demolition_addon"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -1,7 +1,7 @@
 """What becomes of the bodies of a connection that breaks."""
 
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 WEAK_N = 1.0
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import bpy
 import pytest
-from blast_scenes import weightless
+from support.blast_scenes import weightless
 
 from bridge_demolition_addon.bullet import field_filter
 from bridge_demolition_addon.bullet.field_filter import ignore_fields, let_fields_act

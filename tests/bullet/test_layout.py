@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet.layout import platform_layout
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState

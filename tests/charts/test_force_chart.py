@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
+from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.charts.force_chart import plot_forces
 from bridge_demolition_addon.model.results.frames import FrameSeries

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import I235_FILE, SMALL
-from processes import run_bda, run_program
-from scenarios import I235
-from terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
+from support.checkout import I235_FILE, SMALL
+from support.processes import run_bda, run_program
+from support.scenarios import I235
+from support.terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
 
 from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_facts
 from bridge_demolition_addon.cli.main import main

@@ -4,9 +4,9 @@
 import signal
 
 import pytest
-from exported_runs import kept_turning_run, turning_run
-from processes import run_program
-from run_folders import killed_run, stream_run
+from support.exported_runs import kept_turning_run, turning_run
+from support.processes import run_program
+from support.run_folders import killed_run, stream_run
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.cli.progress import Silence

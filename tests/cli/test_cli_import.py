@@ -4,7 +4,7 @@
 import csv
 
 import pytest
-from ifc_bridges import MASS_KG, SCHEMAS, whole_bridge
+from support.ifc_bridges import MASS_KG, SCHEMAS, whole_bridge
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.bridge.preparation import prepared_members

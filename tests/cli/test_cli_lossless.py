@@ -12,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from processes import TIMEOUT_S, outcome, run_bda, start_bda
-from scenarios import SHORT_RUN
+from support.processes import TIMEOUT_S, outcome, run_bda, start_bda
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE

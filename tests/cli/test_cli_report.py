@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 import pytest
-from processes import run_bda, run_program
-from run_folders import TOLD, flying_shards, keep_run, killed_run
-from scenarios import I235, SHORT_RUN
+from support.processes import run_bda, run_program
+from support.run_folders import TOLD, flying_shards, keep_run, killed_run
+from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario import Exclusion

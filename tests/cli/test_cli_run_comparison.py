@@ -6,8 +6,8 @@ import time
 from dataclasses import replace
 
 import pytest
-from processes import outcome, run_bda, start_bda
-from scenarios import SHORT_RUN
+from support.processes import outcome, run_bda, start_bda
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text

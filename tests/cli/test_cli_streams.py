@@ -7,9 +7,9 @@ import sys
 from dataclasses import replace
 
 import pytest
-from places import I235_FILE, ROOT
-from processes import TIMEOUT_S, outcome, run_program, start_bda
-from scenarios import I235, SHORT_RUN
+from support.checkout import I235_FILE, ROOT
+from support.processes import TIMEOUT_S, outcome, run_program, start_bda
+from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.model.scenario.file import scenario_text
 

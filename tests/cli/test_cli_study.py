@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pandas
 import pytest
-from processes import run_bda, run_program
-from scenarios import SHORT_RUN
-from study_files import study_file, tables_in
+from support.processes import run_bda, run_program
+from support.scenarios import SHORT_RUN
+from support.study_files import study_file, tables_in
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.study.draws import draw_of

@@ -4,8 +4,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from processes import run_bda
-from scenarios import I235
+from support.processes import run_bda
+from support.scenarios import I235
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario.file import scenario_text

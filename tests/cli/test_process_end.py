@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of the command line: at once, with its status, and without a word of Blender's clean-up."""
 
-from processes import run_program
+from support.processes import run_program
 
 
 def test_neither_python_nor_blender_cleans_up():

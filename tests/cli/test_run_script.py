@@ -9,8 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from places import ROOT
-from scenarios import SHORT_RUN
+from support.checkout import ROOT
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario.file import scenario_text
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.display.bridge_preview import ball_lines, bridge_edges, outline, sharp_edges
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh

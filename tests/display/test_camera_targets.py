@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from example_runs import example
+from support.example_runs import example
 
 from bridge_demolition_addon.display.camera_targets import points_to_see
 from bridge_demolition_addon.model.structure.model import build_model

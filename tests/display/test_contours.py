@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sample_results import FRAME_S, POINTS, G, hanging_chain
+from support.sample_results import FRAME_S, POINTS, G, hanging_chain
 
 from bridge_demolition_addon.display.colour_bar import colour_bar
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from manifold3d import CrossSection
-from sample_results import changed, hanging_chain
+from support.sample_results import changed, hanging_chain
 
 from bridge_demolition_addon.display.dust import puffs
 from bridge_demolition_addon.display.ground_lines import (

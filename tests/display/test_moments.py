@@ -1,6 +1,6 @@
 """Moments of the chain whose every number is known by hand."""
 
-from sample_results import FRAME_S, GRAVITY, hanging_chain
+from support.sample_results import FRAME_S, GRAVITY, hanging_chain
 
 from bridge_demolition_addon.display.moments import moments
 

@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 import pytest
-from places import EXAMPLES, ROOT
-from processes import run_program
+from support.checkout import EXAMPLES, ROOT
+from support.processes import run_program
 
 PACKAGE = ROOT / "bridge_demolition_addon"
 ENGINEERING, MODEL = PACKAGE / "engineering", PACKAGE / "model"

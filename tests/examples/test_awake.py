@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from example_claims import assert_claims
-from example_runs import example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import example, run_example
 
 
 @pytest.fixture(scope="module")

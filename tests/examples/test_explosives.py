@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from example_claims import assert_claims
-from example_runs import example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import example, run_example
 
 from bridge_demolition_addon.model.study.outcome import outcome_of
 

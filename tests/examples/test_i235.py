@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from example_claims import assert_claims
-from example_runs import ExampleRun, example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import ExampleRun, example, run_example
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.bridge import deck_top

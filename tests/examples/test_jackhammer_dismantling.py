@@ -1,8 +1,8 @@
 """A jackhammer takes the slab between two girders out along its path, and the rest of the bridge stays."""
 
 import pytest
-from example_claims import assert_claims
-from example_runs import example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import example, run_example
 
 NAME = "jackhammer_dismantling"
 

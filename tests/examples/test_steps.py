@@ -1,8 +1,8 @@
 """The example that takes a span down in steps: all of them happen, in order, and the run ends once all rests."""
 
 import pytest
-from example_claims import assert_claims
-from example_runs import example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import example, run_example
 
 NAME = "i235_steps"
 

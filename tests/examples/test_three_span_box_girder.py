@@ -1,7 +1,7 @@
 """The box girder of three spans stands by itself, and the ball breaks into the middle span."""
 
-from example_claims import assert_claims
-from example_runs import example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import example, run_example
 
 NAME = "three_span_box_girder"
 

@@ -1,8 +1,8 @@
 """Two spans of 13 m and 196 t: the ball takes one span down and leaves the other, charges take down both."""
 
 import pytest
-from example_claims import assert_claims
-from example_runs import example, run_example
+from support.example_claims import assert_claims
+from support.example_runs import example, run_example
 
 MASS_KG = 196_000.0
 """Of the report, Figure 21."""

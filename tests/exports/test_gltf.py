@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 import trimesh
-from exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
+from support.exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.exports.gltf import animated_glb, write_gltf

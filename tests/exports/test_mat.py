@@ -3,8 +3,8 @@
 
 import numpy as np
 import pytest
-from exported_runs import turning_run
 from scipy.io import loadmat
+from support.exported_runs import turning_run
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError

@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 import pytest
-from exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
-from sample_results import hanging_chain, with_contacts
+from support.exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
+from support.sample_results import hanging_chain, with_contacts
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.exports.paraview import WITHOUT_CONTACTS, write_paraview

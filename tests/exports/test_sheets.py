@@ -6,9 +6,9 @@ import csv
 import numpy as np
 import openpyxl
 import pytest
-from exported_runs import turning_run
-from run_folders import keep_run
-from sample_results import hanging_chain
+from support.exported_runs import turning_run
+from support.run_folders import keep_run
+from support.sample_results import hanging_chain
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.exports import sheets

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
 from pxr import Usd, UsdGeom
-from run_folders import keep_run
+from support.exported_runs import SMALLEST_M, corners_m, in_order, turning_run, with_ground
+from support.run_folders import keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import MissingLibraryError, SimulationError

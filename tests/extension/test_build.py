@@ -8,7 +8,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 SCRIPT = ROOT / "scripts" / "build_extension"
 OF_EACH = {

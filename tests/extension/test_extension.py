@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
-from places import ROOT
+from support.checkout import ROOT
 
 MODULE = "bl_ext.user_default.bridge_demolition_addon"
 PYTHON = "{}.{}".format(*sys.version_info)

@@ -3,7 +3,7 @@
 
 import pytest
 from PIL import Image
-from places import ROOT
+from support.checkout import ROOT
 
 PICTURES = ROOT / "docs" / "pictures" / "listing"
 

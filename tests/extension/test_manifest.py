@@ -5,7 +5,7 @@ import tomllib
 from typing import Any
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from places import ROOT, TESTS
+from support.checkout import ROOT, TESTS
 
 from .players import BLENDER
 from .sequences import REFUSED, Drawn

@@ -14,7 +14,7 @@ from random import Random
 from typing import Any
 
 import bpy
-from places import SMALL, TESTS
+from support.checkout import SMALL, TESTS
 
 import bridge_demolition_addon
 from bridge_demolition_addon.errors import DemolitionError

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.image import imsave
-from run_folders import TOLD, flying_shards, keep_run
+from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.errors import OutputError

@@ -8,8 +8,8 @@ from pathlib import Path
 from random import Random
 
 import numpy as np
-from places import EXAMPLES, SMALL, TESTS
-from random_scenarios import varied
+from support.checkout import EXAMPLES, SMALL, TESTS
+from support.random_scenarios import varied
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.errors import DemolitionError

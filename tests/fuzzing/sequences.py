@@ -19,7 +19,7 @@ from pathlib import Path
 from random import Random
 from typing import NamedTuple
 
-from places import ROOT
+from support.checkout import ROOT
 
 PACKAGE = str(ROOT / "bridge_demolition_addon")
 SIGNS = ("Traceback (most recent call last)", "Exception ignored")

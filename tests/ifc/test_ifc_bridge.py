@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from ifc_bridges import DECK_KG_M3, MASS_KG, SCHEMAS, STEEL_KG_M3, VOLUMES_M3, IfcBridge, whole_bridge
+from support.ifc_bridges import DECK_KG_M3, MASS_KG, SCHEMAS, STEEL_KG_M3, VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.engineering.geometry.solids import bodies, to_manifold, union
 from bridge_demolition_addon.errors import IfcError

@@ -2,7 +2,7 @@
 """What elements are made of: by the table, the user's own table, and the file."""
 
 import pytest
-from ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
+from support.ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.errors import IfcError, OutputError
 from bridge_demolition_addon.ifc.bridge import read_bridge

@@ -4,7 +4,7 @@
 import math
 
 import pytest
-from ifc_bridges import IfcBridge
+from support.ifc_bridges import IfcBridge
 
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from ifc_bridges import DECK_KG_M3, STEEL_KG_M3, VOLUMES_M3, whole_bridge
+from support.ifc_bridges import DECK_KG_M3, STEEL_KG_M3, VOLUMES_M3, whole_bridge
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.ifc.bridge import read_bridge

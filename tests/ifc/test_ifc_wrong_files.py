@@ -2,7 +2,7 @@
 """Files that are broken, or no bridge: what is wrong is said, and what to do."""
 
 import pytest
-from ifc_bridges import IfcBridge, whole_bridge
+from support.ifc_bridges import IfcBridge, whole_bridge
 
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge

@@ -17,7 +17,7 @@ if int(LARGEST):
 from functools import partial  # noqa: E402
 from pathlib import Path  # noqa: E402
 
-from draw_programs import VERSIONS, command_with  # noqa: E402
+from support.run_programs import VERSIONS, command_with  # noqa: E402
 
 from bridge_demolition_addon.cli import study  # noqa: E402
 from bridge_demolition_addon.cli.main import entry  # noqa: E402

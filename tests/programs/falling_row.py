@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import bpy
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
 from bridge_demolition_addon.scene.removal import remove_demolition

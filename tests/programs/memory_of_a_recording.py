@@ -9,7 +9,7 @@ import sys
 import tracemalloc
 from pathlib import Path
 
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording

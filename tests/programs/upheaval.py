@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import bpy
-from falling_pair import FRAMES, FallingPair, assert_ended, play
+from support.falling_pair import FRAMES, FallingPair, assert_ended, play
 
 from bridge_demolition_addon.simulation.blender_events import stop_recording
 

@@ -15,11 +15,11 @@ import pytest
 from manifold3d import CrossSection
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
-from moving_boxes import moving_boxes
-from run_folders import TOLD, flying_shards, keep_run, killed_run, stream_run
-from sample_results import changed
-from scenarios import I235
-from told_reports import compared, told
+from support.moving_boxes import moving_boxes
+from support.report_texts import compared, told
+from support.run_folders import TOLD, flying_shards, keep_run, killed_run, stream_run
+from support.sample_results import changed
+from support.scenarios import I235
 
 from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.cli.progress import Silence

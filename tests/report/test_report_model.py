@@ -8,7 +8,7 @@ from base64 import b64decode
 
 import pytest
 import trimesh
-from exported_runs import turning_run
+from support.exported_runs import turning_run
 
 from bridge_demolition_addon.exports.gltf import animated_glb
 from bridge_demolition_addon.report.document.blocks import Document, Model

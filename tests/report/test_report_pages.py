@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from run_folders import flying_shards, keep_run
-from study_folders import told_runs
+from support.run_folders import flying_shards, keep_run
+from support.study_folders import told_runs
 
 from bridge_demolition_addon.charts.style import PAGE_WIDTH_MM
 from bridge_demolition_addon.cli.progress import Silence

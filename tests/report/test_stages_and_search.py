@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from run_folders import killed_run
-from scenarios import I235
+from support.run_folders import killed_run
+from support.scenarios import I235
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario.file import scenario_text

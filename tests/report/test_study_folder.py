@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imsave
-from run_folders import flying_shards, keep_run
-from study_folders import TOLD_SCENARIO, VARIED, keep_study, told_runs, told_study
+from support.run_folders import flying_shards, keep_run
+from support.study_folders import TOLD_SCENARIO, VARIED, keep_study, told_runs, told_study
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.cli.progress import Silence

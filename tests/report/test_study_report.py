@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from manifold3d import CrossSection
 from scipy.stats import spearmanr
-from study_folders import BRIDGE, TOLD_SCENARIO, VARIED, told_debris, told_runs, told_study
-from told_reports import told_of_study
+from support.report_texts import told_of_study
+from support.study_folders import BRIDGE, TOLD_SCENARIO, VARIED, told_debris, told_runs, told_study
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.report.study.influence import correlation_table

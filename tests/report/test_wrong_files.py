@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from run_folders import TOLD, flying_shards, keep_run
-from told_reports import told
+from support.report_texts import told
+from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.errors import OutputError

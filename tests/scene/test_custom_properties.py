@@ -1,7 +1,7 @@
 """What Blender data keeps in custom properties can be edited by hand: what reads it then says so in a sentence."""
 
 import pytest
-from places import SMALL, TESTS
+from support.checkout import SMALL, TESTS
 
 from bridge_demolition_addon.errors import DemolitionError
 from bridge_demolition_addon.model.scenario.file import read_scenario

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.structure.connections import GROUND
 from bridge_demolition_addon.model.structure.model import build_model

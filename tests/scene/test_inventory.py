@@ -13,7 +13,7 @@ SINGLE = 4 * 2.0**-23
 
 @pytest.fixture
 def blocks(blender):
-    from blocks import Blocks
+    from support.blocks import Blocks
 
     return Blocks()
 

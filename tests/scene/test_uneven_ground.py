@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import I235
-from terrain_files import HEIGHT, write_asc
+from support.scenarios import I235
+from support.terrain_files import HEIGHT, write_asc
 
 from bridge_demolition_addon.engineering.geometry.solids import box, sphere
 from bridge_demolition_addon.engineering.terrain.thinning import Grid, thinned

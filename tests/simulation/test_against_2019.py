@@ -8,8 +8,8 @@ import csv
 import bpy
 import numpy as np
 import pytest
-from blast_scenes import IMPULSE_AT_5_PA_S, charge, set_off, weightless
-from blocks import Blocks
+from support.blast_scenes import IMPULSE_AT_5_PA_S, charge, set_off, weightless
+from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.blast.force_fields import force_objects

@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from blocks import Blocks
-from scenarios import I235
-from torn_block import check_fall, torn_block
+from support.blocks import Blocks
+from support.scenarios import I235
+from support.torn_block import check_fall, torn_block
 
 from bridge_demolition_addon.bullet import world
 from bridge_demolition_addon.bullet.layout import platform_layout

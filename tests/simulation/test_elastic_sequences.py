@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blast_scenes import charge, set_off
-from blocks import Blocks
+from support.blast_scenes import charge, set_off
+from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import SectionStiffness
 from bridge_demolition_addon.engineering.mechanics.joint import Joint, Springs

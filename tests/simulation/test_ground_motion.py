@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.ground_motion.record import GroundRecord, integrated

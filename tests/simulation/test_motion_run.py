@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import TESTS
-from scenarios import SHORT_RUN
+from support.checkout import TESTS
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.arrays import load_results

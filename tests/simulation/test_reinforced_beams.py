@@ -4,7 +4,7 @@ import sys
 from dataclasses import replace
 
 import pytest
-from places import ROOT
+from support.checkout import ROOT
 
 sys.path.insert(1, str(ROOT / "validation"))
 

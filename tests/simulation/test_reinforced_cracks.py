@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from matplotlib.image import imread
-from sample_results import GRAVITY, hanging_chain
+from support.sample_results import GRAVITY, hanging_chain
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenarios import I235, SHORT_RUN
+from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2

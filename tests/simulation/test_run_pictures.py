@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError, ScenarioError

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from places import TESTS
-from processes import run_program
+from support.checkout import TESTS
+from support.processes import run_program
 
 SCENARIOS = {
     "blast": TESTS / "simulation" / "same_run" / "blast.toml",

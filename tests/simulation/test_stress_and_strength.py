@@ -4,9 +4,9 @@ import csv
 
 import numpy as np
 import pytest
-from blocks import Blocks
-from shard_scenes import DENSITY_KG_M3, ShardScene
-from torn_block import check_fall, torn_block
+from support.blocks import Blocks
+from support.shard_scenes import DENSITY_KG_M3, ShardScene
+from support.torn_block import check_fall, torn_block
 
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Ductility, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2

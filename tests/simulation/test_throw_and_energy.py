@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet.memory import write_vectors
 from bridge_demolition_addon.engineering.mechanics.work import FrameWork

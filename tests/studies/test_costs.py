@@ -4,8 +4,8 @@
 import sys
 
 import pytest
-from processes import run_program
-from study_files import study_file
+from support.processes import run_program
+from support.study_files import study_file
 
 MOST_MS = 30.0
 MOST_MB = 300.0

@@ -9,10 +9,10 @@ import time
 from contextlib import closing
 
 import pytest
-from draw_programs import VERSIONS, begun, program_in
-from places import ROOT
-from processes import TIMEOUT_S, run_bda
-from study_files import study_file, tables_in
+from support.checkout import ROOT
+from support.processes import TIMEOUT_S, run_bda
+from support.run_programs import VERSIONS, begun, program_in
+from support.study_files import study_file, tables_in
 
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.study.file import read_study

@@ -9,7 +9,7 @@ import threading
 import time
 
 import pytest
-from draw_programs import VERSIONS, begun, program_in, request
+from support.run_programs import VERSIONS, begun, program_in, request
 
 from bridge_demolition_addon.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.model.study.settings import StudySettings

@@ -11,10 +11,10 @@ import time
 from collections import Counter
 
 import pytest
-from draw_programs import begun
-from places import ROOT, TESTS
-from processes import outcome
-from study_files import study_file, tables_in
+from support.checkout import ROOT, TESTS
+from support.processes import outcome
+from support.run_programs import begun
+from support.study_files import study_file, tables_in
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
 

@@ -3,7 +3,7 @@
 
 from types import SimpleNamespace
 
-from study_files import study_file
+from support.study_files import study_file
 
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import DONE

@@ -2,7 +2,7 @@
 """Messages that stay in the sidebar until their button is pressed again."""
 
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.ui.messages import messages_of
 

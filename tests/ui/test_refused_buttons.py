@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.scenario.file import read_scenario

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from elastic_beams import CONCRETE, DENSITY_KG_M3, GRAVITY_M_S2, ElasticBodies, beam, bodies
+from support.elastic_beams import CONCRETE, DENSITY_KG_M3, GRAVITY_M_S2, ElasticBodies, beam, bodies
 
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold
+from support.meshes import as_trimesh
 
 from bridge_demolition_addon.engineering.fracture.density import PointDensity, density_around, painted_density
 from bridge_demolition_addon.engineering.fracture.gaps import with_gaps
@@ -14,7 +15,6 @@ from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centre
 from bridge_demolition_addon.engineering.geometry.overlap import overlaps
 from bridge_demolition_addon.engineering.geometry.solids import bodies, box, contains, from_manifold, to_manifold, union
 from bridge_demolition_addon.errors import GeometryError
-from tests.meshes import as_trimesh
 
 # What the project promises for sums of volumes.
 VOLUME = 1e-9

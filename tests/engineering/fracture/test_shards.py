@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import CrossSection, Manifold
+from support.meshes import as_trimesh, is_closed, of_trimesh, rotation, turned
 
 from bridge_demolition_addon.engineering.fracture.seeds import random_points
 from bridge_demolition_addon.engineering.fracture.shards import Fracture, fracture, voronoi_cells
@@ -22,7 +23,6 @@ from bridge_demolition_addon.engineering.geometry.solids import (
     union,
 )
 from bridge_demolition_addon.errors import GeometryError
-from tests.meshes import as_trimesh, is_closed, of_trimesh, rotation, turned
 
 # What the project promises for sums of volumes.
 VOLUME = 1e-9

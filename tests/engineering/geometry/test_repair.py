@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold
+from support.meshes import mesh, moved, of_trimesh, together, turned
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.repair import repaired_solid
 from bridge_demolition_addon.engineering.geometry.self_intersection import first_crossing
 from bridge_demolition_addon.engineering.geometry.solids import bodies, box, from_manifold, to_manifold, union
 from bridge_demolition_addon.errors import GeometryError
-from tests.meshes import mesh, moved, of_trimesh, together, turned
 
 # Volumes of some m³ from coordinates in double precision.
 ROUNDING = 1e-12

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold
+from support.meshes import is_closed, of_trimesh
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, volumes_and_centres
 from bridge_demolition_addon.engineering.geometry.solids import (
@@ -16,7 +17,6 @@ from bridge_demolition_addon.engineering.geometry.solids import (
     union,
 )
 from bridge_demolition_addon.errors import GeometryError
-from tests.meshes import is_closed, of_trimesh
 
 # A few hundred roundings of 2e-16 each, on numbers of the size of one.
 ROUNDING = 1e-13

@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 import pytest
-from places import ROOT
 from scipy.stats import beta, lognorm, quantile_test
+from support.checkout import ROOT
 
 from bridge_demolition_addon.engineering.statistics.order_limits import (
     confidence_of,

@@ -4,6 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from support.meshes import moved, together, turned
 
 from bridge_demolition_addon.engineering.fracture.shared_faces import touching_faces
 from bridge_demolition_addon.engineering.geometry.solids import box
@@ -19,7 +20,6 @@ from bridge_demolition_addon.engineering.structure.connections import (
     neighbours_by_face,
     neighbours_by_vertex,
 )
-from tests.meshes import moved, together, turned
 
 # Coordinates of a few metres in double precision.
 ROUNDING = 1e-12

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.meshes import is_closed
 
 from bridge_demolition_addon.engineering.geometry.solids import bodies, to_manifold, union
 from bridge_demolition_addon.model.bridge import bridge_density, bridge_members, deck_top, deck_underside, pier_axes
 from bridge_demolition_addon.model.scenario import Bridge, Deck, PierCaps, Piers
-from tests.meshes import is_closed
 
 DECK = Deck(width_m=8.5, thickness_m=0.25, overhang_m=0.5)
 PIERS = Piers(columns=2, column_length_m=0.7, column_width_m=0.6, height_m=4.9)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.meshes import is_closed
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.engineering.fracture.shards import fracture
@@ -28,7 +29,6 @@ from bridge_demolition_addon.model.scenario import (
     TimeSettings,
 )
 from bridge_demolition_addon.model.structure.model import build_model
-from tests.meshes import is_closed
 
 # Sums and differences of some ten metres in double precision.
 ROUNDING = 1e-12

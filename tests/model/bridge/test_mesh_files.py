@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold
-from scenarios import I235
+from support.meshes import as_trimesh, turned
+from support.scenarios import I235
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.main import main
@@ -20,7 +21,6 @@ from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import Ball, Geometry, Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.model import build_model
-from tests.meshes import as_trimesh, turned
 
 # Files keep single precision of some metres.
 SINGLE_M = 1e-6

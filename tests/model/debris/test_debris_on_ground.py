@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
+from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.model.debris.on_ground import bodies_under_ground, debris_on_surfaces

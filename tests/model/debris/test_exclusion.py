@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
+from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.model.debris.exclusion import exclusion_zone
 from bridge_demolition_addon.model.scenario import Exclusion

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes, turned_about_z
+from support.moving_boxes import moving_boxes, turned_about_z
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import distances_outside, outlines, united
 from bridge_demolition_addon.model.debris.footprint import footprint, swept_footprint

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
+from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at, touchdown_velocity

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes, turned_about_z
+from support.moving_boxes import moving_boxes, turned_about_z
 
 from bridge_demolition_addon.model.debris.zones import TIME_TOLERANCE_S, watch_zone
 from bridge_demolition_addon.model.scenario import Zone

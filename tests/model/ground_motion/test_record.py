@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.engineering.ground_motion.record import corrected, integrated
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2

@@ -5,7 +5,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Load

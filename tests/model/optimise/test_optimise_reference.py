@@ -1,6 +1,6 @@
 """The reference of an optimisation file's keys says what the code does, and the examples can be run."""
 
-from places import EXAMPLES, ROOT
+from support.checkout import EXAMPLES, ROOT
 
 from bridge_demolition_addon.model.optimise.file import read_optimisation
 from bridge_demolition_addon.model.optimise.reference import optimise_reference

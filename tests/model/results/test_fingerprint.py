@@ -4,7 +4,7 @@ import hashlib
 
 import numpy as np
 import pytest
-from sample_results import changed, hanging_chain
+from support.sample_results import changed, hanging_chain
 
 from bridge_demolition_addon.model.results.fingerprint import built_digest, digest, result_digest
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
+from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.model.results.force_history import breaking_by_kind, contact_forces, most_loaded
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
-from sample_results import GRAVITY, hanging_chain
+from support.moving_boxes import moving_boxes
+from support.sample_results import GRAVITY, hanging_chain
 
 from bridge_demolition_addon.model.results.key_frame import impact_step, key_step
 

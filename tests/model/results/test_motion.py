@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
+from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.engineering.geometry.rotations import rotated, rotation_vectors
 from bridge_demolition_addon.model.debris.throws import debris_of

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes
+from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.results.collapse import collapse_progress

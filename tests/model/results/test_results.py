@@ -4,7 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from sample_results import (
+from support.sample_results import (
     FRAME_S,
     GRAVITY,
     SUBSTEP_S,

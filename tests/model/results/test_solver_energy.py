@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from sample_results import changed, hanging_chain
+from support.sample_results import changed, hanging_chain
 
 from bridge_demolition_addon.model.results.solver_energy import (
     energy_summary,

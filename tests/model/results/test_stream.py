@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from run_folders import flying_shards, stream_run
-from sample_results import hanging_chain, with_contacts, without_connections
+from support.run_folders import flying_shards, stream_run
+from support.sample_results import hanging_chain, with_contacts, without_connections
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results, results_in

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from sample_results import GRAVITY, G, changed, hanging_chain, without_connections
+from support.sample_results import GRAVITY, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.model.results.key_frame import impact_step
 from bridge_demolition_addon.model.results.summary import first_hit_s, summarise

@@ -3,7 +3,7 @@
 from dataclasses import fields, replace
 
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Strength

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES
-from scenarios import I235
+from support.checkout import EXAMPLES
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge import bridge_density, bridge_members

@@ -1,6 +1,6 @@
 """The reference of a scenario's keys says what the code does."""
 
-from places import ROOT
+from support.checkout import ROOT
 
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.reference import scenario_reference

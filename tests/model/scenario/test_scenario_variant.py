@@ -4,8 +4,8 @@ import shutil
 from dataclasses import replace
 
 import pytest
-from places import I235_FILE
-from scenarios import I235
+from support.checkout import I235_FILE
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text

@@ -1,6 +1,6 @@
 """The reference of a search file's keys says what the code does, and the example is a search that can be made."""
 
-from places import EXAMPLES, ROOT
+from support.checkout import EXAMPLES, ROOT
 
 from bridge_demolition_addon.model.schema import key_fields
 from bridge_demolition_addon.model.search.file import read_search

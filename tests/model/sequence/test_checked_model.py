@@ -4,7 +4,7 @@
 from dataclasses import replace
 
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import GeometryError
 from bridge_demolition_addon.model.bridge.extent import extent

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES
-from scenarios import I235
+from support.checkout import EXAMPLES
+from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario import BallHit, SawCut
 from bridge_demolition_addon.model.scenario.file import read_scenario

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Jackhammer

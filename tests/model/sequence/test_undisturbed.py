@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from run_folders import G, flying_shards
-from scenarios import I235
+from support.run_folders import G, flying_shards
+from support.scenarios import I235
 
 from bridge_demolition_addon.model.blast.settings import BlastSettings
 from bridge_demolition_addon.model.scenario import Charge, SawCut

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES
-from scenarios import I235
-from stage_beams import (
+from support.checkout import EXAMPLES
+from support.scenarios import I235
+from support.stage_beams import (
     DENSITY_KG_M3,
     DEPTH_M,
     MODULUS_M3,

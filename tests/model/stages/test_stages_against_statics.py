@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from stage_beams import (
+from support.stage_beams import (
     BLOCK_M,
     DENSITY_KG_M3,
     DEPTH_M,

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import I235_FILE, ROOT
-from scenarios import I235
+from support.checkout import I235_FILE, ROOT
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.mechanics.joint import Springs
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.geometry.vectors import transformed
 from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes

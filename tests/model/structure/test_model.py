@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.structure.connections import GROUND
 from bridge_demolition_addon.errors import GeometryError

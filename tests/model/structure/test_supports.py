@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box

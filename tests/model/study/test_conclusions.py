@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from study_folders import told_row, told_study
+from support.study_folders import told_row, told_study
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.study.conclusions import conclusions

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import I235
 from scipy import stats
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.study.draws import draw_of, inputs_of

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from places import EXAMPLES, TESTS
-from scenarios import I235
+from support.checkout import EXAMPLES, TESTS
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.blast.charges import Charge

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from moving_boxes import moving_boxes, turned_about_z
-from scenarios import I235
+from support.moving_boxes import moving_boxes, turned_about_z
+from support.scenarios import I235
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.blast.charges import Charge

@@ -1,7 +1,7 @@
 """Study files: read strictly, and refused with what to do."""
 
 import pytest
-from places import I235_FILE
+from support.checkout import I235_FILE
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import read_scenario

@@ -1,6 +1,6 @@
 """The reference of a study file's keys says what the code does, and the example is a study that can be run."""
 
-from places import EXAMPLES, ROOT
+from support.checkout import EXAMPLES, ROOT
 
 from bridge_demolition_addon.model.schema import key_fields
 from bridge_demolition_addon.model.study.draws import draw_of

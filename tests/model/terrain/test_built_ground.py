@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import I235
-from terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
+from support.scenarios import I235
+from support.terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
 
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.engineering.structure.connections import GROUND

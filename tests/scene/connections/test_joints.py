@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.mechanics.joint import MOTIONS, Joint, Springs
 from bridge_demolition_addon.engineering.mechanics.strength import Strength

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import Blocks
 from matplotlib.image import imread
+from support.blocks import Blocks
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
 from bridge_demolition_addon.display.contours import ContourSettings, Quantity, RangeKind
@@ -182,7 +182,7 @@ def test_handlers_are_there_once(hanging):
 
 
 def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_path):
-    from sample_results import changed
+    from support.sample_results import changed
 
     from bridge_demolition_addon.model.results.arrays import load_results
     from bridge_demolition_addon.simulation.blender_events import contours_of

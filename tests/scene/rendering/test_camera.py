@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.model.structure.model import build_model
 

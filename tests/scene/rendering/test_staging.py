@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES
-from scenarios import I235, SHORT_RUN
+from support.checkout import EXAMPLES
+from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.display.camera_targets import points_to_see

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import Blocks
-from scenarios import I235
+from support.blocks import Blocks
+from support.scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.timing.timeline import Timeline

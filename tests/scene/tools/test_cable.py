@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import Blocks
-from scenarios import I235
-from terrain_files import EASTING, NORTHING, write_asc
+from support.blocks import Blocks
+from support.scenarios import I235
+from support.terrain_files import EASTING, NORTHING, write_asc
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.progress import Silence

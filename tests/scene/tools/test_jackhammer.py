@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import I235
-from shard_scenes import ShardScene
+from support.scenarios import I235
+from support.shard_scenes import ShardScene
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.timing.timeline import Timeline

@@ -10,7 +10,7 @@ import json
 from collections.abc import Iterator
 
 import pytest
-from processes import ProgramAtWork
+from support.processes import ProgramAtWork
 
 DELETIONS = (
     "remove_body",

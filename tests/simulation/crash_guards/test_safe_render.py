@@ -4,7 +4,7 @@ Without the extension the first of these ends the process with a segmentation fa
 """
 
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.simulation.blender_events import running_recording
 

@@ -5,7 +5,7 @@ import threading
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.errors import LayoutError
 from bridge_demolition_addon.model.results.fingerprint import result_digest

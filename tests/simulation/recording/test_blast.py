@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 import pytest
-from blast_scenes import ARRIVAL_AT_5_S, END_AT_5_S, IMPULSE_AT_5_PA_S, charge, set_off, weightless
-from blocks import Blocks
 from mathutils import Euler
+from support.blast_scenes import ARRIVAL_AT_5_S, END_AT_5_S, IMPULSE_AT_5_PA_S, charge, set_off, weightless
+from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.blast.pulses import blast_pulses

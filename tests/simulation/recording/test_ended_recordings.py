@@ -6,8 +6,8 @@ opened after a world was removed. Those tests run in processes of their own, and
 """
 
 import pytest
-from falling_pair import FRAMES, FallingPair, assert_ended, assert_handlers_gone, assert_whole, play
-from processes import run_program
+from support.falling_pair import FRAMES, FallingPair, assert_ended, assert_handlers_gone, assert_whole, play
+from support.processes import run_program
 
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.simulation.blender_events import stop_recording

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import Blocks
-from shard_scenes import DENSITY_KG_M3, ShardScene
+from support.blocks import Blocks
+from support.shard_scenes import DENSITY_KG_M3, ShardScene
 
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2

@@ -5,7 +5,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from sample_results import FRAME_S, G, changed, hanging_chain, without_connections
+from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
 from bridge_demolition_addon.simulation.recording.logs import (

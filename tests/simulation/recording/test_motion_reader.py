@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet.world import BulletWorld
 from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from falling_pair import FRAMES, FallingPair, play
-from processes import run_program
+from support.falling_pair import FRAMES, FallingPair, play
+from support.processes import run_program
 
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.results.files import FRAMES_FILE

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.timing.time_step import MOST_SUBSTEPS, TimeStep
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2

@@ -1,7 +1,7 @@
 """The panel Explosion: charges in the scene, force objects, total mass, and what is ticked."""
 
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.model.blast.charges import EXPLOSIVES
 from bridge_demolition_addon.model.blast.settings import BlastSettings

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread, imsave
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.model.debris.exclusion import exclusion_zone

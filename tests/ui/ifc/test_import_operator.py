@@ -4,7 +4,7 @@
 import sys
 
 import pytest
-from ifc_bridges import MASS_KG, whole_bridge
+from support.ifc_bridges import MASS_KG, whole_bridge
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.prop import default_scenario

@@ -6,7 +6,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.scenario.time import TimeSettings

@@ -4,7 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.model.scenario import ConnectionSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario

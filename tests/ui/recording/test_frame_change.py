@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.display.contours import ContourSettings
 from bridge_demolition_addon.model.results.arrays import load_results

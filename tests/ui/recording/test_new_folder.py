@@ -2,7 +2,7 @@
 """A run needs no folder chosen: it makes one, and the line above the buttons says what comes next."""
 
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.model.results.files import RESULTS_FILE
 from bridge_demolition_addon.ui.recording.new_folder import documents_folder, new_folder

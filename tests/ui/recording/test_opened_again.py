@@ -5,7 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results
@@ -154,7 +154,7 @@ def test_a_summary_that_lacks_something_is_refused(ran, tmp_path, key):
 
 
 def test_a_file_with_bodies_that_are_not_ours_stays_at_its_frame(extension, tmp_path):
-    from blocks import Blocks
+    from support.blocks import Blocks
 
     blocks = Blocks()
     blocks.block((0, 0, 5), 100.0)

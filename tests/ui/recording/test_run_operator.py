@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from blocks import Blocks
-from places import EXAMPLES
+from support.blocks import Blocks
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 

@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 import trimesh
-from places import SMALL
+from support.checkout import SMALL
 
 from bridge_demolition_addon.exports.formats import GLTF, PARAVIEW
 from bridge_demolition_addon.model.results.arrays import load_results

@@ -4,9 +4,9 @@ import csv
 import shutil
 
 import pytest
-from places import SMALL
-from run_folders import flying_shards, keep_run
-from scenarios import I235
+from support.checkout import SMALL
+from support.run_folders import flying_shards, keep_run
+from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 

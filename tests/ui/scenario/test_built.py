@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from places import EXAMPLES, SMALL
+from support.checkout import EXAMPLES, SMALL
 
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario

@@ -3,7 +3,7 @@
 
 import pytest
 from PIL import Image
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from places import EXAMPLES, SMALL
+from support.checkout import EXAMPLES, SMALL
 
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording, stop_recording

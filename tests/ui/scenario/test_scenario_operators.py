@@ -1,7 +1,7 @@
 """Load, save, new, presets and build, as they are called from Python."""
 
 import pytest
-from places import EXAMPLES, SMALL
+from support.checkout import EXAMPLES, SMALL
 
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import EXAMPLES, SMALL
-from random_scenarios import varied
+from support.checkout import EXAMPLES, SMALL
+from support.random_scenarios import varied
 
 from bridge_demolition_addon.engineering.single_precision import shortest
 from bridge_demolition_addon.errors import ScenarioError

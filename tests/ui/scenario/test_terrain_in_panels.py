@@ -1,6 +1,6 @@
 """Terrain in the sidebar: its file is chosen as a file, and a place on a map keeps all its digits."""
 
-from scenarios import I235
+from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario import Ground, GroundSurface
 

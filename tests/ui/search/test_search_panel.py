@@ -7,8 +7,8 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from places import ROOT
-from scenarios import SHORT_RUN
+from support.checkout import ROOT
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario import BlastSettings, Charge
 from bridge_demolition_addon.model.study.runs_table import read_runs

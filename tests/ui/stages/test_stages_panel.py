@@ -7,8 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from places import ROOT
-from scenarios import I235
+from support.checkout import ROOT
+from support.scenarios import I235
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
 from bridge_demolition_addon.display.contours import Quantity

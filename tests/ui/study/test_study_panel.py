@@ -7,8 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from places import ROOT
-from scenarios import SHORT_RUN
+from support.checkout import ROOT
+from support.scenarios import SHORT_RUN
 
 import bridge_demolition_addon
 from bridge_demolition_addon.model.scenario.file import scenario_text

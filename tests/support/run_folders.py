@@ -4,8 +4,8 @@ import json
 from dataclasses import replace
 
 import numpy as np
-from moving_boxes import moving_boxes
-from scenarios import I235
+from support.moving_boxes import moving_boxes
+from support.scenarios import I235
 
 from bridge_demolition_addon.model.results.frames import BallHistory
 from bridge_demolition_addon.model.results.stream import FrameStream

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.arrays import Results, load_results

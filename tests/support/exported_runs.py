@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from run_folders import flying_shards, keep_run
+from support.run_folders import flying_shards, keep_run
 
 from bridge_demolition_addon.model.results.frames import BallHistory
 

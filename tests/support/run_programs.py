@@ -3,8 +3,8 @@
 import sys
 from dataclasses import replace
 
-from places import ROOT, TESTS
-from scenarios import SHORT_RUN
+from support.checkout import ROOT, TESTS
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario.file import scenario_text
 

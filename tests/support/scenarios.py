@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from places import I235_FILE
+from support.checkout import I235_FILE
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 

@@ -4,8 +4,8 @@ Each limit lies beyond what all runs in `docs/data/seeds` gave. What holds by me
 in the tests of the examples instead.
 """
 
-from example_measures import measures_of
-from example_runs import ExampleRun
+from support.example_measures import measures_of
+from support.example_runs import ExampleRun
 
 MOST = float("inf")
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from scenarios import SHORT_RUN
+from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario.file import scenario_text
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
-from example_runs import ExampleRun
+from support.example_runs import ExampleRun
 
 from bridge_demolition_addon.model.bridge import deck_underside
 from bridge_demolition_addon.model.bridge.layout import pier_axes

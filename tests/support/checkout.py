@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 I235_FILE = EXAMPLES / "i235_one_span.toml"
 TESTS = ROOT / "tests"

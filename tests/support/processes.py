@@ -7,7 +7,7 @@ import threading
 from contextlib import suppress
 from pathlib import Path
 
-from places import ROOT, TESTS
+from support.checkout import ROOT, TESTS
 
 TIMEOUT_S = 300
 

@@ -3,7 +3,7 @@
 import csv
 
 import numpy as np
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.simulation import blender_events

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.settings import BlastSettings

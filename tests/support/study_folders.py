@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 from manifold3d import CrossSection
-from places import EXAMPLES
+from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines, united
 from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Site, Zone
