@@ -141,10 +141,10 @@ def test_every_column_of_our_logs_is_there_and_no_other():
     from bridge_demolition_addon.simulation.recording import logs
 
     columns = {
-        "force_log.csv": logs.FORCE_COLUMNS,
-        "debris_log.csv": logs.DEBRIS_COLUMNS,
-        "explosion_log.csv": logs.EXPLOSION_COLUMNS,
-        "breaking_log.csv": logs.BREAKING_COLUMNS,
+        "force_log.csv": logs.FORCE_TABLE.headers,
+        "debris_log.csv": logs.DEBRIS_TABLE.headers,
+        "explosion_log.csv": logs.EXPLOSION_TABLE.headers,
+        "breaking_log.csv": logs.BREAKING_TABLE.headers,
     }
     told = {name: [] for name in columns}
     for _, now, _ in rows(section("## Logs")):

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from ...engineering.geometry.vectors import dot
+from ...engineering.mechanics.section_forces import SectionForces
 from ...engineering.mechanics.stress import principal_stresses
 from ...errors import SimulationError
 from ...model.blast.explosion import StepLoads
@@ -23,67 +25,145 @@ from ...model.results.solver_energy import flies_on_solver_energy
 from ...system.disk import is_in_place, writing
 from .substeps import Breaks
 
-FORCE_COLUMNS = (
-    "frame",
-    "time_s",
-    "body",
-    "force_x_N",
-    "force_y_N",
-    "force_z_N",
-    "force_sum_N",
-    "peak_force_N",
-    "peak_force_sum_N",
-    "contact_impulse_x_Ns",
-    "contact_impulse_y_Ns",
-    "contact_impulse_z_Ns",
-    "signed_2019_N",
-    "stress_largest_Pa",
-    "stress_smallest_Pa",
-    "von_mises_Pa",
-    "asleep",
+Source = TypeVar("Source")
+"""What the values of a log are taken from."""
+
+_STARTS = ("frame", "time_s")
+_XYZ = ("x", "y", "z")
+
+
+@dataclass(frozen=True, slots=True)
+class LogColumn(Generic[Source]):
+    """A value of a log. One that has parts, such as a vector, takes a column of the file for each.
+
+    Attributes
+    ----------
+    name, unit
+        Both stand in the header; empty where there is none.
+    value
+        Returns (n,) or (n, parts) values for n lines.
+    parts
+        What stands in the header between name and unit.
+    """
+
+    name: str
+    unit: str
+    value: Callable[[Source], np.ndarray]
+    parts: tuple[str, ...] = ("",)
+
+    @property
+    def headers(self) -> list[str]:
+        """Header of each column of the file."""
+        return ["_".join(filter(None, (self.name, part, self.unit))) for part in self.parts]
+
+
+@dataclass(frozen=True, slots=True)
+class LogTable(Generic[Source]):
+    """All columns of a log: frame and time, names, and values."""
+
+    names: tuple[str, ...]
+    columns: tuple[LogColumn[Source], ...]
+
+    @property
+    def value_headers(self) -> list[str]:
+        """Headers of the columns that hold numbers."""
+        return [header for column in self.columns for header in column.headers]
+
+    @property
+    def headers(self) -> list[str]:
+        """Headers of all columns of the file."""
+        return [*_STARTS, *self.names, *self.value_headers]
+
+    def values(self, source: Source) -> np.ndarray:
+        """Return the values of all lines (n, k); a zero has no sign."""
+        return np.column_stack([column.value(source) for column in self.columns]) + 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flights:
+    """Where n bodies are, and what may have moved them.
+
+    Attributes
+    ----------
+    first_m, last_m : (n, 3) float
+        Positions in the first frame and now.
+    made_j, largest_kinetic_j : (n,) float
+        Energy that the solver made, and the largest kinetic energy so far.
+    """
+
+    first_m: np.ndarray
+    last_m: np.ndarray
+    made_j: np.ndarray
+    largest_kinetic_j: np.ndarray
+
+    @property
+    def throws_m(self) -> np.ndarray:
+        """Horizontal distances (n,)."""
+        return throw(self.first_m, self.last_m)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameBlast:
+    """Blast loads in a frame that is so long."""
+
+    loads: StepLoads
+    frame_s: float
+
+    @property
+    def forces_n(self) -> np.ndarray:
+        """Mean forces (n,)."""
+        return self.loads.impulses_ns / self.frame_s
+
+
+FORCE_TABLE: LogTable[Frame] = LogTable(
+    ("body",),
+    (
+        LogColumn("force", "N", lambda frame: frame.loads.body_forces_n, _XYZ),
+        LogColumn("force_sum", "N", lambda frame: frame.loads.body_sums_n),
+        LogColumn("peak_force", "N", lambda frame: frame.loads.body_peaks_n),
+        LogColumn("peak_force_sum", "N", lambda frame: frame.loads.body_peak_sums_n),
+        LogColumn("contact_impulse", "Ns", lambda frame: frame.loads.body_contact_impulses_ns, _XYZ),
+        LogColumn("signed_2019", "N", lambda frame: frame.loads.body_signed_2019_n),
+        LogColumn("stress", "Pa", lambda frame: principal_stresses(frame.loads.stresses_pa), ("largest", "smallest")),
+        LogColumn("von_mises", "Pa", lambda frame: frame.loads.von_mises_pa),
+        LogColumn("asleep", "", lambda frame: frame.asleep),
+    ),
 )
-DEBRIS_COLUMNS = (
-    "frame",
-    "time_s",
-    "body",
-    "x_m",
-    "y_m",
-    "z_m",
-    "distance_m",
-    "throw_m",
-    "made_by_solver_J",
-    "on_solver_energy",
+DEBRIS_TABLE: LogTable[Flights] = LogTable(
+    ("body",),
+    (
+        LogColumn("", "m", lambda flights: flights.last_m, _XYZ),
+        LogColumn("distance", "m", lambda flights: travel(flights.first_m, flights.last_m)),
+        LogColumn("throw", "m", lambda flights: flights.throws_m),
+        LogColumn("made_by_solver", "J", lambda flights: flights.made_j),
+        LogColumn(
+            "on_solver_energy",
+            "",
+            lambda flights: flies_on_solver_energy(flights.throws_m, flights.made_j, flights.largest_kinetic_j),
+        ),
+    ),
 )
-BREAKING_COLUMNS = (
-    "frame",
-    "time_s",
-    "connection",
-    "first_body",
-    "second_body",
-    "axial_N",
-    "shear_y_N",
-    "shear_z_N",
-    "torsion_Nm",
-    "bending_y_Nm",
-    "bending_z_Nm",
+BREAKING_TABLE: LogTable[SectionForces] = LogTable(
+    ("connection", "first_body", "second_body"),
+    (
+        LogColumn("axial", "N", lambda loads: loads.axial_n),
+        LogColumn("shear", "N", lambda loads: loads.shear_n, ("y", "z")),
+        LogColumn("torsion", "Nm", lambda loads: loads.torsion_nm),
+        LogColumn("bending", "Nm", lambda loads: loads.bending_nm, ("y", "z")),
+    ),
 )
-EXPLOSION_COLUMNS = (
-    "frame",
-    "time_s",
-    "body",
-    "charge",
-    "stand_off_m",
-    "scaled_distance_m_kg13",
-    "projected_area_m2",
-    "direction_x",
-    "direction_y",
-    "direction_z",
-    "peak_pressure_Pa",
-    "mean_pressure_Pa",
-    "force_x_N",
-    "force_y_N",
-    "force_z_N",
-    "impulse_Ns",
+EXPLOSION_TABLE: LogTable[FrameBlast] = LogTable(
+    ("body", "charge"),
+    (
+        LogColumn("stand_off", "m", lambda blast: blast.loads.stand_offs_m),
+        LogColumn("scaled_distance", "m_kg13", lambda blast: blast.loads.scaled_distances),
+        LogColumn("projected_area", "m2", lambda blast: blast.loads.areas_m2),
+        LogColumn("direction", "", lambda blast: blast.loads.directions, _XYZ),
+        LogColumn("peak_pressure", "Pa", lambda blast: blast.loads.peaks_pa),
+        LogColumn("mean_pressure", "Pa", lambda blast: blast.loads.pressure_impulses_pa_s / blast.frame_s),
+        LogColumn("force", "N", lambda blast: blast.forces_n[:, None] * blast.loads.directions, _XYZ),
+        LogColumn("impulse", "Ns", lambda blast: blast.loads.impulses_ns),
+    ),
 )
 
 _STEP_MARK = "\0"
@@ -124,15 +204,15 @@ class Logs:
     def __init__(
         self, folder: Path, inventory: Inventory, charges: Sequence[str] = (), files: LogFiles = _IN_THE_FOLDER
     ):
-        names = inventory.body_names.tolist()
-        self._folder, self._inventory = folder, inventory
-        self._forces = BodyLog(files.forces or folder / FORCE_LOG, FORCE_COLUMNS, names)
-        self._debris = BodyLog(files.debris or folder / DEBRIS_LOG, DEBRIS_COLUMNS, names)
-        self._breaking = CsvLog(folder / BREAKING_LOG, BREAKING_COLUMNS)
-        self._explosion = ExplosionLog(folder / EXPLOSION_LOG, names, charges) if charges else None
+        bodies = inventory.body_names.tolist()
+        self._folder, self._inventory, self._charges = folder, inventory, charges
+        self._forces = BodyLog(files.forces or folder / FORCE_LOG, FORCE_TABLE, bodies)
+        self._debris = BodyLog(files.debris or folder / DEBRIS_LOG, DEBRIS_TABLE, bodies)
+        self._breaking = EntryLog(folder / BREAKING_LOG, BREAKING_TABLE)
+        self._explosion = EntryLog(folder / EXPLOSION_LOG, EXPLOSION_TABLE) if charges else None
         self._first_positions: np.ndarray | None = None
-        self._made_j = np.zeros(len(names))
-        self._largest_kinetic_j = np.zeros(len(names))
+        self._made_j = np.zeros(len(bodies))
+        self._largest_kinetic_j = np.zeros(len(bodies))
 
     def write_frame(self, frame: Frame) -> None:
         """Log the loads of a frame; of the first frame, also where everything is.
@@ -144,19 +224,7 @@ class Logs:
         """
         if not self._breaking.in_place:
             raise SimulationError(f"{self._folder}: was moved or deleted while a run wrote to it")
-        loads = frame.loads
-        columns = (
-            loads.body_forces_n,
-            loads.body_sums_n,
-            loads.body_peaks_n,
-            loads.body_peak_sums_n,
-            loads.body_contact_impulses_ns,
-            loads.body_signed_2019_n,
-            principal_stresses(loads.stresses_pa),
-            loads.von_mises_pa,
-            frame.asleep,
-        )
-        self._forces.write(frame.number, frame.time_s, np.column_stack(columns))
+        self._forces.write(frame.number, frame.time_s, frame)
         self._made_j += np.nan_to_num(frame.work.made_j)
         kinetic = 0.5 * self._inventory.masses_kg * dot(frame.velocities_m_s, frame.velocities_m_s)
         self._largest_kinetic_j = np.maximum(self._largest_kinetic_j, kinetic)
@@ -167,18 +235,16 @@ class Logs:
     def write_breaks(self, frame: int, breaks: Sequence[Breaks]) -> None:
         """Log the connections that broke in a frame, each with the loads that it broke under."""
         names, bodies, pairs = self._inventory.connection_names, self._inventory.body_names, self._inventory.pairs
-        lines = []
-        for each in breaks:
-            loads = each.loads
-            values = np.column_stack((loads.axial_n, loads.shear_n, loads.torsion_nm, loads.bending_nm)) + 0.0
-            for row, numbers in zip(each.connections, values, strict=True):
-                texts = (names[row], *bodies[pairs[row]], *(f"{number:.9g}" for number in numbers))
-                lines.append(_csv_text(str(frame), f"{each.time_s:.9g}", *texts) + "\n")
-        self._breaking.add("".join(lines))
+        for at_once in breaks:
+            entries = [(names[row], *bodies[pairs[row]]) for row in at_once.connections]
+            self._breaking.write(frame, at_once.time_s, entries, at_once.loads)
 
     def write_blast(self, frame: Frame, loads: StepLoads, frame_s: float) -> None:
-        """Log the blast loads of a frame that is that long."""
-        self._explosion.write(frame.number, frame.time_s, frame_s, loads)
+        """Log the blast loads of a frame that is that long; pressures and forces are means over it."""
+        bodies = self._inventory.body_names
+        pairs = zip(loads.bodies, loads.charges, strict=True)
+        entries = [(bodies[body], self._charges[charge]) for body, charge in pairs]
+        self._explosion.write(frame.number, frame.time_s, entries, FrameBlast(loads, frame_s))
 
     def close(self, last_frame: Frame | None) -> None:
         """Log where everything is at last, if there was a frame, and close the files.
@@ -189,41 +255,25 @@ class Logs:
             The disk is full; the files are closed all the same.
         """
         with ExitStack() as files:
-            for each in (self._forces, self._debris, self._breaking, self._explosion):
-                if each:
-                    files.callback(each.close)
+            for log in (self._forces, self._debris, self._breaking, self._explosion):
+                if log:
+                    files.callback(log.close)
             if last_frame:
                 self._write_positions(last_frame)
 
     def _write_positions(self, frame: Frame) -> None:
-        first, last = self._first_positions, frame.positions_m
-        throws = throw(first, last)
-        on_solver_energy = flies_on_solver_energy(throws, self._made_j, self._largest_kinetic_j)
-        values = np.column_stack((last, travel(first, last), throws, self._made_j, on_solver_energy))
-        self._debris.write(frame.number, frame.time_s, values)
+        flights = Flights(self._first_positions, frame.positions_m, self._made_j, self._largest_kinetic_j)
+        self._debris.write(frame.number, frame.time_s, flights)
 
 
-class CsvLog:
-    """CSV file that grows by whole lines.
+class CsvLog(Generic[Source]):
+    """CSV file that grows by whole lines; one that is there is replaced."""
 
-    Parameters
-    ----------
-    path
-        File to write; one that is there is replaced.
-    columns
-        Header.
-
-    Raises
-    ------
-    OutputError
-        The file cannot be written, as where it is a folder by now.
-    """
-
-    def __init__(self, path: Path, columns: Sequence[str]):
-        self._path = path
+    def __init__(self, path: Path, table: LogTable[Source]):
+        self._path, self._table = path, table
         with writing(path):
             self._file = path.open("w", encoding="utf-8", newline="")
-        self.add(",".join(columns) + "\n")
+        self.add(",".join(table.headers) + "\n")
 
     @property
     def in_place(self) -> bool:
@@ -231,94 +281,45 @@ class CsvLog:
         return is_in_place(self._file.fileno(), self._path)
 
     def add(self, lines: str) -> None:
-        """Add lines; a run that is killed keeps them.
-
-        Raises
-        ------
-        OutputError
-            They cannot be written, as on a full disk.
-        """
+        """Add lines; a run that is killed keeps them."""
         with writing(self._path):
             self._file.write(lines)
             self._file.flush()
 
     def close(self) -> None:
-        """Close the file.
-
-        Raises
-        ------
-        OutputError
-            Lines that are still to be written cannot be.
-        """
+        """Close the file."""
         with writing(self._path):
             self._file.close()
 
 
-class ExplosionLog(CsvLog):
-    """CSV file with one line per body, charge and frame in which the charge loads the body.
+class EntryLog(CsvLog[Source]):
+    """CSV file with a line for each thing that happened in a frame, such as a break."""
 
-    Pressure and force are means over the frame's simulated time.
-
-    Parameters
-    ----------
-    path
-        File to write.
-    bodies, charges
-        Names of the n bodies and c charges.
-    """
-
-    def __init__(self, path: Path, bodies: Sequence[str], charges: Sequence[str]):
-        self._bodies = [_csv_text(name) for name in bodies]
-        self._charges = [_csv_text(name) for name in charges]
-        super().__init__(path, EXPLOSION_COLUMNS)
-
-    def write(self, frame: int, time_s: float, frame_s: float, loads: StepLoads) -> None:
-        """Add the loads of a frame that ends at a time and is that long."""
-        if not len(loads):
+    def write(self, frame: int, time_s: float, entries: Sequence[Sequence[str]], source: Source) -> None:
+        """Add lines with the names of n entries, and their values of a source."""
+        if not entries:
             return
-        forces = loads.impulses_ns / frame_s
-        columns = (
-            loads.stand_offs_m,
-            loads.scaled_distances,
-            loads.areas_m2,
-            loads.directions,
-            loads.peaks_pa,
-            loads.pressure_impulses_pa_s / frame_s,
-            forces[:, None] * loads.directions,
-            loads.impulses_ns,
+        self.add(
+            "".join(
+                f"{frame},{time_s:.9g},{_csv_text(*names)}," + ",".join(f"{value:.9g}" for value in row) + "\n"
+                for names, row in zip(entries, self._table.values(source).tolist(), strict=True)
+            )
         )
-        values = (np.column_stack(columns) + 0.0).tolist()
-        names = zip(loads.bodies.tolist(), loads.charges.tolist(), strict=True)
-        lines = [
-            f"{frame},{time_s:.9g},{self._bodies[body]},{self._charges[charge]},"
-            + ",".join(f"{value:.9g}" for value in row)
-            for (body, charge), row in zip(names, values, strict=True)
-        ]
-        self.add("\n".join(lines) + "\n")
 
 
-class BodyLog(CsvLog):
-    """CSV file with one line per body and logged frame.
+class BodyLog(CsvLog[Source]):
+    """CSV file with a line for each of n bodies and each logged frame."""
 
-    Parameters
-    ----------
-    path
-        File to write.
-    columns
-        Header, beginning with frame, time and body.
-    bodies
-        Names of the n bodies.
-    """
-
-    def __init__(self, path: Path, columns: Sequence[str], bodies: Sequence[str]):
-        values = ",".join(["%.9g"] * (len(columns) - 3))
+    def __init__(self, path: Path, table: LogTable[Source], bodies: Sequence[str]):
+        values = ",".join(["%.9g"] * len(table.value_headers))
         # One template for all lines of a frame: formatting line by line takes several times as long.
         self._lines = "".join(f"{_STEP_MARK},{_csv_text(name).replace('%', '%%')},{values}\n" for name in bodies)
-        super().__init__(path, columns)
+        super().__init__(path, table)
 
-    def write(self, frame: int, time_s: float, values: np.ndarray) -> None:
-        """Add one line per body with its values (n, columns)."""
-        self.add((self._lines % tuple((values + 0.0).ravel().tolist())).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
+    def write(self, frame: int, time_s: float, source: Source) -> None:
+        """Add a line for each body with its values of a source."""
+        values = tuple(self._table.values(source).ravel().tolist())
+        self.add((self._lines % values).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
 
 
 def _csv_text(*texts: str) -> str:

@@ -9,15 +9,17 @@ from support.sample_results import FRAME_S, G, changed, hanging_chain, without_c
 
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
 from bridge_demolition_addon.simulation.recording.logs import (
-    BREAKING_COLUMNS,
-    DEBRIS_COLUMNS,
-    FORCE_COLUMNS,
+    BREAKING_TABLE,
+    DEBRIS_TABLE,
+    FORCE_TABLE,
     BodyLog,
+    LogColumn,
     Logs,
+    LogTable,
 )
 from bridge_demolition_addon.simulation.recording.substeps import Breaks
 
-COLUMNS = ("frame", "time_s", "body", "x_m", "y_m")
+TABLE = LogTable(("body",), (LogColumn("", "m", lambda values: values, ("x", "y")),))
 
 
 def rows_of(path):
@@ -27,7 +29,7 @@ def rows_of(path):
 
 def test_one_line_per_body_and_frame(tmp_path):
     path = tmp_path / "log.csv"
-    with closing(BodyLog(path, COLUMNS, ["deck", "pier"])) as log:
+    with closing(BodyLog(path, TABLE, ["deck", "pier"])) as log:
         log.write(2, 0.0, np.array([[1.0, 2.0], [3.0, 4.0]]))
         log.write(3, 0.04, np.array([[-1.5, 1e-20], [0.0, 1e9]]))
     assert rows_of(path) == [
@@ -42,7 +44,7 @@ def test_one_line_per_body_and_frame(tmp_path):
 def test_values_are_kept_to_more_than_single_precision(tmp_path):
     values = np.random.default_rng(2).normal(scale=1e5, size=(50, 2))
     path = tmp_path / "log.csv"
-    with closing(BodyLog(path, COLUMNS, [str(number) for number in range(50)])) as log:
+    with closing(BodyLog(path, TABLE, [str(number) for number in range(50)])) as log:
         log.write(1, 1 / 3, values)
     rows = rows_of(path)[1:]
     # Nine digits are written; Bullet works with the seven of single precision.
@@ -53,14 +55,14 @@ def test_values_are_kept_to_more_than_single_precision(tmp_path):
 @pytest.mark.parametrize("name", ['a,b and "c"', "100 %", "%s %d %(x)s", "Brücke ×2", "two\nlines", " ", "'", "a;b"])
 def test_any_name_of_a_body_comes_back(tmp_path, name):
     path = tmp_path / "log.csv"
-    with closing(BodyLog(path, COLUMNS, [name, "next"])) as log:
+    with closing(BodyLog(path, TABLE, [name, "next"])) as log:
         log.write(7, 0.5, np.array([[1.0, 2.0], [3.0, 4.0]]))
     assert rows_of(path)[1:] == [["7", "0.5", name, "1", "2"], ["7", "0.5", "next", "3", "4"]]
 
 
 def test_every_frame_is_on_disk_at_once(tmp_path):
     path = tmp_path / "log.csv"
-    log = BodyLog(path, COLUMNS, ["deck"])
+    log = BodyLog(path, TABLE, ["deck"])
     assert len(rows_of(path)) == 1
     for frame in (1, 2, 3):
         log.write(frame, frame * 0.04, np.zeros((1, 2)))
@@ -71,7 +73,7 @@ def test_every_frame_is_on_disk_at_once(tmp_path):
 
 def test_unknown_values_are_nan(tmp_path):
     path = tmp_path / "log.csv"
-    with closing(BodyLog(path, COLUMNS, ["deck"])) as log:
+    with closing(BodyLog(path, TABLE, ["deck"])) as log:
         log.write(1, 0.0, np.array([[np.nan, 1.0]]))
     assert np.isnan(float(rows_of(path)[1][3]))
 
@@ -79,41 +81,41 @@ def test_unknown_values_are_nan(tmp_path):
 def test_an_older_file_is_replaced(tmp_path):
     path = tmp_path / "log.csv"
     path.write_text("something else\n" * 100)
-    BodyLog(path, COLUMNS, []).close()
-    assert rows_of(path) == [list(COLUMNS)]
+    BodyLog(path, TABLE, []).close()
+    assert rows_of(path) == [TABLE.headers]
 
 
 def test_without_bodies_there_are_no_lines(tmp_path):
-    with closing(BodyLog(tmp_path / "log.csv", COLUMNS, [])) as log:
+    with closing(BodyLog(tmp_path / "log.csv", TABLE, [])) as log:
         log.write(1, 0.0, np.zeros((0, 2)))
     assert len(rows_of(tmp_path / "log.csv")) == 1
 
 
 @pytest.mark.parametrize("shape", [(1, 2), (3, 2), (2, 3)])
 def test_values_of_another_shape_are_refused(tmp_path, shape):
-    with closing(BodyLog(tmp_path / "log.csv", COLUMNS, ["deck", "pier"])) as log, pytest.raises(TypeError):
+    with closing(BodyLog(tmp_path / "log.csv", TABLE, ["deck", "pier"])) as log, pytest.raises(TypeError):
         log.write(1, 0.0, np.zeros(shape))
     assert len(rows_of(tmp_path / "log.csv")) == 1
 
 
 def test_the_file_is_closed_after_an_error(tmp_path):
-    with pytest.raises(RuntimeError), closing(BodyLog(tmp_path / "log.csv", COLUMNS, ["deck"])) as log:
+    with pytest.raises(RuntimeError), closing(BodyLog(tmp_path / "log.csv", TABLE, ["deck"])) as log:
         raise RuntimeError
     with pytest.raises(ValueError, match="closed"):
         log.write(1, 0.0, np.zeros((1, 2)))
 
 
-@pytest.mark.parametrize("columns", [FORCE_COLUMNS, DEBRIS_COLUMNS])
-def test_columns_begin_alike_and_carry_units(columns):
-    assert columns[:3] == ("frame", "time_s", "body")
+@pytest.mark.parametrize("log", [FORCE_TABLE, DEBRIS_TABLE])
+def test_columns_begin_alike_and_carry_units(log):
+    assert log.headers[:3] == ["frame", "time_s", "body"]
     without_unit = {"asleep", "on_solver_energy"}
-    assert all(name.endswith(("_N", "_m", "_Ns", "_Pa", "_J")) for name in set(columns[3:]) - without_unit)
-    assert len(set(columns)) == len(columns)
+    assert all(name.endswith(("_N", "_m", "_Ns", "_Pa", "_J")) for name in set(log.headers[3:]) - without_unit)
+    assert len(set(log.headers)) == len(log.headers)
 
 
 def test_columns_of_breaking_carry_units():
-    assert BREAKING_COLUMNS[:5] == ("frame", "time_s", "connection", "first_body", "second_body")
-    assert all(name.endswith(("_N", "_Nm")) for name in BREAKING_COLUMNS[5:])
+    assert BREAKING_TABLE.headers[:5] == ["frame", "time_s", "connection", "first_body", "second_body"]
+    assert all(name.endswith(("_N", "_Nm")) for name in BREAKING_TABLE.headers[5:])
 
 
 def table(path):
@@ -149,7 +151,7 @@ def test_force_log_holds_what_was_gathered(tmp_path):
     results = hanging_chain()
     logged(tmp_path, results)
     rows = table(tmp_path / "force_log.csv")
-    assert tuple(rows[0]) == FORCE_COLUMNS
+    assert list(rows[0]) == FORCE_TABLE.headers
     assert [row["body"] for row in rows] == 5 * results.inventory.body_names.tolist()
     assert [int(row["frame"]) for row in rows] == np.repeat(results.frames.number, 4).tolist()
     np.testing.assert_allclose(vectors(rows, "time_s")[:, 0], np.repeat(results.frames.time_s, 4), rtol=WRITTEN)
@@ -204,7 +206,7 @@ def test_debris_log_holds_first_and_last_places(tmp_path):
     results = hanging_chain()
     logged(tmp_path, results)
     rows = table(tmp_path / "debris_log.csv")
-    assert tuple(rows[0]) == DEBRIS_COLUMNS
+    assert list(rows[0]) == DEBRIS_TABLE.headers
     assert [(int(row["frame"]), row["body"]) for row in rows] == [
         (frame, name) for frame in (2, 6) for name in results.inventory.body_names
     ]
@@ -220,7 +222,7 @@ def test_debris_log_holds_first_and_last_places(tmp_path):
 def test_breaking_log_names_each_connection_and_the_loads_it_broke_under(tmp_path):
     logged(tmp_path, hanging_chain(), [broken([1], 0.132, 10.0), broken([0, 1], 0.148, -1.5)])
     assert rows_of(tmp_path / "breaking_log.csv") == [
-        list(BREAKING_COLUMNS),
+        BREAKING_TABLE.headers,
         ["6", "0.132", "Connection.001", "upper", "lower", "10", "11", "12", "13", "14", "15"],
         ["6", "0.148", "Connection", "upper", "Ground", "-1.5", "-0.5", "0.5", "1.5", "2.5", "3.5"],
         ["6", "0.148", "Connection.001", "upper", "lower", "4.5", "5.5", "6.5", "7.5", "8.5", "9.5"],
@@ -239,7 +241,7 @@ def test_columns_of_the_breaking_log_hold_what_they_are_named_after(tmp_path):
 
 def test_without_breaks_the_breaking_log_has_its_header_alone(tmp_path):
     logged(tmp_path, without_connections(hanging_chain()), [broken([])])
-    assert rows_of(tmp_path / "breaking_log.csv") == [list(BREAKING_COLUMNS)]
+    assert rows_of(tmp_path / "breaking_log.csv") == [BREAKING_TABLE.headers]
     assert len(rows_of(tmp_path / "force_log.csv")) == 1 + 20
 
 
