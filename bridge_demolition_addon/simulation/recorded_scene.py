@@ -83,6 +83,8 @@ class RecordedScene:
         self.before_update()
         if self._is_rendered:
             self._with_recording(_refuse_unplayed_frame)
+        else:
+            self.contours.before_frame()
         self._with_recording(Recording.before_frame)
         self._guard.keep_standing_still(self.scene)
 

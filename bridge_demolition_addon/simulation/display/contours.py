@@ -59,6 +59,7 @@ class ContourDisplay:
         self._results: Results | None = None
         self._loaded: ContourSeries | None = None
         self._recorded: ContourSeries | None = None
+        self._has_placed = False
 
     @property
     def is_shown(self) -> bool:
@@ -141,9 +142,20 @@ class ContourDisplay:
             self._results = self.recording.results()
         return self._results
 
-    def _let_results_go(self) -> None:
-        if self._loaded is not None:
+    def before_frame(self) -> None:
+        """Put bodies back before the frame from which Blender simulates again: else it begins where they are shown."""
+        world = self.scene.rigidbody_world
+        if self._has_placed and world and world.collection and self.is_placed:
+            if self.scene.frame_current <= world.point_cache.frame_start + 1:
+                self._put_back()
+
+    def _put_back(self) -> None:
+        if self._has_placed:
             put_back(self.scene)
+            self._has_placed = False
+
+    def _let_results_go(self) -> None:
+        self._put_back()
         self._results = None
         self.results_number += 1
 
@@ -229,4 +241,5 @@ class ContourDisplay:
 
     def _place(self, depsgraph: bpy.types.Depsgraph, series: ContourSeries, shown: Frame) -> None:
         moving = {name: row for row, name in enumerate(series.body_names) if series.moves[row]}
+        self._has_placed = True
         place(self.scene, depsgraph, moving, shown.positions_m, shown.rotations)
