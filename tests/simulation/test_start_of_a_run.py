@@ -2,7 +2,7 @@
 """A run begins with what was built, whatever the scene shows and whatever was done to it before."""
 
 import pytest
-from blocks import Blocks
+from support.blocks import Blocks
 
 from bridge_demolition_addon.display.contours import ContourSettings
 from bridge_demolition_addon.simulation.blender_events import contours_of

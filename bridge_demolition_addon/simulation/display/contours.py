@@ -143,11 +143,12 @@ class ContourDisplay:
         return self._results
 
     def before_frame(self) -> None:
-        """Put bodies back before the frame from which Blender simulates again: else it begins where they are shown."""
+        """Put bodies back before the frame from which Blender simulates: it would begin where they are shown."""
         world = self.scene.rigidbody_world
-        if self._has_placed and world and world.collection and self.is_placed:
-            if self.scene.frame_current <= world.point_cache.frame_start + 1:
-                self._put_back()
+        if not (self._has_placed and world and world.collection):
+            return
+        if self.is_placed and self.scene.frame_current <= world.point_cache.frame_start + 1:
+            self._put_back()
 
     def _put_back(self) -> None:
         if self._has_placed:
