@@ -18,7 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import bench_recording as bench
 import bpy
 
-from bridge_demolition_addon.display.contours import ContourSettings, Quantity
+from bridge_demolition_addon.display.contour_quantities import ContourQuantity
+from bridge_demolition_addon.display.contour_ranges import ContourSettings
 from bridge_demolition_addon.simulation.blender_events import contours_of
 
 ROUNDS = 3
@@ -59,7 +60,7 @@ def main() -> None:
 @contextmanager
 def _contours(scene: bpy.types.Scene, folder: Path):
     with bench._recording(scene, folder, every_substep=True) as recording:
-        contours_of(scene).show(ContourSettings(quantity=Quantity.VON_MISES))
+        contours_of(scene).show(ContourSettings(quantity=ContourQuantity.VON_MISES))
         yield recording
         if error := contours_of(scene).error:
             raise error

@@ -133,7 +133,6 @@ STILL_EQUAL = {
     "Quantity",
     "Row",
     "Run",
-    "Scale",
     "Span",
     "Surface",
 }

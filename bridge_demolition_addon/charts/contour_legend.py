@@ -10,7 +10,8 @@ from matplotlib.image import imread, imsave
 
 from ..display.colour_bar import colour_bar
 from ..display.colour_scale import colours
-from ..display.contours import ContourFrame, ContourSettings
+from ..display.contour_ranges import ContourSettings
+from ..display.contours import ContourFrame
 from ..system.disk import whole_file
 from .style import POINTS_PER_INCH, blank_figure
 

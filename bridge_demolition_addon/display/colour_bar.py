@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .colour_scale import tick_text
-from .contours import PEAKS_OF_SUBSTEPS, TITLES, ContourFrame, ContourSettings, Quantity, RangeKind, unit_of
+from .contour_quantities import ContourQuantity
+from .contour_ranges import ContourSettings, RangeKind
+from .contours import ContourFrame
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -41,29 +43,26 @@ class ColourBar:
 def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
     """Return the colour bar of a frame."""
     scale = frame.scale
-    unit, ticks = unit_of(settings.quantity, max(abs(scale.low), abs(scale.high))), scale.ticks()
+    unit, ticks = settings.quantity.units.of(max(abs(scale.low), abs(scale.high))), scale.ticks()
     return ColourBar(
-        title=TITLES[settings.quantity],
+        title=settings.quantity.title,
         subtitle=", ".join(_what_is_shown(settings)),
         unit=f"({unit.name})",
         tick_shares=scale.shares(ticks),
         tick_texts=tuple(tick_text(tick / unit.size) for tick in ticks),
-        frame=f"{'stage' if settings.quantity == Quantity.UTILISATION else 'frame'} {frame.frame}",
+        frame=f"{'stage' if settings.quantity is ContourQuantity.UTILISATION else 'frame'} {frame.frame}",
         time=f"{frame.time_s:.3f} s",
     )
 
 
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
-    since = "of the whole run" if settings.whole_run else "so far"
-    if settings.quantity == Quantity.UTILISATION:
+    quantity = settings.quantity
+    if quantity is ContourQuantity.UTILISATION:
         yield "worst connection"
-    elif settings.quantity == Quantity.DISPLACEMENT:
-        if settings.peak:
-            yield f"peak {since}"
     elif settings.peak:
-        yield f"sub-step peak {since}" if settings.quantity in PEAKS_OF_SUBSTEPS else f"frame mean, peak {since}"
-    else:
-        yield "frame mean"
+        yield f"{quantity.kind_of_peak} {'of the whole run' if settings.whole_run else 'so far'}"
+    elif quantity.kind_of_mean:
+        yield quantity.kind_of_mean
     if settings.percentile < 100.0 and settings.range_kind != RangeKind.FIXED:
         yield f"up to percentile {settings.percentile:g}"
     if settings.magnification != 1.0:

@@ -10,7 +10,8 @@ import numpy as np
 from ..model.stages.stages import Stage
 from ..model.structure.model import Model
 from .colour_scale import colours
-from .contours import ContourFrame, ContourSettings, RangeKind, automatic_scale, fixed_scale, percentiles
+from .contour_ranges import ContourSettings, RangeKind, percentiles
+from .contours import ContourFrame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,11 +44,8 @@ class StageContours:
     def show(self, stage: int, settings: ContourSettings) -> ContourFrame:
         """Return the colours of a stage, from 1 on."""
         values = self.used[stage - 1]
-        scale = fixed_scale(settings)
-        if settings.range_kind != RangeKind.FIXED:
-            of = values if settings.range_kind == RangeKind.FRAME else self.used
-            known = of[np.isfinite(of)]
-            scale = automatic_scale(settings, *percentiles(known, settings.percentile))
+        of = values if settings.range_kind == RangeKind.FRAME else self.used
+        scale = settings.scale(*percentiles(of[np.isfinite(of)], settings.percentile))
         painted = colours(settings.colour_map, scale.shares(values))
         return ContourFrame(stage, float(self.times_s[stage - 1]), values, scale, painted)
 

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 import bpy
 
 from ..display.camera_targets import points_to_see
-from ..display.contours import ContourSettings
+from ..display.contour_ranges import ContourSettings
 from ..errors import DemolitionError, SimulationError, text_of
 from ..model.results.files import BLEND_FILE, FRAMES_FILE, SCENARIO_FILE
 from ..model.scenario import Scenario

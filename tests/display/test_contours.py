@@ -8,7 +8,9 @@ from support.sample_results import FRAME_S, POINTS, G, hanging_chain
 
 from bridge_demolition_addon.display.colour_bar import colour_bar
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours
-from bridge_demolition_addon.display.contours import ContourSeries, ContourSettings, Quantity, RangeKind, Scale, unit_of
+from bridge_demolition_addon.display.contour_quantities import ContourQuantity
+from bridge_demolition_addon.display.contour_ranges import ContourScale, ContourSettings, RangeKind
+from bridge_demolition_addon.display.contours import ContourSeries
 from bridge_demolition_addon.display.film_frames import film_rows
 from bridge_demolition_addon.display.force_arrows import arrows, connection_forces, contact_forces
 from bridge_demolition_addon.errors import ContourError, OutputError
@@ -23,25 +25,25 @@ def series():
 
 def test_forces_of_the_chain(series):
     # The ledge pulls upper up by the weight of both, lower pulls it down by its own.
-    assert series.values(1, Quantity.RESULTANT)[UPPER] == pytest.approx(300 * G)
-    assert series.values(1, Quantity.SUM)[UPPER] == pytest.approx(700 * G)
-    assert series.values(1, Quantity.RESULTANT)[LOWER] == pytest.approx(200 * G)
+    assert series.values(1, ContourQuantity.RESULTANT)[UPPER] == pytest.approx(300 * G)
+    assert series.values(1, ContourQuantity.SUM)[UPPER] == pytest.approx(700 * G)
+    assert series.values(1, ContourQuantity.RESULTANT)[LOWER] == pytest.approx(200 * G)
     # Half a frame at 6000 g is 3000 g on average; the peak is the whole.
-    assert series.values(4, Quantity.RESULTANT)[BALL] == pytest.approx(3000 * G)
-    assert series.values(4, Quantity.RESULTANT, peak=True)[BALL] == pytest.approx(6000 * G)
+    assert series.values(4, ContourQuantity.RESULTANT)[BALL] == pytest.approx(3000 * G)
+    assert series.values(4, ContourQuantity.RESULTANT, peak=True)[BALL] == pytest.approx(6000 * G)
 
 
 def test_stresses_of_the_chain(series):
     # A hanging bar under tension at one end: mean stress is half the end's. Lower: 200 g over 0.5 m² at its top.
-    assert series.values(1, Quantity.PRINCIPAL)[LOWER] == pytest.approx(200 * G / 0.5 / 2.0)
-    assert series.values(1, Quantity.VON_MISES)[LOWER] == pytest.approx(200 * G / 0.5 / 2.0)
+    assert series.values(1, ContourQuantity.PRINCIPAL)[LOWER] == pytest.approx(200 * G / 0.5 / 2.0)
+    assert series.values(1, ContourQuantity.VON_MISES)[LOWER] == pytest.approx(200 * G / 0.5 / 2.0)
 
 
 def test_displacement_is_from_where_a_body_stood_at_first(series):
     # Lower has moved by (3, 4, -12) m: Pythagoras gives 13 m.
-    assert series.values(4, Quantity.DISPLACEMENT)[[UPPER, LOWER]] == pytest.approx([0.0, 13.0])
-    assert unit_of(Quantity.DISPLACEMENT, 13.0).name == "m"
-    assert unit_of(Quantity.DISPLACEMENT, 0.013).name == "mm"
+    assert series.values(4, ContourQuantity.DISPLACEMENT)[[UPPER, LOWER]] == pytest.approx([0.0, 13.0])
+    assert ContourQuantity.DISPLACEMENT.units.of(13.0).name == "m"
+    assert ContourQuantity.DISPLACEMENT.units.of(0.013).name == "mm"
 
 
 def test_a_magnified_shape_is_displaced_and_turned_so_many_times_as_much():
@@ -63,13 +65,13 @@ def test_a_magnified_shape_is_displaced_and_turned_so_many_times_as_much():
     "quantity, peak, subtitle, ball_n",
     [
         # Half a frame at 6000 g: see above.
-        (Quantity.RESULTANT, False, "frame mean", 3000 * G),
-        (Quantity.RESULTANT, True, "sub-step peak so far", 6000 * G),
-        (Quantity.SUM, True, "sub-step peak so far", 6000 * G),
-        (Quantity.VON_MISES, False, "frame mean", None),
-        (Quantity.VON_MISES, True, "frame mean, peak so far", None),
-        (Quantity.DISPLACEMENT, False, "", None),
-        (Quantity.DISPLACEMENT, True, "peak so far", None),
+        (ContourQuantity.RESULTANT, False, "frame mean", 3000 * G),
+        (ContourQuantity.RESULTANT, True, "sub-step peak so far", 6000 * G),
+        (ContourQuantity.SUM, True, "sub-step peak so far", 6000 * G),
+        (ContourQuantity.VON_MISES, False, "frame mean", None),
+        (ContourQuantity.VON_MISES, True, "frame mean, peak so far", None),
+        (ContourQuantity.DISPLACEMENT, False, "", None),
+        (ContourQuantity.DISPLACEMENT, True, "peak so far", None),
     ],
 )
 def test_the_colour_bar_says_whether_it_is_a_mean_or_a_peak(series, quantity, peak, subtitle, ball_n):
@@ -81,11 +83,11 @@ def test_the_colour_bar_says_whether_it_is_a_mean_or_a_peak(series, quantity, pe
 
 
 def test_what_never_moves_has_no_value(series):
-    assert np.isnan(series.values(1, Quantity.RESULTANT)[0])
+    assert np.isnan(series.values(1, ContourQuantity.RESULTANT)[0])
 
 
 def test_peak_so_far_never_falls_and_is_reached(series):
-    peaks = np.array([series.values(row, Quantity.SUM, peak=True) for row in range(5)])[:, 1:]
+    peaks = np.array([series.values(row, ContourQuantity.SUM, peak=True) for row in range(5)])[:, 1:]
     assert (np.diff(peaks, axis=0) >= 0.0).all()
     assert peaks[-1, 0] == pytest.approx(500 * G + np.hypot(200 * G, 1000.0))
 
@@ -107,8 +109,8 @@ def test_range_over_the_run_and_of_each_frame(series):
     linear = {"logarithmic": False, "colour_map": ColourMap.BLUE_TO_RED}
     run, frame = ContourSettings(**linear), ContourSettings(range_kind=RangeKind.FRAME, **linear)
     # The ball's 3000 g do not count; a push of 1000 N for half a frame, across the weight of both, is the most.
-    assert series.show(1, run).scale == Scale(0.0, pytest.approx(np.hypot(300 * G, 500.0)))
-    assert series.show(1, frame).scale == Scale(0.0, pytest.approx(300 * G))
+    assert series.show(1, run).scale == ContourScale(0.0, pytest.approx(np.hypot(300 * G, 500.0)))
+    assert series.show(1, frame).scale == ContourScale(0.0, pytest.approx(300 * G))
     assert series.show(1, frame).screen_colours[UPPER].tolist() == [1.0, 0.0, 0.0]
     # The first frame, in which no time passes, is free of load: everything is blue, as in the report's Figure 55.
     assert series.show(0, frame).screen_colours[1:].tolist() == [[0.0, 0.0, 1.0]] * 3
@@ -136,12 +138,12 @@ def test_a_percentile_leaves_the_few_largest_out(series):
     # Of the two shards, over the run: 200, 200, 206, 300, 300, 300 and 304 g, and some zeros. The middle one is 300 g.
     half = ContourSettings(logarithmic=False, percentile=50.0)
     shown = series.show(3, half)
-    assert shown.scale == Scale(0.0, pytest.approx(300 * G))
+    assert shown.scale == ContourScale(0.0, pytest.approx(300 * G))
     assert shown.screen_colours[UPPER].tolist() == colours(ColourMap.VIRIDIS, [1.0])[0].tolist()
     assert colour_bar(half, shown).subtitle == "frame mean, up to percentile 50"
     of_frame = replace(half, range_kind=RangeKind.FRAME)
-    assert series.show(1, of_frame).scale == Scale(0.0, pytest.approx(250 * G))  # of 200 and 300
-    assert series.show(0, of_frame).scale == Scale(0.0, 0.0)  # in the first frame nothing bears a load
+    assert series.show(1, of_frame).scale == ContourScale(0.0, pytest.approx(250 * G))  # of 200 and 300
+    assert series.show(0, of_frame).scale == ContourScale(0.0, 0.0)  # in the first frame nothing bears a load
 
 
 def test_a_percentile_follows_a_series_that_grows(series):
@@ -157,7 +159,7 @@ def test_a_percentile_follows_a_series_that_grows(series):
 def test_the_peak_of_the_whole_run_is_that_of_the_last_frame_in_every_frame(series):
     whole = ContourSettings(peak=True, whole_run=True)
     first = series.show(0, whole)
-    assert np.array_equal(first.values, series.values(4, Quantity.RESULTANT, peak=True), equal_nan=True)
+    assert np.array_equal(first.values, series.values(4, ContourQuantity.RESULTANT, peak=True), equal_nan=True)
     assert first.values[BALL] == pytest.approx(6000 * G) and first.frame == series.frames[0]
     assert colour_bar(whole, first).subtitle == "sub-step peak of the whole run"
     assert series.show(0, ContourSettings(peak=True)).values[BALL] == 0.0
@@ -170,14 +172,18 @@ def test_a_range_without_an_extent_is_refused(low, high, logarithmic):
 
 
 def test_ticks_are_round_and_inside():
-    assert Scale(0.0, 1.0).ticks() == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
-    assert Scale(-70.0, 130.0).ticks() == pytest.approx([-50.0, 0.0, 50.0, 100.0])
-    assert Scale(0.02, 30.0, True).ticks() == pytest.approx([0.1, 1.0, 10.0])
-    assert Scale(0.0, 0.0).ticks() == pytest.approx([0.0])
+    assert ContourScale(0.0, 1.0).ticks() == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
+    assert ContourScale(-70.0, 130.0).ticks() == pytest.approx([-50.0, 0.0, 50.0, 100.0])
+    assert ContourScale(0.02, 30.0, True).ticks() == pytest.approx([0.1, 1.0, 10.0])
+    assert ContourScale(0.0, 0.0).ticks() == pytest.approx([0.0])
 
 
 def test_units_keep_numbers_short():
-    found = [unit_of(Quantity.SUM, 5e6).name, unit_of(Quantity.SUM, 5e3).name, unit_of(Quantity.VON_MISES, 2e6).name]
+    found = [
+        ContourQuantity.SUM.units.of(5e6).name,
+        ContourQuantity.SUM.units.of(5e3).name,
+        ContourQuantity.VON_MISES.units.of(2e6).name,
+    ]
     assert found == ["MN", "kN", "N/mm²"]
 
 

@@ -1,6 +1,6 @@
 """Criteria: what makes a run count as a success, judged from the outputs of its outcome."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -9,22 +9,66 @@ from ..scenario import Scenario
 from ..schema import Table, key, shown
 from ..toml_tables import dotted
 
-_NEEDED = {
-    "collapsed": (),
-    "span down": ("span",),
-    "span stands": ("span",),
-    "zone not entered": ("zone",),
-    "pressure below": ("neighbour", "limit_kpa"),
-    "vibration below": ("neighbour", "limit_mm_s"),
-    "touchdown below": ("neighbour", "limit_mm_s"),
-}
-"""Keys that a kind of criterion cannot do without."""
-
-_SHARES = {"collapsed": 0.5, "span down": 0.5, "span stands": 0.1}
-"""Kinds that take a share, and which where none is given."""
-
 COLLAPSED = "collapsed_share"
 """Output that says how far the collapse is at the end."""
+
+
+@dataclass(frozen=True, slots=True)
+class CriterionKind:
+    """What a kind of criterion asks.
+
+    Attributes
+    ----------
+    needs
+        Keys that it cannot do without.
+    output
+        Returns the name of the output that it is judged from.
+    holds
+        Returns whether a value of that output meets the criterion.
+    share
+        Share where none is given; None for a kind that takes none.
+    """
+
+    needs: tuple[str, ...]
+    output: Callable[["Criterion"], str]
+    holds: Callable[[Any, "Criterion"], bool]
+    share: float | None = None
+
+
+KINDS = {
+    "collapsed": CriterionKind((), lambda _: COLLAPSED, lambda value, asked: value >= asked.limit_share, 0.5),
+    "span down": CriterionKind(
+        ("span",),
+        lambda asked: span_output(asked.span, "lost_share"),
+        lambda value, asked: value >= asked.limit_share,
+        0.5,
+    ),
+    "span stands": CriterionKind(
+        ("span",),
+        lambda asked: span_output(asked.span, "most_lost_share"),
+        lambda value, asked: value <= asked.limit_share,
+        0.1,
+    ),
+    "zone not entered": CriterionKind(
+        ("zone",), lambda asked: zone_output(asked.zone, "entered"), lambda value, _: not value
+    ),
+    "pressure below": CriterionKind(
+        ("neighbour", "limit_kpa"),
+        lambda asked: neighbour_output(asked.neighbour, "pressure_kPa"),
+        lambda value, asked: value < asked.limit_kpa,
+    ),
+    "vibration below": CriterionKind(
+        ("neighbour", "limit_mm_s"),
+        lambda asked: neighbour_output(asked.neighbour, "vibration_mm_s"),
+        lambda value, asked: value < asked.limit_mm_s,
+    ),
+    "touchdown below": CriterionKind(
+        ("neighbour", "limit_mm_s"),
+        lambda asked: neighbour_output(asked.neighbour, "touchdown_mm_s"),
+        lambda value, asked: value < asked.limit_mm_s,
+    ),
+}
+"""All kinds, by what a study file calls them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +86,7 @@ class Criterion(Table):
         "below`: what the charges do to a neighbour stays below a limit; the fall of the bridge, which shakes the "
         "ground as well, is not in it. `touchdown below`: the fall shakes the ground at a neighbour by less, as it is "
         "estimated.",
-        choices=tuple(_NEEDED),
+        choices=tuple(KINDS),
     )
     share: float | None = key(
         "Least share of the height that `collapsed` and `span down` ask for, 0.5 where it is left out; the largest "
@@ -67,20 +111,14 @@ class Criterion(Table):
 
         What is not known is not met, such as a span without shards of its own.
         """
-        value = outputs.get(self._judged)
-        if value is None:
-            return False
-        match self.kind:
-            case "collapsed" | "span down":
-                return value >= self._share
-            case "span stands":
-                return value <= self._share
-            case "zone not entered":
-                return not value
-            case "pressure below":
-                return value < self.limit_kpa
-            case _:
-                return value < self.limit_mm_s
+        kind = KINDS[self.kind]
+        value = outputs.get(kind.output(self))
+        return value is not None and kind.holds(value, self)
+
+    @property
+    def limit_share(self) -> float | None:
+        """The share that is asked for, or that of its kind."""
+        return KINDS[self.kind].share if self.share is None else self.share
 
     def check_against(self, scenario: Scenario) -> None:
         """Check that the scenario has what is asked about.
@@ -99,36 +137,13 @@ class Criterion(Table):
                 listed = ", ".join(map(shown, names)) or f"none, as the scenario has no [[{name}s]]"
                 raise self.unexpected(name, f"one of {listed}" if names else listed)
 
-    @property
-    def _judged(self) -> str:
-        """Name of the output that it is judged from."""
-        match self.kind:
-            case "collapsed":
-                return COLLAPSED
-            case "span down":
-                return span_output(self.span, "lost_share")
-            case "span stands":
-                return span_output(self.span, "most_lost_share")
-            case "zone not entered":
-                return zone_output(self.zone, "entered")
-            case "pressure below":
-                return neighbour_output(self.neighbour, "pressure_kPa")
-            case "touchdown below":
-                return neighbour_output(self.neighbour, "touchdown_mm_s")
-            case _:
-                return neighbour_output(self.neighbour, "vibration_mm_s")
-
-    @property
-    def _share(self) -> float:
-        return _SHARES[self.kind] if self.share is None else self.share
-
     def _check_together(self) -> None:
-        taken = {*_NEEDED[self.kind], *(("share",) if self.kind in _SHARES else ())}
+        kind = KINDS[self.kind]
         for name in ("share", "span", "zone", "neighbour", "limit_kpa", "limit_mm_s"):
             is_given = getattr(self, name) is not None
-            if is_given and name not in taken:
+            if is_given and name not in kind.needs and (name != "share" or kind.share is None):
                 raise self.unexpected(name, f'none with kind "{self.kind}"')
-            if not is_given and name in _NEEDED[self.kind]:
+            if not is_given and name in kind.needs:
                 raise self.unexpected(name, f'it with kind "{self.kind}"')
 
 

@@ -8,7 +8,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...display.contours import ContourFrame, ContourSeries, ContourSettings, Quantity
+from ...display.contour_quantities import ContourQuantity
+from ...display.contour_ranges import ContourSettings
+from ...display.contours import ContourFrame, ContourSeries
 from ...display.stage_contours import StageContours
 from ...errors import ContourError
 from ...model.results.arrays import Results
@@ -227,7 +229,7 @@ class ContourDisplay:
 
     @property
     def _shows_stages(self) -> bool:
-        return self.settings is not None and self.settings.quantity == Quantity.UTILISATION
+        return self.settings is not None and self.settings.quantity is ContourQuantity.UTILISATION
 
     def _paint_stage(self, depsgraph: bpy.types.Depsgraph) -> None:
         world = self.scene.rigidbody_world

@@ -11,7 +11,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...display.contours import ContourSeries, ContourSettings
+from ...display.contour_ranges import ContourSettings
+from ...display.contours import ContourSeries
 from ...display.film_frames import film_rows
 from ...errors import ContourError, OutputError
 from ...model.results.files import FILM_FILE, SLOW_FILM_FILE

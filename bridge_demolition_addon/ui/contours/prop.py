@@ -4,40 +4,14 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ...display.colour_scale import ColourMap
-from ...display.contours import TITLES, Quantity, RangeKind
+from ...display.contour_quantities import ContourQuantity
+from ...display.contour_ranges import RangeKind
 from ...model.blast.damage import THRESHOLDS
 from ...simulation.display.film import FilmKind
 from ..sidebar import path_property
 from . import view as contour_view
 
-_QUANTITIES = (
-    (
-        Quantity.RESULTANT.name,
-        TITLES[Quantity.RESULTANT],
-        "Magnitude of the sum of all contact and connection forces: its mean over each frame, or its largest in any "
-        "sub-step with Peak So Far",
-    ),
-    (
-        Quantity.SUM.name,
-        TITLES[Quantity.SUM],
-        "Sum of the magnitudes of all contact and connection forces: its mean over each frame, or its largest in any "
-        "sub-step with Peak So Far",
-    ),
-    (Quantity.VON_MISES.name, TITLES[Quantity.VON_MISES], "Equivalent stress, averaged over the body"),
-    (Quantity.PRINCIPAL.name, TITLES[Quantity.PRINCIPAL], "Largest tension, averaged over the body"),
-    (
-        Quantity.DISPLACEMENT.name,
-        TITLES[Quantity.DISPLACEMENT],
-        "How far the body is from where it stood when the recording began; elastic connections bear no load there",
-    ),
-    (
-        Quantity.UTILISATION.name,
-        TITLES[Quantity.UTILISATION],
-        "Load over strength of the shard's connections at rest, in the stage that the panel Stages shows: above 100 % "
-        "one of them breaks",
-    ),
-    (Quantity.SIGNED_2019.name, TITLES[Quantity.SIGNED_2019], "What the add-on of 2019 logged: for comparison only"),
-)
+_QUANTITIES = tuple((quantity.name, quantity.title, quantity.tooltip) for quantity in ContourQuantity)
 _RANGES = (
     (RangeKind.RUN.name, "Whole Run", "From the lowest to the highest value of all frames recorded so far"),
     (RangeKind.FRAME.name, "Each Frame", "From the lowest to the highest value of each frame by itself"),

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...display.contours import Quantity, unit_of_range
+from ...display.contour_quantities import ContourQuantity
 from ...scene.visibility import symbols_are_hidden
 from ...simulation.blender_events import contours_of
 from ..sidebar import SidebarPanel, draw_sentence
@@ -30,7 +30,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "contour_whole_run")
         column.prop(settings, "contour_range")
         if settings.contour_range == "FIXED":
-            unit = unit_of_range(Quantity[settings.contour_quantity]).name
+            unit = ContourQuantity[settings.contour_quantity].units.of_range.name
             ends = column.column(align=True)
             ends.prop(settings, "contour_low", text=f"Lowest, {unit}")
             ends.prop(settings, "contour_high", text=f"Highest, {unit}")

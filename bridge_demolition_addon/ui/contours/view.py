@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import bpy
 
 from ...display.colour_scale import ColourMap
-from ...display.contours import ContourSettings, Quantity, RangeKind, unit_of_range
+from ...display.contour_quantities import ContourQuantity
+from ...display.contour_ranges import ContourSettings, RangeKind
 from ...errors import DemolitionError
 from ...scene.rendering.body_colours import SHADED_LIGHT
 from ...simulation.blender_events import contours_of
@@ -25,8 +26,8 @@ def settings_of(scene: bpy.types.Scene) -> ContourSettings:
         They cannot be shown.
     """
     settings = scene.bda
-    quantity = Quantity[settings.contour_quantity]
-    size = unit_of_range(quantity).size
+    quantity = ContourQuantity[settings.contour_quantity]
+    size = quantity.units.of_range.size
     return ContourSettings(
         quantity=quantity,
         peak=settings.contour_peak,
@@ -62,7 +63,7 @@ def trouble(scene: bpy.types.Scene) -> str:
     """Return why contours cannot be shown as asked for; empty where they can."""
     contours = contours_of(scene)
     shown = contours.settings
-    if shown and shown.quantity == Quantity.UTILISATION and contours.stages is None:
+    if shown and shown.quantity is ContourQuantity.UTILISATION and contours.stages is None:
         return "Utilisation at rest is that of stages: check them first, in the panel Stages"
     return _refusals.get(scene.session_uid) or (str(contours.error) if contours.error else contours.missing)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...display.contours import Quantity
+from ...display.contour_quantities import ContourQuantity
 from ...display.stage_contours import StageContours
 from ...model.sequence.checked_model import checked_model
 from ...model.stages.made_elastic import made_elastic
@@ -89,7 +89,7 @@ class BDA_OT_show_utilisation(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda
-        settings.contour_quantity = Quantity.UTILISATION.name
+        settings.contour_quantity = ContourQuantity.UTILISATION.name
         settings.contours = True
 
 

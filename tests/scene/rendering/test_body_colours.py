@@ -8,13 +8,16 @@ from matplotlib.image import imread
 from support.blocks import Blocks
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
-from bridge_demolition_addon.display.contours import ContourSettings, Quantity, RangeKind
+from bridge_demolition_addon.display.contour_quantities import ContourQuantity
+from bridge_demolition_addon.display.contour_ranges import ContourSettings, RangeKind
 from bridge_demolition_addon.errors import ContourError, OutputError
 
 FRAMES = 6
 ONE_LEVEL = 1.01 / 255.0
 """What eight bits per channel allow, up and down."""
-FRAME_BY_FRAME = ContourSettings(quantity=Quantity.SUM, range_kind=RangeKind.FRAME, logarithmic=False, shaded=False)
+FRAME_BY_FRAME = ContourSettings(
+    quantity=ContourQuantity.SUM, range_kind=RangeKind.FRAME, logarithmic=False, shaded=False
+)
 
 
 @pytest.fixture
@@ -105,7 +108,9 @@ def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
     from bridge_demolition_addon.simulation.blender_events import contours_of
 
     scene, recording = hanging.scene, contours_of(hanging.scene).recording
-    contours_of(scene).show(ContourSettings(quantity=Quantity.SUM, logarithmic=False, colour_map=ColourMap.BLUE_TO_RED))
+    contours_of(scene).show(
+        ContourSettings(quantity=ContourQuantity.SUM, logarithmic=False, colour_map=ColourMap.BLUE_TO_RED)
+    )
     sums = np.array([frame.loads.body_sums_n for frame in recording.frames])
     names, moving = recording.inventory.body_names.tolist(), [1, 3]
     for frame in (2, 5, 3, 5):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
-from bridge_demolition_addon.display.contours import Quantity, RangeKind
+from bridge_demolition_addon.display.contour_quantities import ContourQuantity
+from bridge_demolition_addon.display.contour_ranges import RangeKind
 
 FRAMES = 4
 
@@ -94,7 +95,7 @@ def test_settings_have_the_units_that_the_panel_names(recorded):
     assert (settings_of(recorded.scene).low, settings_of(recorded.scene).high) == (1e3, 2e3)
     settings.contour_quantity = "VON_MISES"
     found = settings_of(recorded.scene)
-    assert (found.quantity, found.range_kind, found.high) == (Quantity.VON_MISES, RangeKind.FIXED, 2e6)
+    assert (found.quantity, found.range_kind, found.high) == (ContourQuantity.VON_MISES, RangeKind.FIXED, 2e6)
     settings.contour_quantity, settings.contour_magnification = "DISPLACEMENT", 200.0
     found = settings_of(recorded.scene)
     assert (found.high, found.magnification) == pytest.approx((2e-3, 200.0))

@@ -11,7 +11,7 @@ from support.checkout import ROOT
 from support.scenarios import I235
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
-from bridge_demolition_addon.display.contours import Quantity
+from bridge_demolition_addon.display.contour_quantities import ContourQuantity
 from bridge_demolition_addon.model.scenario import Equipment
 from bridge_demolition_addon.simulation.blender_events import contours_of
 from bridge_demolition_addon.ui.contours import view as contour_view
@@ -119,7 +119,7 @@ def test_stages_of_another_bridge_are_not_shown(blender, panel):
 
 def test_utilisation_without_stages_says_what_to_do(blender, panel):
     blender.ops.bda.build_scenario()
-    panel.contour_quantity, panel.contours = Quantity.UTILISATION.name, True
+    panel.contour_quantity, panel.contours = ContourQuantity.UTILISATION.name, True
     assert contour_view.trouble(blender.context.scene).startswith("Utilisation at rest is that of stages: check them")
     assert contours_of(blender.context.scene).shown_frame() is None
 
