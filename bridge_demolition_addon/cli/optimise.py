@@ -17,7 +17,7 @@ from ..studies.folder import StudyFolder
 from ..studies.optimise_run import OptimiseRun
 from ..studies.proposals import OptunaProposals, check_optuna
 from ..system.signals import Interrupted, signals_noted
-from .progress import Progress, progress_on
+from .progress import CommandProgress, progress_on
 from .study import add_engine_options, engine_of
 
 _LOOK_EVERY_S = 0.2
@@ -67,7 +67,7 @@ def execute(arguments: argparse.Namespace) -> None:
         _print(optimisation, run, best, paths)
 
 
-def _play(run: OptimiseRun, signals: Sequence[int], progress: Progress) -> None:
+def _play(run: OptimiseRun, signals: Sequence[int], progress: CommandProgress) -> None:
     """Make all runs, unless a signal stops that."""
     try:
         while not run.is_finished:

@@ -5,39 +5,32 @@ from typing import TextIO
 from tqdm import tqdm
 
 from ..engineering.timing.time_left import clock
+from ..system.progress import Progress
 
 
-class Progress:
+class CommandProgress(Progress):
     """Stages and counts of a command, each shown as the kind of progress does."""
 
-    def stage(self, text: str) -> None:
-        """Name what begins now."""
-
     def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
-        """Give how many frames are done, how many connections are broken, and how long the rest takes, if known."""
         connections = "connection" if broken == 1 else "connections"
         self._show(done, total, f"frame {_counted(done, total)}, {broken} {connections} broken", left_s)
 
     def part(self, done: int, total: int, text: str) -> None:
-        """Give how many parts of a stage are done."""
         self._show(done, total, f"{_counted(done, total)} {text}")
 
     def draws(self, done: int, total: int, lost: int) -> None:
         """Give how many draws of a study have ended, and how many of them otherwise than by being done."""
         self._show(done, total, f"draw {_counted(done, total)}" + (f", {lost} not done" if lost else ""))
 
-    def finish(self) -> None:
-        """Leave the terminal ready for other output."""
-
     def _show(self, done: int, total: int, text: str, left_s: float | None = None) -> None:
         """Show a count."""
 
 
-class Silence(Progress):
+class Silence(CommandProgress):
     """Nothing is shown."""
 
 
-class TerminalBar(Progress):
+class TerminalBar(CommandProgress):
     """Stages as lines, and counts as a bar with the time left."""
 
     def __init__(self, stream: TextIO) -> None:
@@ -70,7 +63,7 @@ class _Bar(tqdm):
     monitor_interval = 0
 
 
-class PlainLines(Progress):
+class PlainLines(CommandProgress):
     """Stages as lines, and a line after each tenth of the frames or draws and at the end of parts."""
 
     def __init__(self, stream: TextIO) -> None:
@@ -101,7 +94,7 @@ class PlainLines(Progress):
         print(text, file=self._stream, flush=True)
 
 
-def progress_on(stream: TextIO, *, quiet: bool) -> Progress:
+def progress_on(stream: TextIO, *, quiet: bool) -> CommandProgress:
     """Return the kind of progress that suits a stream."""
     if quiet:
         return Silence()

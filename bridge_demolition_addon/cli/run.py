@@ -19,9 +19,10 @@ from ..model.sequence.checked_model import checked_model
 from ..model.sequence.undisturbed import self_collapse_text
 from ..model.structure.model import Model
 from ..simulation.results_folder import check_folder, remove_report
+from ..system.progress import Progress
 from ..system.signals import interrupted_afterwards
 from .arguments import naming
-from .progress import Progress, progress_on
+from .progress import progress_on
 
 COMPARISON_FOLDER = "report"
 """Where in the folder of a comparison its report is."""

@@ -16,7 +16,7 @@ from ..model.search.files import ANSWER_FILE, CURVE_FILE, CURVE_PICTURE, TRIALS_
 from ..studies.folder import StudyFolder
 from ..studies.search_run import SearchRun
 from ..system.signals import Interrupted, signals_noted
-from .progress import Progress, progress_on
+from .progress import CommandProgress, progress_on
 from .study import add_engine_options, engine_of
 
 _LOOK_EVERY_S = 0.2
@@ -63,7 +63,7 @@ def execute(arguments: argparse.Namespace) -> None:
         _print(search, run, answer, paths)
 
 
-def _play(run: SearchRun, signals: Sequence[int], progress: Progress) -> None:
+def _play(run: SearchRun, signals: Sequence[int], progress: CommandProgress) -> None:
     """Make all trials, unless a signal stops that."""
     try:
         while run.reason is None:

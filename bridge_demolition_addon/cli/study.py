@@ -18,13 +18,13 @@ from ..model.study.runs_table import DONE, RunsTable
 from ..model.study.statements import verified_sentence
 from ..model.study.verification import chance_of_leaving, holds
 from ..studies.draw_process import Limits
-from ..studies.draw_program import program_command
 from ..studies.engine import Engine
 from ..studies.folder import TRIED_AGAIN, StudyFolder, end_in, study_in, versions_of
 from ..studies.local import LocalProcesses, cores
 from ..studies.study_run import StudyRun
+from ..system.programs import program_command
 from ..system.signals import Interrupted, signals_noted
-from .progress import Progress, progress_on
+from .progress import CommandProgress, progress_on
 from .run import run_with_everything
 from .study_check import study_facts
 
@@ -106,7 +106,7 @@ def _run(study: Study, arguments: argparse.Namespace) -> None:
         _print_results(study, run, said, arguments.output, report)
 
 
-def _play(run: StudyRun, signals: Sequence[int], progress: Progress) -> None:
+def _play(run: StudyRun, signals: Sequence[int], progress: CommandProgress) -> None:
     """Run all draws, unless a signal stops that."""
     try:
         while not run.is_finished:
@@ -130,7 +130,7 @@ def engine_of(study: Study, arguments: argparse.Namespace) -> Engine:
     return DaskCluster(arguments.dask, limits)
 
 
-def _report(table: RunsTable, output: Path, progress: Progress) -> list[Path]:
+def _report(table: RunsTable, output: Path, progress: CommandProgress) -> list[Path]:
     """Write the report of a study, with pictures of its median and of its worst draw."""
     from ..report.write import write_study_report  # loading matplotlib takes a second
 

@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import MissingLibraryError, SimulationError
+from ..system.programs import program_command
+from ..system.progress import Progress
 from .formats import Format
-from .progress import Progress
 
 MARK = "bda-export "
 """What begins the program's own lines on its standard output."""
 
-_PACKAGE = Path(__file__).resolve().parent.parent
 _LAST_WORDS = 400
 
 
@@ -50,7 +50,7 @@ def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress,
     progress.stage(f"writing {form.name} with Blender")
     with tempfile.TemporaryFile() as last_words:
         process = subprocess.Popen(
-            _command(blender),
+            program_command("exports.blender_program", blender),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=last_words,
@@ -91,15 +91,3 @@ def _follow(process: subprocess.Popen[str], progress: Progress) -> bool:
             return True
         progress.part(answer["done"], answer["total"], answer["text"])
     return False
-
-
-def _command(blender: str) -> list[str]:
-    """Return the program and its arguments.
-
-    Blender without preferences knows no extensions and none of their libraries: it is told where they are.
-    """
-    paths = [str(_PACKAGE.parent), *(sys.path if blender else ())]
-    start = f"import sys; sys.path[:0] = {paths!r}; from {_PACKAGE.name}.exports.blender_program import main; main()"
-    if not blender:
-        return [sys.executable, "-c", start]
-    return [blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]

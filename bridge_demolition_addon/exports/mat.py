@@ -9,7 +9,7 @@ from scipy.io import savemat
 
 from ..errors import OutputError
 from ..model.results.arrays import Results
-from .progress import Progress
+from ..system.progress import Progress
 
 _MOST_BYTES = 2**31 - 1
 """Of an array in such a file."""

@@ -14,7 +14,7 @@ from ..engineering.geometry.vectors import length
 from ..model.results.arrays import Results
 from ..model.results.energy import kinetic_energies, moments_of_inertia
 from ..model.results.frames import ContactHistory, Frame
-from .progress import Progress
+from ..system.progress import Progress
 from .shapes import ConnectionPlaces, body_meshes
 from .vtu import POINT, TRIANGLE, Topology, data_array, write_series, write_vtu
 

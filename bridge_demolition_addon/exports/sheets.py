@@ -20,7 +20,7 @@ from ..model.results.arrays import Results
 from ..model.results.energy import energy_of
 from ..model.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
 from ..model.results.motion import throw
-from .progress import Progress
+from ..system.progress import Progress
 
 MOST_ROWS = 1_048_575
 """Of a sheet, beside its headings; what has more goes on in another one."""

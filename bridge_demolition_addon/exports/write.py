@@ -8,13 +8,13 @@ from pathlib import Path
 from ..errors import OutputError, text_of
 from ..model.results.arrays import load_results, results_in
 from ..system.disk import whole_file, whole_folder
+from ..system.progress import Progress
 from . import formats
 from .blender_process import write_in_blender
 from .formats import Format
 from .gltf import write_gltf
 from .mat import write_mat
 from .paraview import write_paraview
-from .progress import Progress
 from .sheets import check_sheets, write_sheets
 
 

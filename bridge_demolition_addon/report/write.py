@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 from manifold3d import CrossSection
@@ -26,6 +25,7 @@ from ..model.stages.standing import StandingBridge
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..model.study.files import PLAN_DXF, PLAN_GEOJSON, REPORT_FOLDER
 from ..system.folder_lock import FolderLock
+from ..system.progress import Progress
 from .comparison import comparison
 from .document.blocks import DataTable, Document, Listing, Section, write_tables
 from .document.drawings import drawings
@@ -51,16 +51,6 @@ from .study.study_folder import is_study, read_study_runs
 
 _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (1, 2))
 """Of an extension inside Blender, and of the project's own folder."""
-
-
-class Progress(Protocol):
-    """Shows how far a report is."""
-
-    def stage(self, text: str) -> None:
-        """Name what begins now."""
-
-    def part(self, done: int, total: int, text: str) -> None:
-        """Give how many parts of a stage are done."""
 
 
 def write_report(

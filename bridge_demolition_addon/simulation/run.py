@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import bpy
 
@@ -23,6 +23,7 @@ from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_pictures
 from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
+from ..system.progress import Progress
 from ..system.signals import Interrupted, interrupted_afterwards, signals_noted
 from .display.film import FilmRendering, FilmSettings
 from .display.pictures import check_camera, rendered_pictures, show_charges
@@ -42,19 +43,6 @@ from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
 """Seconds of the slower film for a second of the simulation."""
-
-
-class Progress(Protocol):
-    """Whoever wants to know how far a run is."""
-
-    def stage(self, text: str) -> None:
-        """Say what is done now."""
-
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
-        """Say how many frames are done, how many connections broken, and how long the other frames take, if known."""
-
-    def part(self, done: int, total: int, text: str) -> None:
-        """Say how many parts of a stage are done."""
 
 
 def run_scenario(

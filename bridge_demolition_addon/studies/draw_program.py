@@ -7,7 +7,6 @@ everything as `bda run` does.
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
@@ -24,22 +23,15 @@ from ..model.study.outcome import outcome_of
 from ..model.study.settings import StudySettings
 from ..model.toml_tables import table_of_document, toml_document
 from ..system.disk import whole_file
+from ..system.programs import program_command
+from ..system.progress import Progress
 from .service import Service
 from .versions import versions_with
 
-_ROOT = Path(__file__).resolve().parents[2]
 
-
-def draw_command() -> list[str]:
-    """Return the program and its arguments, run by this Python."""
-    return program_command("studies.draw_program")
-
-
-def program_command(module: str) -> list[str]:
-    """Return what runs `main` of a module of this package by this Python, from any folder; arguments may follow."""
-    package = __package__.rpartition(".")[0]
-    start = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {package}.{module} import main; main()"
-    return [sys.executable, "-c", start]
+def draw_command(blender: str = "") -> list[str]:
+    """Return the command of this program, run by this Python or by a program of Blender."""
+    return program_command("studies.draw_program", blender)
 
 
 def main() -> NoReturn:
@@ -69,7 +61,7 @@ def _play_whole(scenario: Scenario, settings: StudySettings, folder: Path) -> di
     from ..simulation.run import run_scenario
 
     run = folder / RUN_FOLDER
-    summary = run_scenario(scenario, run, overwrite=True, pictures=settings.keep == "all", progress=_NoProgress())
+    summary = run_scenario(scenario, run, overwrite=True, pictures=settings.keep == "all", progress=Progress())
     answer = _kept(load_results(run), summary, scenario, settings, folder)
     if settings.keep == "logs":
         for name in (RESULTS_FILE, BLEND_FILE, FORCE_CHART):
@@ -85,16 +77,3 @@ def _kept(
         np.savez_compressed(part, **outcome.outlines.arrays())
     fingerprint = {name: summary["fingerprint"][name] for name in ("built", "motion")}
     return {"outputs": outcome.outputs, "fingerprint": fingerprint}
-
-
-class _NoProgress:
-    """Nobody looks on."""
-
-    def stage(self, text: str) -> None:
-        """Say nothing."""
-
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
-        """Say nothing."""
-
-    def part(self, done: int, total: int, text: str) -> None:
-        """Say nothing."""

@@ -6,12 +6,14 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from ..system.progress import Progress
+
 
 class _StoppedError(BaseException):
     """Ends the work from within; no `except Exception` keeps it going."""
 
 
-class SteppedThread:
+class SteppedThread(Progress):
     """Work in a thread of its own, which goes on from one of its parts to the next only when it is its turn.
 
     Blender waits meanwhile, so it is as if it did the work itself, but gets round to mouse and keyboard in between.
@@ -63,12 +65,12 @@ class SteppedThread:
         return self._outcome
 
     def stage(self, text: str) -> None:
-        """Called by the work: what begins now."""
+        """Take in what begins now; called by the work."""
         self.stage_text, self.done, self.total = text, 0, 0
         self._hand_over()
 
-    def part(self, done: int, total: int, _text: str = "") -> None:
-        """Called by the work: how many parts of a stage are done."""
+    def part(self, done: int, total: int, text: str = "") -> None:
+        """Take in how many parts of a stage are done; called by the work."""
         self.done, self.total = done, total
         self._hand_over()
 

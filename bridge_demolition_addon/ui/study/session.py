@@ -5,7 +5,6 @@ Draws run in processes of their own. Blender looks in on them a few times a seco
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,8 +27,6 @@ from ...studies.versions import versions_with
 from .prop import redraw_views
 
 _LOOK_EVERY_S = 0.3
-
-_PACKAGE = Path(__file__).resolve().parents[2]
 
 _at_work: list[StudyAtWork] = []
 _shown: list[ShownStudy] = []
@@ -118,21 +115,8 @@ class StudyAtWork:
 def engine_for(study: Study, jobs: int) -> LocalProcesses:
     """Return what runs the draws of a study, each in a Blender like this one, some at a time."""
     limits = Limits.of(study.settings)
-    program = bpy.app.binary_path  # empty where Blender is a module of Python
-    command = blender_command(program) if program else draw_command()
+    command = draw_command(bpy.app.binary_path)  # an empty path where Blender is a module of Python
     return LocalProcesses(jobs, limits, command, versions_with(".".join(map(str, bpy.app.version))))
-
-
-def blender_command(program: str) -> list[str]:
-    """Return the program of draws and its arguments, run by Blender without a window.
-
-    Without preferences Blender knows no extensions and none of their libraries: it is told where they are.
-    """
-    start = (
-        f"import sys; sys.path += {[str(_PACKAGE.parent), *sys.path]!r}; "
-        f"from {_PACKAGE.name}.studies.draw_program import main; main()"
-    )
-    return [program, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
 
 
 def begin(study: Study, path: Path, jobs: int) -> None:

@@ -17,6 +17,7 @@ from bridge_demolition_addon.model.study.file import study_of
 from bridge_demolition_addon.model.study.runs_table import read_runs
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 from bridge_demolition_addon.studies.draw_process import DrawProcess, Limits
+from bridge_demolition_addon.studies.draw_program import draw_command
 from bridge_demolition_addon.studies.versions import versions_with
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
 from bridge_demolition_addon.ui.study.ui import CLASSES
@@ -195,7 +196,7 @@ def test_draws_run_in_blenders_own_program_where_there_is_one(blender, session, 
     versions = versions_with(".".join(map(str, blender.app.version)))
     study = study_of(FEW, SHORT_RUN)
     request = {"scenario": scenario_text(draw_of(study, 1).scenario), "study": study.text}
-    process = DrawProcess(session.blender_command(str(launcher)), versions, Limits(PATIENCE_S))
+    process = DrawProcess(draw_command(str(launcher)), versions, Limits(PATIENCE_S))
     try:
         end = process.play(request, tmp_path / "draw")
     finally:
