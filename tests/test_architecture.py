@@ -106,7 +106,6 @@ MOST_METHODS, MOST_PARAMETERS = 20, 7
 STILL_LARGE = {
     "BulletReader",
     "BulletWorld",
-    "ContourDisplay",
     "CrackStep",
     "ElasticStructure",
     "FootingStep",

@@ -13,6 +13,7 @@ from bpy.app.handlers import persistent
 
 from .crash_guards import safe_undo
 from .display.contours import ContourDisplay
+from .display.shown_results import ShownResults
 from .recorded_scene import RecordedScene
 from .recording.recorder import Recording
 
@@ -48,13 +49,18 @@ def recorded_scene(scene: bpy.types.Scene) -> RecordedScene:
     owner = _scenes.get(scene.session_uid)
     if owner is None:
         owner = _scenes[scene.session_uid] = RecordedScene(scene)
-    owner.scene = owner.contours.scene = scene  # after undo Blender holds it elsewhere
+    owner.scene = owner.results.scene = scene  # after undo Blender holds it elsewhere
     return owner
 
 
 def contours_of(scene: bpy.types.Scene) -> ContourDisplay:
     """Return the contours of a scene."""
     return recorded_scene(scene).contours
+
+
+def shown_results(scene: bpy.types.Scene) -> ShownResults:
+    """Return the results that are shown in a scene."""
+    return recorded_scene(scene).results
 
 
 def start_recording(recording: Recording, *, alone: bool = False) -> None:

@@ -8,10 +8,12 @@ from contextlib import suppress
 import bpy
 
 from ..errors import DemolitionError, SimulationError
+from ..model.results.arrays import Results
 from ..scene.bodies import is_marked
 from .crash_guards.safe_render import has_to_rest
 from .crash_guards.world_guard import WorldGuard
 from .display.contours import ContourDisplay
+from .display.shown_results import ShownResults
 from .kept_run import has_run, results_of_run
 from .recording.recorder import Recording
 
@@ -29,6 +31,8 @@ class RecordedScene:
         As Blender holds it now.
     recording
         The recording that runs, or ended early and was not stopped yet; or None.
+    results
+        The results that are shown.
     contours
         Colours of the bodies.
     """
@@ -36,7 +40,8 @@ class RecordedScene:
     def __init__(self, scene: bpy.types.Scene):
         self.scene = scene
         self.recording: Recording | None = None
-        self.contours = ContourDisplay(scene)
+        self.results = ShownResults(scene)
+        self.contours = ContourDisplay(self.results)
         self._guard = WorldGuard()
         self._is_alone = False
         self._is_rendered = False
@@ -59,18 +64,29 @@ class RecordedScene:
             self._guard.share(self.scene, recording.world)
         self._is_rendered = False
         self.recording = recording
-        self.contours.follow(recording)
+        self.results.follow(recording)
 
     def stop(self) -> Recording | None:
         """End the recording, and give it back."""
         recording, self.recording = self.recording, None
-        self.contours.is_live = False
+        self.results.is_live = False
         if recording and not recording.error:
             recording.close()
             self._guard.release()
             if not self._is_alone:
                 self.look()
         return recording
+
+    def show_results(self, results: Results) -> None:
+        """Show kept results, until something new is recorded.
+
+        Raises
+        ------
+        ContourError
+            None of their bodies is in the scene.
+        """
+        self.results.load(results)
+        self.contours.refresh()
 
     def look(self) -> None:
         """Know the world as it is now, to guard it from before the next frame on."""
@@ -84,7 +100,7 @@ class RecordedScene:
         if self._is_rendered:
             self._with_recording(_refuse_unplayed_frame)
         else:
-            self.contours.before_frame()
+            self.results.before_frame()
         self._with_recording(Recording.before_frame)
         self._guard.keep_standing_still(self.scene)
 
@@ -98,7 +114,9 @@ class RecordedScene:
 
     def before_update(self) -> None:
         """Guard the world."""
-        self._fail_for(self._guard.check_objects(self.scene))
+        changes = self._guard.check_objects(self.scene)
+        if changes and self._is_recorded:
+            self._fail(SimulationError(changes))
 
     def after_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Colour the bodies: one that was edited was evaluated again, and has its own colour."""
@@ -130,9 +148,9 @@ class RecordedScene:
             self.scene.frame_set(world.point_cache.frame_start)
         if has_run(self.scene):
             try:
-                self.contours.use_results(results_of_run(self.scene))
+                self.show_results(results_of_run(self.scene))
             except DemolitionError as error:
-                self.contours.missing = str(error)
+                self.results.missing = str(error)
 
     def before_render(self) -> None:
         """Let the world rest, where Blender would simulate it in the render."""
@@ -152,10 +170,6 @@ class RecordedScene:
     @property
     def _is_recorded(self) -> bool:
         return self.recording is not None and self.recording.error is None
-
-    def _fail_for(self, changes: str) -> None:
-        if changes and self._is_recorded:
-            self._fail(SimulationError(changes))
 
     def _with_recording(self, action: Callable[[Recording], None]) -> None:
         if not self._is_recorded:

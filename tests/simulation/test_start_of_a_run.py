@@ -5,7 +5,7 @@ import pytest
 from support.blocks import Blocks
 
 from bridge_demolition_addon.display.contours import ContourSettings
-from bridge_demolition_addon.simulation.blender_events import contours_of
+from bridge_demolition_addon.simulation.blender_events import contours_of, shown_results
 
 HEIGHT_M, FRAMES = 5.0, 25
 
@@ -18,7 +18,7 @@ def falling(blender):
     blocks.block((0.0, 0.0, HEIGHT_M), 10.0)
     yield blocks
     contours_of(blocks.scene).hide()
-    contours_of(blocks.scene).forget()
+    shown_results(blocks.scene).forget()
 
 
 def shown_where_it_fell(blocks, folder):

@@ -20,7 +20,7 @@ from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from ...scene.rendering.plain_path import rendered_to
 from ...system.disk import writing
-from ..blender_events import contours_of
+from ..blender_events import contours_of, shown_results
 
 _PICTURE = "contours_{:06d}.png"
 
@@ -90,7 +90,7 @@ class FilmRendering:
     def __init__(
         self, scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
     ):
-        series = contours_of(scene).series
+        series = shown_results(scene).series
         if series is None:
             raise ContourError(f"scene {scene.name!r} has no recording to show: record one, or load its results")
         self._scene, self._folder = scene, folder
@@ -172,7 +172,7 @@ def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
     A render would simulate them again, beside the simulation of the 3D view in one and the same world, and crash.
     """
     world = scene.rigidbody_world
-    if not contours_of(scene).is_placed or not world.enabled:
+    if not shown_results(scene).are_placed or not world.enabled:
         yield
         return
     world.enabled = False

@@ -22,7 +22,7 @@ from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import contours_of, shown_results
 from ..labels import FONT_PX, PANEL_COLOUR, TEXT_COLOUR, draw_rectangle, write, write_at
 from ..view_drawing import ViewDrawing
 from ..viewport import covered_px, draw_lines
@@ -62,7 +62,7 @@ def unregister() -> None:
 
 def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
     """Return the lines of the arrows, (6 k, 3) float, m, for each kind of force that is shown."""
-    settings, series = scene.bda, contours_of(scene).series
+    settings, series = scene.bda, shown_results(scene).series
     row = series.row_at(scene.frame_current) if series else None
     if not settings.show_vectors or row is None:
         return {}

@@ -11,7 +11,7 @@ from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...scene.world import start_over
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import recorded_scene, shown_results
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
 from .. import messages
 from ..modal_task import RenderingTask
@@ -37,7 +37,7 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
         path = absolute(scene.bda.results_path)
         path = results_in(path) if path.is_dir() else path
         results = load_results(path)
-        contours_of(scene).use_results(results)
+        recorded_scene(scene).show_results(results)
         contour_view.follow(scene)
         found = f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
         return f"{found}, of a run that ended before its end" if path.name == FRAMES_FILE else found
@@ -51,12 +51,12 @@ class BDA_OT_forget_results(Action, bpy.types.Operator):
 
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        shows = contours_of(context.scene).shows_loaded
+        shows = shown_results(context.scene).are_loaded
         return recording_runs(context) or (None if shows else "No results were loaded: Blender's own motion is shown")
 
     def act(self, context: bpy.types.Context) -> None:
         scene = context.scene
-        contours_of(scene).forget()
+        shown_results(scene).forget()
         start_over(scene)
         contour_view.follow(scene)
 
@@ -75,7 +75,7 @@ class BDA_OT_render_contours(RenderingTask, bpy.types.Operator):
             return reason
         if not context.scene.bda.film_directory:
             return "Choose a folder for the film first"
-        if contours_of(context.scene).series is None:
+        if shown_results(context.scene).series is None:
             return "Nothing was recorded in this scene: record it, or load its results"
         return None
 

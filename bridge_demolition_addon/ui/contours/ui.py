@@ -4,7 +4,7 @@ import bpy
 
 from ...display.contour_quantities import ContourQuantity
 from ...scene.visibility import symbols_are_hidden
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import shown_results
 from ..sidebar import SidebarPanel, draw_sentence
 from . import decorator as overlay
 from . import view as contour_view
@@ -45,7 +45,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "colour_bar")
         layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")
         layout.operator("bda.load_results")
-        if contours_of(context.scene).shows_loaded:
+        if shown_results(context.scene).are_loaded:
             text = "Shown is what was recorded, until something new is. Blender plays it on its own:"
             draw_sentence(layout, context, text, icon="INFO")
             layout.operator("bda.forget_results")

@@ -9,7 +9,7 @@ from ...display.contour_quantities import ContourQuantity
 from ...display.contour_ranges import ContourSettings, RangeKind
 from ...errors import DemolitionError
 from ...scene.rendering.body_colours import SHADED_LIGHT
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import contours_of, shown_results
 
 _COLOURS_BEFORE = "bda_colours_before"
 
@@ -65,7 +65,7 @@ def trouble(scene: bpy.types.Scene) -> str:
     shown = contours.settings
     if shown and shown.quantity is ContourQuantity.UTILISATION and contours.stages is None:
         return "Utilisation at rest is that of stages: check them first, in the panel Stages"
-    return _refusals.get(scene.session_uid) or (str(contours.error) if contours.error else contours.missing)
+    return _refusals.get(scene.session_uid) or (str(contours.error) if contours.error else shown_results(scene).missing)
 
 
 def follow_later(scene: bpy.types.Scene) -> None:
@@ -90,7 +90,7 @@ def unregister() -> None:
         bpy.app.timers.unregister(_follow_all)
     for scene in bpy.data.scenes:
         contours_of(scene).hide()
-        contours_of(scene).forget()
+        shown_results(scene).forget()
         _show_materials_in_views(scene)
     _refusals.clear()
 

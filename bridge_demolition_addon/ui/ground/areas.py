@@ -19,7 +19,7 @@ from ...model.results.arrays import Results
 from ...model.scenario import Exclusion
 from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
 from ...scene.rendering.ground import ground_of as ground_in
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import shown_results
 
 _found: dict[str, tuple[tuple, Any]] = {}
 """What was worked out last, and what for."""
@@ -31,12 +31,8 @@ def forget() -> None:
 
 
 def results_of(scene: bpy.types.Scene) -> Results | None:
-    """Return the results of the last run of a scene, recorded or loaded; None before it ended, or where there are none.
-
-    They are those that are shown: a run that goes on has none yet.
-    """
-    contours = contours_of(scene)
-    return None if contours.is_live else contours.results
+    """Return the results that are shown in a scene; None where there are none, and while a run goes on."""
+    return shown_results(scene).results
 
 
 def plan_of(scene: bpy.types.Scene) -> CrossSection | None:
@@ -96,7 +92,7 @@ def way_of_ball(scene: bpy.types.Scene) -> list[np.ndarray]:
 
 
 def _key(scene: bpy.types.Scene) -> tuple[int, int]:
-    return scene.session_uid, contours_of(scene).results_number
+    return scene.session_uid, shown_results(scene).number
 
 
 def _plan_as_built(shards: list[bpy.types.Object]) -> CrossSection:

@@ -13,7 +13,7 @@ from ...model.toml_tables import toml_value
 from ...scene.rendering.dust import raise_dust, remove_dust
 from ...scene.rendering.ground import terrain_under
 from ...scene.rendering.site_plan import lay_site_plan
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import recorded_scene
 from ..contours import view as contour_view
 from ..operators import Action, GuardedOperator, absolute, recording_runs, refused
 from ..viewport import draw_lines
@@ -136,7 +136,7 @@ class BDA_OT_raise_dust(Action, bpy.types.Operator):
         results = areas.results_of(scene)
         clouds = puffs(results)
         raise_dust(scene, clouds)
-        contours_of(scene).use_results(results)  # Blender forgets what it played with any new object
+        recorded_scene(scene).show_results(results)  # Blender forgets what it played with any new object
         return f"{len(clouds)} clouds of dust" if clouds else "No connection broke: there is no dust"
 
 

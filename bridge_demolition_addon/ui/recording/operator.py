@@ -17,7 +17,7 @@ from ...model.sequence.undisturbed import self_collapse_text
 from ...scene.as_run import scenario_as_run
 from ...scene.made_by_hand import made_by_hand
 from ...scene.world import start_over
-from ...simulation.blender_events import contours_of, running_recording, start_recording, stop_recording
+from ...simulation.blender_events import running_recording, shown_results, start_recording, stop_recording
 from ...simulation.display.pictures import show_charges
 from ...simulation.kept_run import keep_run, mark_run
 from ...simulation.recording.logs import LogFiles
@@ -161,7 +161,7 @@ def _as_run(scene: bpy.types.Scene) -> tuple[Scenario | None, list[str]]:
 def _let_go_of(folder: Path, scene: bpy.types.Scene) -> None:
     """Let go of what was recorded into a folder that is to be cleared: Windows removes no file that is in use."""
     session.forget_recording(folder)
-    contours_of(scene).forget()
+    shown_results(scene).forget()
 
 
 def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:

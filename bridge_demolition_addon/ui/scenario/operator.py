@@ -12,7 +12,7 @@ from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...scene.rendering.staging import stage
-from ...simulation.blender_events import contours_of
+from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import forget_run
 from ..bridge_view import look_at_shards
 from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
@@ -176,7 +176,7 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
         stop_playing(context)
-        contours_of(scene).forget()
+        shown_results(scene).forget()
         forget_run(scene)
         removed = remove_demolition(scene)
         forget_built(scene.bda)
@@ -263,7 +263,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     settings, model = scene.bda, checked_model(scenario)
     if anew:
         check_replaceable(scene, scenario, model)
-        contours_of(scene).forget()
+        shown_results(scene).forget()
         forget_run(scene)
         remove_demolition(scene)
     shards = build_demolition(scene, scenario, model)

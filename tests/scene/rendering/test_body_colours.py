@@ -105,9 +105,9 @@ def test_a_shaded_picture_keeps_hues_and_darkens_what_looks_away(hanging, tmp_pa
 
 
 def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
-    from bridge_demolition_addon.simulation.blender_events import contours_of
+    from bridge_demolition_addon.simulation.blender_events import contours_of, shown_results
 
-    scene, recording = hanging.scene, contours_of(hanging.scene).recording
+    scene, recording = hanging.scene, shown_results(hanging.scene).recording
     contours_of(scene).show(
         ContourSettings(quantity=ContourQuantity.SUM, logarithmic=False, colour_map=ColourMap.BLUE_TO_RED)
     )
@@ -190,21 +190,21 @@ def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_
     from support.sample_results import changed
 
     from bridge_demolition_addon.model.results.arrays import load_results
-    from bridge_demolition_addon.simulation.blender_events import contours_of
+    from bridge_demolition_addon.simulation.blender_events import contours_of, recorded_scene, shown_results
 
-    contours_of(hanging.scene).recording.results().save(tmp_path / "results.npz")
+    shown_results(hanging.scene).recording.results().save(tmp_path / "results.npz")
     scene, results = hanging.scene, load_results(tmp_path / "results.npz")
     contours_of(scene).show(FRAME_BY_FRAME)
     scene.frame_set(5)
     live = shown_colours(hanging)
-    contours_of(scene).use_results(changed(results, body_sums_n=2.0 * results.frames.loads.body_sums_n))
-    row = contours_of(scene).series.row_at(5)
-    recorded = [frame.loads.body_sums_n for frame in contours_of(hanging.scene).recording.frames][row]
-    assert np.array_equal(contours_of(scene).series.frame(row).loads.body_sums_n, 2.0 * recorded)
+    recorded_scene(scene).show_results(changed(results, body_sums_n=2.0 * results.frames.loads.body_sums_n))
+    row = shown_results(scene).series.row_at(5)
+    recorded = [frame.loads.body_sums_n for frame in shown_results(hanging.scene).recording.frames][row]
+    assert np.array_equal(shown_results(scene).series.frame(row).loads.body_sums_n, 2.0 * recorded)
     contours_of(scene).refresh()
     assert np.allclose(shown_colours(hanging), live)  # a frame's own range takes the factor out again
     with pytest.raises(ContourError, match="none of their"):
-        contours_of(scene).use_results(changed(results, body_names=np.array(["a", "b", "c", "d"])))
+        recorded_scene(scene).show_results(changed(results, body_names=np.array(["a", "b", "c", "d"])))
 
 
 def test_hidden_connections_work_all_the_same(blender, tmp_path):

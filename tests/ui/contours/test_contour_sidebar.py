@@ -160,12 +160,12 @@ def test_results_that_are_none_are_refused(recorded, tmp_path):
 def test_results_of_a_run_that_ended_before_its_end_are_shown(recorded):
     import bpy
 
-    from bridge_demolition_addon.simulation.blender_events import contours_of
+    from bridge_demolition_addon.simulation.blender_events import shown_results
 
-    recording = contours_of(recorded.scene).recording
+    recording = shown_results(recorded.scene).recording
     recorded.scene.bda.results_path = str(recording.folder)  # its results were not written yet
     assert bpy.ops.bda.load_results() == {"FINISHED"}
-    series = contours_of(recorded.scene).series
+    series = shown_results(recorded.scene).series
     assert len(series) == recording.recorded_frames and series.recorded is not recording.frames
 
 

@@ -83,9 +83,9 @@ def test_after_a_run_zone_and_debris_are_those_of_the_report(ran, tmp_path):
 
 
 def test_a_flash_is_drawn_while_a_charge_goes_off(ran):
-    from bridge_demolition_addon.simulation.blender_events import contours_of
+    from bridge_demolition_addon.simulation.blender_events import shown_results
 
-    names, series = {charge.name for charge in SHORT.charges}, contours_of(ran).series
+    names, series = {charge.name for charge in SHORT.charges}, shown_results(ran).series
     goes_off = {charge.name: 0.1 + charge.delay_ms / 1e3 for charge in SHORT.charges}
     seen = []
     for frame, now_s in zip(series.frames, series.times_s.tolist(), strict=True):  # frames differ in length

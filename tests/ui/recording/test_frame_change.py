@@ -10,7 +10,7 @@ from support.checkout import SMALL
 
 from bridge_demolition_addon.display.contour_ranges import ContourSettings
 from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording
+from bridge_demolition_addon.simulation.blender_events import running_recording, shown_results
 from bridge_demolition_addon.ui.results.shown_run import explained_peak, lines_of
 
 FRAMES = 20
@@ -213,7 +213,7 @@ def test_results_tell_the_totals(built, tmp_path):
 def test_the_peak_force_of_the_results_is_that_of_contours_with_peaks(built, tmp_path):
     record(built)
     summary = json.loads((tmp_path / "results" / "summary.json").read_text())
-    series = contours_of(built.context.scene).series
+    series = shown_results(built.context.scene).series
     shards = [name.startswith("Shard") for name in series.body_names]
     last = series.show(len(series.frames) - 1, ContourSettings(peak=True)).values[shards]
     assert last.max() == pytest.approx(summary["largest_resultant"]["force_N"], rel=1e-6)

@@ -9,7 +9,7 @@ from support.checkout import SMALL
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.simulation.blender_events import contours_of
+from bridge_demolition_addon.simulation.blender_events import contours_of, shown_results
 from bridge_demolition_addon.ui.recording import session
 from bridge_demolition_addon.ui.results.shown_run import shown_run
 
@@ -68,7 +68,7 @@ def test_a_colour_is_that_of_the_recorded_frame(ran, tmp_path):
     frame, row = contours_of(scene).shown_frame()
     assert row == LAST - 2 and np.isfinite(frame.screen_colours).any()
     body = scene.rigidbody_world.collection.all_objects["Shard 000001"]
-    row = contours_of(scene).series.body_names.index("Shard 000001")
+    row = shown_results(scene).series.body_names.index("Shard 000001")
     painted = body.evaluated_get(scene.view_layers[0].depsgraph).color
     screen = frame.screen_colours[row][:3]
     linear = np.where(screen <= 0.04045, screen / 12.92, ((screen + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
@@ -80,7 +80,7 @@ def test_results_that_moved_with_the_file_are_found(ran, tmp_path):
     for name in ("scene.blend", "results"):
         shutil.move(tmp_path / name, tmp_path / "elsewhere" / name)
     scene = reopen(ran, tmp_path / "elsewhere" / "scene.blend")
-    assert contours_of(scene).shows_loaded and contours_of(scene).missing == ""
+    assert shown_results(scene).are_loaded and shown_results(scene).missing == ""
 
 
 @pytest.mark.parametrize("wrong", ["gone", "another run", "unreadable"])
@@ -95,8 +95,8 @@ def test_results_that_are_not_its_own_are_not_shown_and_it_says_so(ran, tmp_path
     else:
         (folder / "results.npz").write_bytes(b"PK nothing")
     scene = reopen(ran, tmp_path / "scene.blend")
-    assert scene.frame_current == 1 and not contours_of(scene).shows_loaded
-    assert str(folder) in contours_of(scene).missing
+    assert scene.frame_current == 1 and not shown_results(scene).are_loaded
+    assert str(folder) in shown_results(scene).missing
     start = shown(scene, ["Shard 000001", "Shard 000002"])
     assert np.abs(start).max() > 0.5, "no shard is at the origin"
 
@@ -105,8 +105,8 @@ def test_what_is_recorded_next_is_shown_instead(ran, tmp_path):
     scene = reopen(ran, tmp_path / "scene.blend")
     scene.bda.overwrite = True
     ran.ops.bda.run()
-    assert not contours_of(scene).shows_loaded
-    assert contours_of(scene).recording.last_frame == LAST
+    assert not shown_results(scene).are_loaded
+    assert shown_results(scene).recording.last_frame == LAST
 
 
 def test_blender_plays_on_its_own_where_that_is_wanted(ran, tmp_path):

@@ -6,7 +6,7 @@ import pytest
 from support.checkout import EXAMPLES, SMALL
 
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
-from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording, stop_recording
+from bridge_demolition_addon.simulation.blender_events import running_recording, shown_results, stop_recording
 
 EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
 
@@ -47,15 +47,15 @@ def test_an_empty_scene_and_a_running_recording_are_refused(built, operator):
 
 def test_built_with_other_values_and_recorded_again(built, settings):
     record(built)
-    assert contours_of(built.context.scene).series is not None
+    assert shown_results(built.context.scene).series is not None
     settings.scenario.fracture.shards = 20
     built.ops.bda.remove_demolition()
-    assert contours_of(built.context.scene).series is None, "what was recorded is of bodies that are gone"
+    assert shown_results(built.context.scene).series is None, "what was recorded is of bodies that are gone"
     assert settings.scenario.fracture.shards == 20 and settings.built_scenario == ""
     built.ops.bda.build_scenario()
     assert len(built.context.scene.rigidbody_world.collection.objects) == 22
     record(built)
-    assert contours_of(built.context.scene).recording.recorded_frames == 5
+    assert shown_results(built.context.scene).recording.recorded_frames == 5
 
 
 def test_a_deleted_shard_can_be_cleared_up_after(built):
@@ -67,7 +67,7 @@ def test_a_deleted_shard_can_be_cleared_up_after(built):
     assert not Path(built.context.scene.bda.output_directory).exists()
     built.ops.bda.remove_loose_connections()
     record(built)
-    assert contours_of(built.context.scene).recording.error is None
+    assert shown_results(built.context.scene).recording.error is None
 
 
 def test_slow_motion_of_other_charges_is_refused(extension, settings, tmp_path):

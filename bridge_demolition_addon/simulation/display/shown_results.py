@@ -1,0 +1,141 @@
+"""The results that are shown in a scene: of its latest recording, or loaded ones."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...display.contours import ContourSeries
+from ...errors import ContourError
+from ...model.results.arrays import Results
+from ...model.results.frames import Frame
+from ...scene.bodies import bodies_of
+from ...scene.rendering.body_colours import place, put_back
+from ..recording.recorder import Recording
+
+
+class ShownResults:
+    """Results of one scene.
+
+    Attributes
+    ----------
+    scene
+        As Blender holds it now.
+    recording
+        The recording of the scene that runs, or ran last; or None.
+    is_live
+        Whether it runs.
+    number
+        Another number for other results.
+    missing
+        Why the results of the run of an opened file are not shown; empty where they are, or the file has no run.
+    """
+
+    def __init__(self, scene: bpy.types.Scene):
+        self.scene = scene
+        self.recording: Recording | None = None
+        self.is_live = False
+        self.number = 0
+        self.missing = ""
+        self._results: Results | None = None
+        self._loaded: ContourSeries | None = None
+        self._recorded: ContourSeries | None = None
+        self._has_placed = False
+
+    def follow(self, recording: Recording) -> None:
+        """Show a recording that begins, in place of earlier results."""
+        self._drop()
+        self.recording, self.is_live = recording, True
+
+    def load(self, results: Results) -> None:
+        """Show kept results, until something new is recorded.
+
+        Raises
+        ------
+        ContourError
+            None of their bodies is in the scene.
+        """
+        world = self.scene.rigidbody_world
+        there = {body.name for body in bodies_of(self.scene)} if world and world.collection else set()
+        names = results.inventory.body_names.tolist()
+        if there.isdisjoint(names):
+            raise ContourError(
+                f"results: none of their {len(names)} bodies is in scene {self.scene.name!r}; open the "
+                "scene that they were recorded in, or build it from the same scenario"
+            )
+        self._drop()
+        self._results, self._loaded = results, ContourSeries.of_results(results)
+
+    def forget(self) -> None:
+        """Show no results any more; a recording that runs goes on."""
+        if not self.is_live:
+            self.recording = None
+        self._drop()
+        self._recorded = None
+
+    @property
+    def are_loaded(self) -> bool:
+        """Whether results that were loaded are shown, whatever Blender simulates."""
+        return self._loaded is not None
+
+    @property
+    def are_placed(self) -> bool:
+        """Whether bodies are shown where they were recorded, as Blender has forgotten the frames it played."""
+        if self.is_live:
+            return False
+        world = self.scene.rigidbody_world
+        return self.are_loaded or not (world and world.enabled) or world.point_cache.is_outdated
+
+    @property
+    def results(self) -> Results | None:
+        """The results, once their recording has ended; None where nothing was recorded."""
+        if self.is_live:
+            return None
+        if self._results is None and self.recording and self.recording.recorded_frames:
+            self._results = self.recording.results()
+        return self._results
+
+    @property
+    def series(self) -> ContourSeries | None:
+        """The frames that can be shown, up to the latest one; None where nothing was recorded."""
+        if self._loaded is not None:
+            return self._loaded
+        if self.recording is None or not self.recording.recorded_frames:
+            return None
+        frames, series = self.recording.frames, self._recorded
+        if series is None or series.recorded is not frames:
+            series = self._recorded = ContourSeries(self.recording.inventory, frames)
+        series.follow()
+        return series
+
+    @property
+    def current_row(self) -> tuple[ContourSeries, int] | None:
+        """The frames, and the row of the scene's current one; None where nothing was recorded."""
+        series = self.series
+        row = series.row_at(self.scene.frame_current) if series else None
+        return None if series is None or row is None else (series, row)
+
+    def place(self, depsgraph: bpy.types.Depsgraph, shown: Frame) -> None:
+        """Show the bodies of an evaluated scene where a frame has them."""
+        series = self.series
+        moving = {name: row for row, name in enumerate(series.body_names) if series.moves[row]} if series else {}
+        self._has_placed = True
+        place(self.scene, depsgraph, moving, shown.positions_m, shown.rotations)
+
+    def before_frame(self) -> None:
+        """Put bodies back before the frame from which Blender simulates: it would begin where they are shown."""
+        world = self.scene.rigidbody_world
+        if not (self._has_placed and world and world.collection):
+            return
+        if self.are_placed and self.scene.frame_current <= world.point_cache.frame_start + 1:
+            self._put_back()
+
+    def _put_back(self) -> None:
+        if self._has_placed:
+            put_back(self.scene)
+            self._has_placed = False
+
+    def _drop(self) -> None:
+        self._put_back()
+        self._results = self._loaded = None
+        self.missing = ""
+        self.number += 1
