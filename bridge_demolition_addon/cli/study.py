@@ -195,7 +195,7 @@ def _play_again(path: Path, number: int, *, quiet: bool) -> None:
 
 def _verified(path: Path, name: str) -> str:
     """Return what the runs of the study in a folder say of a zone of its scenario."""
-    from ..report.study.study_folder import read_study_runs
+    from ..report.ensemble.study_folder import read_study_runs
 
     runs = read_study_runs(path)
     settings, zones = runs.study.settings, {zone.name: zone for zone in runs.study.scenario.zones}

@@ -31,8 +31,13 @@ from .document.blocks import DataTable, Document, Listing, Section, write_tables
 from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
+from .ensemble.influence import correlation_table
+from .ensemble.plan import layers
+from .ensemble.search import search_section
+from .ensemble.search_folder import is_search, read_found_search
+from .ensemble.study import study_document
+from .ensemble.study_folder import is_study, read_study_runs
 from .run_folder import Run, holds_run, read_run, shown_name
-from .search_folder import is_search, read_found_search
 from .sections.blast import blast_section
 from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
@@ -40,14 +45,9 @@ from .sections.debris import corner_table, debris_section, exclusion_section, te
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section
 from .sections.model import model_section
-from .sections.search import search_section
 from .sections.stages import has_stages, stages_section
 from .sections.touchdown import touchdown_section
 from .site_plan import write_dxf, write_geojson
-from .study.document import study_document
-from .study.influence import correlation_table
-from .study.plan import layers
-from .study.study_folder import is_study, read_study_runs
 
 _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (1, 2))
 """Of an extension inside Blender, and of the project's own folder."""

@@ -29,7 +29,7 @@ from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.document.html import write_html
 from bridge_demolition_addon.report.document.page import PAGE_MM, Font, width_mm
 from bridge_demolition_addon.report.document.pdf import write_pdf
-from bridge_demolition_addon.report.study.document import study_document
+from bridge_demolition_addon.report.ensemble.study import study_document
 
 # Letters may be a little wider than their advance.
 SLACK_MM = 0.6

@@ -19,7 +19,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Zone
 from bridge_demolition_addon.model.study.runs_table import read_runs
-from bridge_demolition_addon.report.study.study_folder import read_study_runs
+from bridge_demolition_addon.report.ensemble.study_folder import read_study_runs
 from bridge_demolition_addon.report.write import write_report, write_study_report
 
 ASKED = {"quantile": 0.5, "confidence": 0.75, "rank": 2}

@@ -3,9 +3,9 @@
 from bridge_demolition_addon.report.comparison import comparison
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.document.drawings import drawings
+from bridge_demolition_addon.report.ensemble.study import study_document
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.debris import zone_of
-from bridge_demolition_addon.report.study.document import study_document
 from bridge_demolition_addon.report.write import document_of
 
 

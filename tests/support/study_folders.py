@@ -17,7 +17,7 @@ from bridge_demolition_addon.model.study.files import OUTLINES_FILE, RUNS_FILE
 from bridge_demolition_addon.model.study.outcome import Outlines
 from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, write_runs
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
-from bridge_demolition_addon.report.study.study_runs import StudyRuns
+from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
 from bridge_demolition_addon.studies.draw_process import End
 from bridge_demolition_addon.studies.folder import StudyFolder
 from bridge_demolition_addon.system.array_files.archive import write_archive

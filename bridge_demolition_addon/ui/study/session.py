@@ -16,8 +16,8 @@ from ...display.study_map import map_triangles, outline_lines
 from ...errors import DemolitionError, text_of
 from ...model.study.conclusions import sentences
 from ...model.study.file import Study
-from ...report.study.study_folder import read_study_runs
-from ...report.study.study_runs import StudyRuns
+from ...report.ensemble.study_folder import read_study_runs
+from ...report.ensemble.study_runs import StudyRuns
 from ...studies.draw_process import Limits
 from ...studies.draw_program import draw_command
 from ...studies.folder import StudyFolder

@@ -8,7 +8,7 @@ from ...charts.search_curve import search_curve
 from ...model.search.conclusions import sentences
 from ...model.search.curve import curve_of
 from ..document.blocks import Column, DataTable, Paragraph, Picture, Section
-from ..search_folder import FoundSearch
+from .search_folder import FoundSearch
 
 
 def search_section(found: FoundSearch) -> Section:

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..engineering.search.probit import Trials
-from ..errors import OutputError, ScenarioError, UnreadableError
-from ..model.search.conclusions import Answer, answer_of
-from ..model.search.file import Search, read_search
-from ..model.search.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
-from ..model.study.outcome import SUCCESS
-from ..model.study.runs_table import read_runs
-from ..system.reading import MEGABYTE, file_text
+from ...engineering.search.probit import Trials
+from ...errors import OutputError, ScenarioError, UnreadableError
+from ...model.search.conclusions import Answer, answer_of
+from ...model.search.file import Search, read_search
+from ...model.search.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
+from ...model.study.outcome import SUCCESS
+from ...model.study.runs_table import read_runs
+from ...system.reading import MEGABYTE, file_text
 
 _MOST_BYTES = 10 * MEGABYTE
 _GO_ON = "go on with the command that started the search"

@@ -8,9 +8,9 @@ from ...model.study.file import Study
 from ..document.blocks import Document, Listing, Paragraph, Section
 from ..sections.cover import trust_section
 from .criteria import criteria_section
-from .draws import draws_section, telling_section
 from .influence import influence_section, varied_section
 from .plan import plan_section
+from .runs import draws_section, telling_section
 from .statement import reach_section, statement_section
 from .study_runs import StudyRuns
 

@@ -1,0 +1,1 @@
+"""Reports of studies, searches and optimisations: what many runs state about further runs."""
