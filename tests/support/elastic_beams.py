@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies, stressed
 from bridge_demolition_addon.engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_places
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
-from bridge_demolition_addon.engineering.elasticity.structure import stressed
 
 CONCRETE = ElasticModuli(30e9, 0.2)
 DENSITY_KG_M3 = 2400.0
@@ -29,16 +29,8 @@ class ElasticBodies:
 
     def at_rest(self) -> Equilibrium:
         """Where they rest under their weight."""
-        gravity = np.array([0.0, 0.0, -GRAVITY_M_S2])
-        return equilibrium(
-            self.frames,
-            self.stiffness,
-            self.masses_kg,
-            self.inertias_kg_m2,
-            self.positions_m,
-            self.rotations,
-            gravity,
-        )
+        still = RigidBodies(self.masses_kg, self.inertias_kg_m2, self.positions_m, self.rotations)
+        return equilibrium(self.frames, self.stiffness, still, np.array([0.0, 0.0, -GRAVITY_M_S2]))
 
     def amounts(self, rest: Equilibrium) -> np.ndarray:
         """Forces and moments (6, m) in the rows of the connections there, pulling the first body to the second."""

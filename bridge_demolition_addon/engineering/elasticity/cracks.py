@@ -1,30 +1,33 @@
-"""Cracks that reinforcement holds together: what they bear in a sub-step, in the equations of the structure.
+"""Cracks that reinforcement holds together: what they resist in a sub-step, in the equations of the structure.
 
 A connection that broke leaves four places at the corners of the rectangle with the same second moments as its face. In
-each is a quarter of the bars, or what bears the same moments as bars do in their layers. There the sides of the crack
+each is a quarter of the bars, or what resists the same moments as bars in their layers. There the sides of the crack
 press on each other where it is closed, as stiff as the connection was. So bars have the plastic moment of such that are
 spread evenly over the face, or are in their layers: all of them yield, about the pressed edge.
 
 A sub-step is implicit, as of connections, but these forces are not linear: the equations are made for the forces at a
-guess, and anew for the opening that follows, until both agree (Newton). Each guess takes energy off, so that this ends:
-the energy is convex.
+guess, and again for the opening that follows, until both agree (Newton). Each guess takes energy off, so that this
+ends: the energy is convex.
 
 All arrays have their components first. Places are numbered corner by corner, in each of these all cracks.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from .gaps import Gaps, SolvedTangents, motion_of_points
 from .joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
-from .steel_bars import Bars, Steel, stretched
+from .steel_bars import Bars, Steel, bar_response
 
 CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
 
 DOWEL_SHARE = 1.3 * 4.0 / np.pi * np.sqrt(35.0 / 500.0)
-"""Force along a crack that bars bear as dowels, by that across it: 1.3 d² √(f_c f_y) by π/4 d² f_y, for C35/45 and B500
-(B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are on an
+"""Force along a crack that bars resist as dowels, by that across it: 1.3 d² √(f_c f_y) by π/4 d² f_y, for C35/45 and
+B500 (B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are on an
 ellipse, as normal and shear stress by von Mises' criterion.
 
 Bars do not pull as hard along an inclined crack as across it: otherwise cracks that zigzag, and are longer, would have
@@ -132,9 +135,9 @@ class Cracks:
         gaps = self._gaps(positions_m, rotations)
         self._holds = self._holds & (dot_products(gaps, gaps) <= self._elongation_m * self._elongation_m)
         local = _as_bars(turned_back(rotations[..., self._first], gaps), self._normals)
-        answer = stretched(self._bars(), local, self._slips, self._flows)
-        self._slips = np.where(self._holds, answer.slips_m, self._slips)
-        self._flows = np.where(self._holds, answer.flows_m, self._flows)
+        response = bar_response(self._bars(), local, self._slips, self._flows)
+        self._slips = np.where(self._holds, response.slips_m, self._slips)
+        self._flows = np.where(self._holds, response.flows_m, self._flows)
         holds = self._holds.reshape(_COUNT, -1).any(axis=0) & (self._shares[self.rows] > 0.0)
         gone = self.rows[~holds]
         if len(gone):
@@ -145,7 +148,7 @@ class Cracks:
         """Return the energy (t,) that bars and pressed sides would give back."""
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
-        forces = stretched(bars, _as_bars(gaps, self._normals), self._slips, self._flows).forces_n
+        forces = bar_response(bars, _as_bars(gaps, self._normals), self._slips, self._flows).forces_n
         holds = self._holds & (bars.stiffness_n_m > 0.0)
         doubled = np.divide(
             dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=holds
@@ -162,22 +165,15 @@ class Cracks:
         first_levers = turned(rotations[..., first], self._first_anchors[:, which])
         second_levers = turned(rotations[..., second], self._second_anchors[:, which])
         gaps = positions_m[:, second] + second_levers - positions_m[:, first] - first_levers
-        return CrackStep(
-            self.rows[chosen],
-            first,
-            second,
-            first_levers + 0.5 * gaps,
-            second_levers - 0.5 * gaps,
-            gaps,
+        law = CrackLaw(
             self._bars().times(self._holds)[which],
             turned(rotations[..., first], self._slips[:, which]),
             self._flows[which],
             turned(rotations[..., first], self._normals[:, which]),
             self._stiffness_pressed()[which],
-            substep_s,
-            self._solved_for,
-            which,
         )
+        between = Gaps(first, second, first_levers + 0.5 * gaps, second_levers - 0.5 * gaps, gaps)
+        return CrackStep(self.rows[chosen], between, law, SolvedTangents(self._solved_for, which), substep_s)
 
     def _bars(self) -> Bars:
         """All bars, with what is left of them."""
@@ -212,26 +208,50 @@ class Cracks:
         self._solved_for = self._solved_for[..., bars]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class CrackLaw:
+    """What b bars, and the sides of their cracks, resist, in the axes of the world.
+
+    Attributes
+    ----------
+    bars : Bars
+    slips_m, flows_m : (3, b), (b,) float
+        How far the bars have yielded.
+    normals : (3, b) float
+        Of the cracks.
+    pressed_n_m : (b,) float
+        Stiffness of places that are pressed.
+    """
+
+    bars: Bars
+    slips_m: np.ndarray
+    flows_m: np.ndarray
+    normals: np.ndarray
+    pressed_n_m: np.ndarray
+
+    def resisted(self, gaps_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return forces (3, b) across gaps (3, b), and how they change with these, (3, 3, b)."""
+        response = bar_response(self.bars, _as_bars(gaps_m, self.normals), self.slips_m, self.flows_m)
+        across = self.normals[:, None] * self.normals
+        bearing = DOWEL_SHARE * np.eye(3)[:, :, None] + (1.0 - DOWEL_SHARE) * across
+        closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
+        pressed = np.where(closing < 0.0, self.pressed_n_m, 0.0)
+        tangents = matrix_products(bearing, matrix_products(response.tangents_n_m, bearing))
+        return turned(bearing, response.forces_n) + pressed * closing * self.normals, tangents + pressed * across
+
+
 class CrackStep:
-    """What the 4 c bars of c cracks do in a sub-step.
+    """What c cracks with 4 c bars do in a sub-step.
 
     Parameters
     ----------
     rows : (c,) int
         Connections in whose place the cracks are.
-    first, second : (4 c,) int
-        Bodies of each bar.
-    first_arms_m, second_arms_m, gaps_m : (3, 4 c) float
-        From the centres of these to the middle of its crack, and how far that is open.
-    bars, slips_m, flows_m : Bars, (3, 4 c), (4 c,) float
-        The bars, and how far they have yielded, in the axes of the world.
-    normals, pressed_n_m : (3, 4 c), (4 c,) float
-        Normals of the cracks, and how stiff places are that are pressed.
+    gaps, law : Gaps, CrackLaw
+        Of each bar.
+    solved : SolvedTangents
+        For which equations were made last.
     substep_s : float
-    solved_for : (3, 3, b) float
-        Tangents of all bars for which equations were made last.
-    which : (4 c,) int
-        Which of these the bars are.
 
     Attributes
     ----------
@@ -239,45 +259,25 @@ class CrackStep:
         As given.
     """
 
-    def __init__(
-        self,
-        rows: np.ndarray,
-        first: np.ndarray,
-        second: np.ndarray,
-        first_arms_m: np.ndarray,
-        second_arms_m: np.ndarray,
-        gaps_m: np.ndarray,
-        bars: Bars,
-        slips_m: np.ndarray,
-        flows_m: np.ndarray,
-        normals: np.ndarray,
-        pressed_n_m: np.ndarray,
-        substep_s: float,
-        solved_for: np.ndarray,
-        which: np.ndarray,
-    ):
+    def __init__(self, rows: np.ndarray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
         self.rows = rows
-        self._first, self._second = first, second
-        self._first_arms, self._second_arms, self._gaps = first_arms_m, second_arms_m, gaps_m
-        self._bars, self._slips, self._flows, self._substep_s = bars, slips_m, flows_m, substep_s
-        self._normals, self._pressed_n_m = normals, pressed_n_m
-        self._solved_for, self._which = solved_for, which
-        self._mean_n = np.tile(_summed(bars.yield_n) / _COUNT, _COUNT)
+        self._gaps, self._law, self._solved, self._substep_s = gaps, law, solved, substep_s
+        self._mean_n = np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT)
         self._guess: tuple[np.ndarray, np.ndarray] | None = None
-        self._begin_at(np.zeros_like(gaps_m))
+        self._begin_at(np.zeros_like(gaps.widths_m))
 
     def changed(self) -> np.ndarray:
         """Which cracks (c,) have other tangents than their equations."""
-        differs = (self._tangents != self._solved_for[..., self._which]).any(axis=(0, 1))
-        return differs.reshape(_COUNT, -1).any(axis=0)
+        return self._solved.differ(self._tangents).reshape(_COUNT, -1).any(axis=0)
 
     def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return what cracks (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
         bars = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
         tangents = self._tangents[..., bars]
-        self._solved_for[..., self._which[bars]] = tangents
+        self._solved.take_over(bars, tangents)
         implicit = self._substep_s * self._substep_s * tangents
-        first, second = (_motion_of_points(each[:, bars]) for each in (self._first_arms, self._second_arms))
+        arms = self._gaps.first_arms_m, self._gaps.second_arms_m
+        first, second = (motion_of_points(of_body[:, bars]) for of_body in arms)
         by_first, by_second = matrix_products(implicit, first), matrix_products(implicit, second)
         return (
             _summed(matrix_products(transposed(first), by_first)),
@@ -287,15 +287,15 @@ class CrackStep:
 
     def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
-        opening = self._substep_s * self._rates(velocities)
+        opening = self._substep_s * self._gaps.rates(velocities)
         pull = self._substep_s * (self._forces + turned(self._tangents, opening))
-        first = np.concatenate((pull, cross_products(self._first_arms, pull)))
-        second = np.concatenate((-pull, -cross_products(self._second_arms, pull)))
+        first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
+        second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
         return _summed(first), _summed(second)
 
     def agrees(self, velocities: np.ndarray) -> bool:
-        """Whether the forces are those of the opening that follows from velocities (6, n); if not, guess anew."""
-        opening = self._substep_s * self._rates(velocities)
+        """Whether the forces are those of the opening that follows from velocities (6, n); if not, guess again."""
+        opening = self._substep_s * self._gaps.rates(velocities)
         balance = self._forces + turned(self._tangents, opening)
         if (abs(self._out_of_balance(opening, balance)) <= _AGREES * self._mean_n).all():
             return True
@@ -306,19 +306,8 @@ class CrackStep:
         return False
 
     def _out_of_balance(self, opening: np.ndarray, balance: np.ndarray) -> np.ndarray:
-        """What cracks would bear more (3, 4 c), opened so far, than is in balance with all else then."""
-        return self._borne(opening)[0] - balance
-
-    def _borne(self, opening: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Forces (3, 4 c) of cracks that have opened further, and how they change with that (3, 3, 4 c)."""
-        gaps = self._gaps + opening
-        answer = stretched(self._bars, _as_bars(gaps, self._normals), self._slips, self._flows)
-        across = self._normals[:, None] * self._normals
-        bearing = DOWEL_SHARE * np.eye(3)[:, :, None] + (1.0 - DOWEL_SHARE) * across
-        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
-        pressed = np.where(closing < 0.0, self._pressed_n_m, 0.0)
-        tangents = matrix_products(bearing, matrix_products(answer.tangents_n_m, bearing))
-        return turned(bearing, answer.forces_n) + pressed * closing * self._normals, tangents + pressed * across
+        """What cracks that opened so far would resist (3, 4 c) beyond what is in balance with all else."""
+        return self._law.resisted(self._gaps.widths_m + opening)[0] - balance
 
     def _least(
         self, opening: np.ndarray, balance: np.ndarray, coming: np.ndarray, coming_balance: np.ndarray
@@ -337,19 +326,13 @@ class CrackStep:
     def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
         cracks = len(self.rows)
-        bodies = np.concatenate((self._first[:cracks], self._second[:cracks]))
+        bodies = np.concatenate((self._gaps.first[:cracks], self._gaps.second[:cracks]))
         return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
 
     def _begin_at(self, opening: np.ndarray) -> None:
         """Take forces for linear about cracks that have opened further (3, 4 c)."""
-        forces, self._tangents = self._borne(opening)
+        forces, self._tangents = self._law.resisted(self._gaps.widths_m + opening)
         self._forces = forces - turned(self._tangents, opening)
-
-    def _rates(self, velocities: np.ndarray) -> np.ndarray:
-        """How fast the gaps (3, 4 c) open."""
-        first, second = velocities[:, self._first], velocities[:, self._second]
-        moving = second[:3] + cross_products(second[3:], self._second_arms)
-        return moving - first[:3] - cross_products(first[3:], self._first_arms)
 
 
 def corner_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
@@ -369,7 +352,7 @@ def corner_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -
 
 
 def corner_shares(places_m: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
-    """Return the parts (4, m) of a force at places (2, m) that corners bear of rectangles with sides (2, m).
+    """Return the parts (4, m) of a force at places (2, m) that the corners of rectangles with sides (2, m) resist.
 
     Together they have the same moments about all edges.
     """
@@ -396,14 +379,3 @@ def _summed(values: np.ndarray) -> np.ndarray:
     for corner in range(1, _COUNT):
         total = total + corners[..., corner, :]
     return total
-
-
-def _motion_of_points(arms_m: np.ndarray) -> np.ndarray:
-    """Matrices (3, 6, b) that give the velocities of points at arms (3, b) from those of their bodies."""
-    x, y, z = arms_m
-    matrices = np.zeros((3, 6, len(x)))
-    matrices[[0, 1, 2], [0, 1, 2]] = 1.0
-    matrices[0, 4], matrices[0, 5] = z, -y
-    matrices[1, 3], matrices[1, 5] = -z, x
-    matrices[2, 3], matrices[2, 4] = y, -x
-    return matrices

@@ -1,15 +1,15 @@
-"""The elastic structure at rest: how far it gives way under its own weight, and how fast it swings about that."""
+"""The elastic structure at rest: how far it deforms under its own weight, and how fast it swings about that."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..geometry.rotations import rotated
+from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
 from .joint_rows import JointFrames, joint_places
 from .sparse_system import BlockSystem
-from .structure import connected_parts, mass_matrices, stiffness_blocks, stressed, summed_on_bodies
 
 _SLOWEST_S = 60.0
 """What would swing slower than in this period is not held: a mechanism, or a part without a support."""
@@ -40,7 +40,7 @@ class Equilibrium:
     frequency_hz : float
         Lowest first frequency of the parts that are held; 0 where nothing is.
     loads : (6, m) float
-        Forces and moments that connections bear then, in their rows, pulling the first body to the second; 0 where
+        Forces and moments that connections carry then, in their rows, pulling the first body to the second; 0 where
         nothing holds them.
     """
 
@@ -54,14 +54,11 @@ class Equilibrium:
 def equilibrium(
     frames: JointFrames,
     stiffness: np.ndarray,
-    masses_kg: np.ndarray,
-    inertias_kg_m2: np.ndarray,
-    positions_m: np.ndarray,
-    rotations: np.ndarray,
+    bodies: RigidBodies,
     gravity_m_s2: np.ndarray,
     loads: np.ndarray | None = None,
 ) -> Equilibrium:
-    """Return where bodies rest that hang together by elastic connections, which bear no load where they are now.
+    """Return where bodies rest that hang together by elastic connections, which carry no load where they are now.
 
     Parameters
     ----------
@@ -69,68 +66,63 @@ def equilibrium(
         Of m connections.
     stiffness : (2, 3, 3, m) float
         As in `ElasticStructure`.
-    masses_kg, inertias_kg_m2 : (n,) and (3, 3, n) float
-        Of the bodies; 0 for those that never move.
-    positions_m, rotations : (3, n) and (3, 3, n) float
+    bodies : RigidBodies
         Where they are now.
     gravity_m_s2 : (3,) float
     loads : (6, n) float, optional
         Further forces on the bodies, N, and moments about their centres, N·m.
     """
-    moves = masses_kg > 0.0
+    moves = bodies.moves
     label = connected_parts(moves, frames.first, frames.second)
     ends = np.stack((frames.first, frames.second))
     supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
-    unloaded = joint_places(frames, positions_m, rotations).deformations()
-    positions_m, rotations = positions_m.copy(), rotations.copy()
-    held, frequencies = np.zeros(len(masses_kg), bool), []
+    unloaded = joint_places(frames, bodies.positions_m, bodies.rotations).deformations()
+    positions_m, rotations = bodies.positions_m.copy(), bodies.rotations.copy()
+    held, frequencies = np.zeros(len(bodies), bool), []
     of_connections = label[ends].max(axis=0, initial=-1)
     for part in supported[supported >= 0].tolist():
-        bodies, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
-        structure = frames.only(rows), stiffness[..., rows], masses_kg, inertias_kg_m2
-        rest = _part_at_rest(bodies, *structure, positions_m, rotations, gravity_m_s2, loads)
+        members, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
+        started = replace(bodies, positions_m=positions_m, rotations=rotations)
+        rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads)
         if rest:
-            held[bodies] = True
+            held[members] = True
             places, turned, frequency = rest
-            positions_m[:, bodies], rotations[..., bodies] = places[:, bodies], turned[..., bodies]
+            positions_m[:, members], rotations[..., members] = places[:, members], turned[..., members]
             frequencies.append(frequency)
     loads = stressed(stiffness, joint_places(frames, positions_m, rotations).deformations() - unloaded)
     return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
 
 
 def _part_at_rest(
-    bodies: np.ndarray,
+    members: np.ndarray,
     frames: JointFrames,
     stiffness: np.ndarray,
-    masses_kg: np.ndarray,
-    inertias_kg_m2: np.ndarray,
-    positions_m: np.ndarray,
-    rotations: np.ndarray,
+    bodies: RigidBodies,
     gravity_m_s2: np.ndarray,
     loads: np.ndarray | None,
 ) -> tuple[np.ndarray, np.ndarray, float] | None:
     """Where bodies (b,) that hang together by connections rest, and their first frequency; None for a mechanism."""
-    count = len(masses_kg)
+    count, positions_m, rotations = len(bodies), bodies.positions_m, bodies.rotations
     unknown = np.full(count, -1)
-    unknown[bodies] = np.arange(len(bodies))
-    system = BlockSystem(len(bodies), unknown[frames.first], unknown[frames.second])
+    unknown[members] = np.arange(len(members))
+    system = BlockSystem(len(members), unknown[frames.first], unknown[frames.second])
     weights = np.zeros((6, count))
-    weights[:3, bodies] = masses_kg[bodies] * gravity_m_s2[:, None]
+    weights[:3, members] = bodies.masses_kg[members] * gravity_m_s2[:, None]
     if loads is not None:
-        weights[:, bodies] += loads[:, bodies]
+        weights[:, members] += loads[:, members]
     unloaded = joint_places(frames, positions_m, rotations).deformations()
     slack = 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
     for _ in range(_SOLUTIONS):
         places = joint_places(frames, positions_m, rotations)
         rows = places.rows()
-        own = mass_matrices(masses_kg, inertias_kg_m2, rotations, bodies)
+        own = bodies.mass_matrices(rotations, members)
         system.factor(slack * own, *stiffness_blocks(rows, stiffness))
         holding = rows.loads(stressed(stiffness, places.deformations() - unloaded))
-        left = (weights + summed_on_bodies(frames, holding, count))[:, bodies]
+        left = (weights + summed_on_bodies(frames, holding, count))[:, members]
         if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
             break
         moved = np.zeros((6, count))
-        moved[:, bodies] = system.solve(left)
+        moved[:, members] = system.solve(left)
         if not abs(moved[:3]).max() <= _LARGEST_M:
             return None
         positions_m = positions_m + moved[:3]

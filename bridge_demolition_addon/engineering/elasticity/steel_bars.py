@@ -103,7 +103,7 @@ class Bars:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BarAnswer:
+class BarResponse:
     """What b bars do when they are stretched.
 
     Attributes
@@ -122,8 +122,8 @@ class BarAnswer:
     tangents_n_m: np.ndarray
 
 
-def stretched(bars: Bars, stretches_m: np.ndarray, slips_m: np.ndarray, flows_m: np.ndarray) -> BarAnswer:
-    """Return what bars do under stretches (3, b), of which slips (3, b) were there before, come on ways (b,)."""
+def bar_response(bars: Bars, stretches_m: np.ndarray, slips_m: np.ndarray, flows_m: np.ndarray) -> BarResponse:
+    """Return what bars do under stretches (3, b), after slips (3, b) that came on ways of a length (b,)."""
     trial = bars.stiffness_n_m * (stretches_m - slips_m)
     size = np.sqrt(dot_products(trial, trial))
     limit = bars.yield_n + bars.modulus_n_m * flows_m
@@ -139,4 +139,4 @@ def stretched(bars: Bars, stretches_m: np.ndarray, slips_m: np.ndarray, flows_m:
     across = bars.stiffness_n_m * share
     tangents = (bars.stiffness_n_m * along - across) * (direction[:, None] * direction)
     tangents[[0, 1, 2], [0, 1, 2]] += across
-    return BarAnswer(forces, slips_m + flow * direction, flows_m + flow, tangents)
+    return BarResponse(forces, slips_m + flow * direction, flows_m + flow, tangents)

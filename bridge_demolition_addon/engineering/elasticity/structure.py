@@ -17,23 +17,22 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from .cracks import Cracks
-from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places, matrix_products, transposed
+from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
+from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
 """How often the equations are solved for bars that yield; what is not found by then goes into the next sub-step."""
 
 TURNED_RAD = 1e-4
-"""How far bodies may turn before rows and equations are made anew: loads are then off by as much, relative."""
+"""How far bodies may turn before rows and equations are made again: loads are then off by as much, relative."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BodyStates:
-    """States of n bodies before a sub-step.
+class StepInput:
+    """How n bodies stand before a sub-step, and would move in it without connections.
 
     Attributes
     ----------
@@ -84,8 +83,8 @@ class ElasticStep:
     of_bodies: np.ndarray
 
 
-class UnevenStep(Protocol):
-    """What does not bear in proportion to how it gives way, in a sub-step: cracks, and footings on soil."""
+class NonlinearTerms(Protocol):
+    """Forces in a sub-step that are not proportional to deformation: of cracks, and of footings on soil."""
 
     rows: np.ndarray
 
@@ -99,23 +98,23 @@ class UnevenStep(Protocol):
         """Return the impulses (6, c) on the first and second bodies, with velocities (6, n) then."""
 
     def agrees(self, velocities: np.ndarray) -> bool:
-        """Whether the forces are those that follow from velocities (6, n); if not, guess anew."""
+        """Whether the forces are those that follow from velocities (6, n); if not, guess again."""
 
     def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
 
 
-class Beds(Protocol):
-    """Connections that are beds of springs on the ground; they bear nothing of the stiffness of the others."""
+class SoilSpringLaw(Protocol):
+    """Footings on springs in place of some connections, whose own stiffness does not count."""
 
     rows: np.ndarray
 
     def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
-        """Take over, before a sub-step, what has given way for good, at positions (3, n) and rotations (3, 3, n)."""
+        """Take over, before a sub-step, what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
 
     def in_substep(
         self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
-    ) -> UnevenStep:
+    ) -> NonlinearTerms:
         """Return what some of them (c,) do in a sub-step of a length in s."""
 
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
@@ -143,7 +142,7 @@ class _Part:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Seen:
+class _RowCache:
     """Where connections (r,), in order, were when bodies were there last."""
 
     positions_m: np.ndarray
@@ -169,18 +168,14 @@ class ElasticStructure:
     frames : JointFrames
         Of the m connections.
     stiffness : (2, 3, 3, m) float
-        Against shifts, N/m, and against turns, N·m/rad, in the axes of the first frames.
-    masses_kg : (n,) float
-        Masses; 0 for bodies that never move.
-    inertias_kg_m2 : (3, 3, n) float
-        Tensors of inertia in the axes of the bodies.
+        Against shifts, N/m, and against rotations, N·m/rad, in the axes of the first frames.
+    bodies : RigidBodies
+        What rounding leaves of deformations where they are counts as none.
     damping_s : float
         Damping over stiffness, β.
-    positions_m, rotations : (3, n) and (3, 3, n) float
-        Where nothing is deformed: what rounding leaves of the frames there counts as none.
     cracks : Cracks or None
         Reinforcement in place of connections that broke, if there is any.
-    beds : Beds or None
+    soil : SoilSpringLaw or None
         Footings on soil, if there are any.
 
     Attributes
@@ -193,56 +188,51 @@ class ElasticStructure:
         self,
         frames: JointFrames,
         stiffness: np.ndarray,
-        masses_kg: np.ndarray,
-        inertias_kg_m2: np.ndarray,
+        bodies: RigidBodies,
         damping_s: float,
-        positions_m: np.ndarray,
-        rotations: np.ndarray,
         cracks: Cracks | None = None,
-        beds: Beds | None = None,
+        soil: SoilSpringLaw | None = None,
     ):
-        self._frames, self._beds = frames, beds
-        self._stiffness = stiffness if beds is None else without(stiffness, beds.rows)
-        self._masses, self._inertias, self._damping_s = masses_kg, inertias_kg_m2, damping_s
-        self._count = len(masses_kg)
-        places = joint_places(frames, positions_m, rotations)
+        self._frames, self._bodies, self._damping_s, self._soil = frames, bodies, damping_s, soil
+        self._stiffness = stiffness if soil is None else without(stiffness, soil.rows)
+        self._count, self._moves = len(bodies), bodies.moves
+        places = joint_places(frames, bodies.positions_m, bodies.rotations)
         self._offsets = places.deformations()
         self._rows = JointRows.empty(len(frames))
         self._intact = np.ones(len(frames), bool)
-        self._moves = masses_kg > 0.0
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
-        self._seen: _Seen | None = None
+        self._cache: _RowCache | None = None
         self._parts: list[_Part] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
 
-    def step(self, states: BodyStates, intact: np.ndarray, substep_s: float) -> ElasticStep:
+    def step(self, start: StepInput, intact: np.ndarray, substep_s: float) -> ElasticStep:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
         self._follow_breaks(intact)
         if substep_s != self._substep_s:
             self._substep_s = substep_s
             self._stale[:-1] = True
-        awake = self._awake_parts(states)
+        awake = self._awake_parts(start)
         acting = self._acting(awake)
         frames = self._frames.only(acting)
-        places, deformations = self._deformed(acting, states.positions_m, states.rotations)
-        cracks, beds = self._acting_cracks(states, awake), self._acting_beds(states, awake)
-        uneven = [each for each in (cracks, beds) if each is not None]
-        self._refresh(states, awake, acting, places, uneven)
+        places, deformations = self._deformed(acting, start.positions_m, start.rotations)
+        cracks, soil = self._acting_cracks(start, awake), self._acting_soil(start, awake)
+        nonlinear = [each for each in (cracks, soil) if each is not None]
+        self._refresh(start, awake, acting, places, nonlinear)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
-        first, second = (states.velocities.take(each, axis=1) for each in (frames.first, frames.second))
+        first, second = (start.velocities.take(each, axis=1) for each in (frames.first, frames.second))
         rates = rows.rates(first, second)
         implicit = substep_s * (substep_s + self._damping_s)
         strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
         amounts = stressed(stiffness, strains)
         loads = summed_on_bodies(frames, rows.loads(amounts), self._count)
-        changes = self._solved(awake, self._with_uneven(loads, uneven, states.velocities))
-        for _ in range(_MOST_GUESSES if uneven else 0):
-            if all([each.agrees(states.velocities + changes) for each in uneven]):  # a list: all guess anew
+        changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
+        for _ in range(_MOST_GUESSES if nonlinear else 0):
+            if all([each.agrees(start.velocities + changes) for each in nonlinear]):  # a list: all guess again
                 break
-            self._refresh(states, awake, acting, places, uneven)
-            changes = self._solved(awake, self._with_uneven(loads, uneven, states.velocities))
+            self._refresh(start, awake, acting, places, nonlinear)
+            changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         first, second = (changes.take(each, axis=1) for each in (frames.first, frames.second))
         slowing = rows.rates(first, second)
         amounts -= stressed(stiffness, implicit * slowing)
@@ -250,14 +240,14 @@ class ElasticStructure:
         of_bodies = summed_on_bodies(frames, (of_first, of_second), self._count)
         of_cracks = np.zeros((2, 6, 0))
         if cracks is not None:
-            of_cracks = cracks.loads(states.velocities + changes)
+            of_cracks = cracks.loads(start.velocities + changes)
             of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
-        if beds is not None:
-            of_beds = beds.loads(states.velocities + changes)
-            of_bodies = of_bodies + beds.of_bodies(of_beds, self._count)
-            rows = np.searchsorted(acting, beds.rows)
-            of_first[:, rows] += of_beds[0]
-            of_second[:, rows] += of_beds[1]
+        if soil is not None:
+            of_soil = soil.loads(start.velocities + changes)
+            of_bodies = of_bodies + soil.of_bodies(of_soil, self._count)
+            rows = np.searchsorted(acting, soil.rows)
+            of_first[:, rows] += of_soil[0]
+            of_second[:, rows] += of_soil[1]
         return ElasticStep(
             acting=acting,
             deformations=deformations,
@@ -280,14 +270,14 @@ class ElasticStructure:
             stored[rows] += 0.5 * amount * deformation
         if self._cracks is not None and len(self._cracks):
             stored[self._cracks.rows] = self._cracks.stored_j(positions_m, rotations)
-        if self._beds is not None:
-            stored[self._beds.rows] = self._beds.stored_j(positions_m, rotations) * self._intact[self._beds.rows]
+        if self._soil is not None:
+            stored[self._soil.rows] = self._soil.stored_j(positions_m, rotations) * self._intact[self._soil.rows]
         return stored
 
     def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
         """Take over, before a sub-step, how far soil and reinforcement have yielded, and let go what has ruptured."""
-        if self._beds is not None:
-            self._beds.settle(positions_m, rotations)
+        if self._soil is not None:
+            self._soil.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return
         gone = self._cracks.settle(positions_m, rotations)
@@ -297,22 +287,22 @@ class ElasticStructure:
             self._has_broken = True
 
     def end_substep(self) -> None:
-        """Look anew which bodies hang together, if any connection broke since this was done last."""
+        """Find again which bodies hang together, if any connection broke since this was done last."""
         if self._has_broken:
             self._partition()
 
     def _deformed(
         self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray
     ) -> tuple[JointPlaces, np.ndarray]:
-        """Places and deformations (6, r) of connections (r,), in order; anew only where bodies have moved since."""
-        seen = self._seen
-        if seen is None or not seen.has(rows, positions_m, rotations):
+        """Places and deformations (6, r) of connections (r,), in order; again only where bodies have moved."""
+        cached = self._cache
+        if cached is None or not cached.has(rows, positions_m, rotations):
             places = joint_places(self._frames.only(rows), positions_m, rotations)
-            self._seen = seen = _Seen(positions_m, rotations, rows, places, places.deformations())
-        if np.array_equal(rows, seen.rows):
-            return seen.places, seen.deformations
-        chosen = np.searchsorted(seen.rows, rows)
-        return seen.places.only(chosen), seen.deformations[:, chosen]
+            self._cache = cached = _RowCache(positions_m, rotations, rows, places, places.deformations())
+        if np.array_equal(rows, cached.rows):
+            return cached.places, cached.deformations
+        chosen = np.searchsorted(cached.rows, rows)
+        return cached.places.only(chosen), cached.deformations[:, chosen]
 
     def _partition(self) -> None:
         """Find the parts, and leave out bodies that never move."""
@@ -355,70 +345,72 @@ class ElasticStructure:
             self._stale[-1] = False
             self._has_broken = True
 
-    def _awake_parts(self, states: BodyStates) -> np.ndarray:
+    def _awake_parts(self, start: StepInput) -> np.ndarray:
         """Parts (p + 1,) of which a body is awake."""
         mine = self._part_of_body >= 0
         awake = np.zeros(len(self._stale), bool)
-        awake[self._part_of_body[mine & ~states.asleep]] = True
+        awake[self._part_of_body[mine & ~start.asleep]] = True
         return awake
 
     def _acting(self, awake: np.ndarray) -> np.ndarray:
         """Connections (k,) that are intact, and in awake parts (p + 1,)."""
         return np.flatnonzero(self._intact & awake[self.part_of_connection])
 
-    def _acting_beds(self, states: BodyStates, awake: np.ndarray) -> UnevenStep | None:
+    def _acting_soil(self, start: StepInput, awake: np.ndarray) -> NonlinearTerms | None:
         """Footings in awake parts (p + 1,) that stand on soil; None where there is none."""
-        if self._beds is None:
+        if self._soil is None:
             return None
-        rows = self._beds.rows
+        rows = self._soil.rows
         chosen = np.flatnonzero(self._intact[rows] & awake[self.part_of_connection[rows]])
         if not len(chosen):
             return None
-        return self._beds.in_substep(chosen, states.positions_m, states.rotations, self._substep_s)
+        return self._soil.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
-    def _acting_cracks(self, states: BodyStates, awake: np.ndarray) -> UnevenStep | None:
+    def _acting_cracks(self, start: StepInput, awake: np.ndarray) -> NonlinearTerms | None:
         """Cracks in awake parts (p + 1,) that reinforcement holds; None where there is none."""
         if self._cracks is None:
             return None
         chosen = np.flatnonzero(awake[self.part_of_connection[self._cracks.rows]])
         if not len(chosen):
             return None
-        return self._cracks.in_substep(chosen, states.positions_m, states.rotations, self._substep_s)
+        return self._cracks.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
-    def _with_uneven(self, loads: np.ndarray, uneven: Sequence[UnevenStep], velocities: np.ndarray) -> np.ndarray:
-        """Impulses (6, n) with those of all that is uneven, on bodies that have velocities (6, n) at the end."""
-        for each in uneven:
+    def _with_nonlinear(
+        self, loads: np.ndarray, nonlinear: Sequence[NonlinearTerms], velocities: np.ndarray
+    ) -> np.ndarray:
+        """Impulses (6, n) with those of nonlinear terms, on bodies that have velocities (6, n) at the end."""
+        for each in nonlinear:
             loads = loads + each.of_bodies(each.loads(velocities), self._count)
         return loads
 
     def _refresh(
         self,
-        states: BodyStates,
+        start: StepInput,
         awake: np.ndarray,
         acting: np.ndarray,
         places: JointPlaces,
-        uneven: Sequence[UnevenStep],
+        nonlinear: Sequence[NonlinearTerms],
     ) -> None:
-        """Make rows and equations of parts anew that have turned, lost a connection, or have what yields."""
-        for each in uneven:
+        """Make rows and equations again of parts that have turned, lost a connection, or have what yields."""
+        for each in nonlinear:
             self._stale[self.part_of_connection[each.rows[each.changed()]]] = True
-        turned = abs(states.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
+        turned = abs(start.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
         turned &= self._part_of_body >= 0
         self._stale[self._part_of_body[turned]] = True
         stale = self._stale & awake
         if not stale.any():
             return
         bodies = stale[self._part_of_body]
-        self._rotations[..., bodies] = states.rotations[..., bodies]
+        self._rotations[..., bodies] = start.rotations[..., bodies]
         chosen = np.flatnonzero(stale[self.part_of_connection[acting]])
         connections = acting[chosen]
         rows = places.only(chosen).rows()
         self._rows.set(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s)
         blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
-        own = mass_matrices(self._masses, self._inertias, states.rotations, np.flatnonzero(bodies))
+        own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body = np.cumsum(bodies) - 1
-        for each in uneven:
+        for each in nonlinear:
             of_stale = np.flatnonzero(stale[self.part_of_connection[each.rows]])
             blocks = [np.concatenate(pair, axis=2) for pair in zip(blocks, each.blocks(of_stale), strict=True)]
             connections = np.concatenate((connections, each.rows[of_stale]))
@@ -440,79 +432,8 @@ class ElasticStructure:
         return changes
 
 
-def summed_on_bodies(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
-    """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
-    bodies = np.concatenate((frames.first, frames.second))
-    return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
-
-
-def without(stiffness: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Return stiffness (2, 3, 3, m) with nothing of connections (r,)."""
-    left = stiffness.copy()
-    left[..., rows] = 0.0
-    return left
-
-
 def _grouped(labels: np.ndarray, numbers: np.ndarray) -> list[np.ndarray]:
     """Where labels (n,) have each of some ascending numbers."""
     order = np.argsort(labels, kind="stable")
     starts, ends = (np.searchsorted(labels[order], numbers, side) for side in ("left", "right"))
     return [order[start:end] for start, end in zip(starts.tolist(), ends.tolist(), strict=True)]
-
-
-def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return the part (n,) to which each body belongs, -1 for those that do not move.
-
-    Parameters
-    ----------
-    moves : (n,) bool
-        Which bodies can move.
-    first, second : (m,) int
-        Bodies of each connection.
-    """
-    free = moves[first] & moves[second]
-    links = coo_matrix((np.ones(free.sum()), (first[free], second[free])), shape=(len(moves),) * 2)
-    return np.where(moves, connected_components(links, directed=False)[1], -1)
-
-
-def mass_matrices(
-    masses_kg: np.ndarray, inertias_kg_m2: np.ndarray, rotations: np.ndarray, bodies: np.ndarray
-) -> np.ndarray:
-    """Return mass and inertia (6, 6, b) of some bodies (b,) in the axes of the world.
-
-    Parameters
-    ----------
-    masses_kg, inertias_kg_m2, rotations : (n,), (3, 3, n), (3, 3, n) float
-        Of all bodies, with tensors of inertia in the axes of each.
-    bodies : (b,) int
-    """
-    turned = rotations[..., bodies]
-    matrices = np.zeros((6, 6, len(bodies)))
-    matrices[[0, 1, 2], [0, 1, 2]] = masses_kg[bodies]
-    matrices[3:, 3:] = matrix_products(matrix_products(turned, inertias_kg_m2[..., bodies]), transposed(turned))
-    return matrices
-
-
-def stressed(stiffness: np.ndarray, strains: np.ndarray) -> np.ndarray:
-    """Return the amounts (6, m) in rows, by stiffness (2, 3, 3, m), of deformations (6, m)."""
-    shifts, turns = stiffness
-    return np.concatenate(
-        (
-            shifts[:, 0] * strains[0] + shifts[:, 1] * strains[1] + shifts[:, 2] * strains[2],
-            turns[:, 0] * strains[3] + turns[:, 1] * strains[4] + turns[:, 2] * strains[5],
-        )
-    )
-
-
-def stiffness_blocks(rows: JointRows, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return what connections add to the equations of their first and second bodies, and between: (6, 6, m) each."""
-    first, second = rows.matrices()
-    first_stressed, second_stressed = (
-        np.concatenate((matrix_products(stiffness[0], each[:3]), matrix_products(stiffness[1], each[3:])))
-        for each in (first, second)
-    )
-    return (
-        matrix_products(transposed(first), first_stressed),
-        matrix_products(transposed(second), second_stressed),
-        matrix_products(transposed(first), second_stressed),
-    )

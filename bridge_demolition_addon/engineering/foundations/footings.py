@@ -1,8 +1,8 @@
-"""Footings on springs: what they bear in a sub-step, in the equations of the elastic structure.
+"""Footings on springs: what they resist in a sub-step, in the equations of the elastic structure.
 
 Under each footing are places, each with its part of the area. A place presses by stiffness, area and settlement, and
 never pulls: E. Winkler (1867), Die Lehre von der Elastizität und Festigkeit. Where the pressure reaches what the soil
-bears, it stays there and the place settles for good. Along the ground it holds as a spring up to its friction, by the
+resists, it stays there and the place settles for good. Along the ground it holds as a spring up to its friction, by the
 pressure at the beginning of the sub-step, and slides beyond it.
 
 A sub-step is implicit, and solved as `elasticity.cracks` is: forces are linear about a guess, which is followed by
@@ -13,10 +13,11 @@ All arrays have their components first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
 from ..elasticity.joint_rows import cross_products, matrix_products, transposed, turned, turned_back
 
 _AGREES = 1e-4
@@ -97,13 +98,14 @@ class Footings:
             for each in (self._standing, self._ground)
         )
         areas = springs.areas_m2
-        self._soil = _Soil(
+        self._soil = Soil(
             areas * springs.stiffness_n_m3[of],
             areas * springs.horizontal_n_m3[of],
             areas * springs.capacity_pa[of],
             springs.friction[of],
+            np.zeros(len(of)),
         )
-        self._unloaded, self._pressed = np.zeros((3, len(of))), np.zeros(len(of))
+        self._unloaded = np.zeros((3, len(of)))
         self._solved_for = np.full((3, 3, len(of)), np.nan)
 
     def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
@@ -118,25 +120,26 @@ class Footings:
         soil = self._soil
         deepest = soil.capacity_n / soil.vertical_n_m
         self._unloaded[2] = np.minimum(self._unloaded[2], gaps[2] + deepest)
-        forces = soil.borne(gaps - self._unloaded, _ANY)[0]
-        self._pressed = forces[2]
+        forces = replace(soil, pressed_n=np.full(len(self._of), _ANY)).resisted(gaps - self._unloaded)[0]
+        pressed_n = forces[2]
+        self._soil = replace(soil, pressed_n=pressed_n)
         size = np.sqrt(forces[0] * forces[0] + forces[1] * forces[1])
-        limit = soil.friction * self._pressed
+        limit = soil.friction * pressed_n
         share = np.divide(limit, size, out=np.ones_like(size), where=size > limit)
         for axis in range(2):
             self._unloaded[axis] = gaps[axis] + share * forces[axis] / soil.horizontal_n_m
-        lifted = self._pressed <= 0.0
+        lifted = pressed_n <= 0.0
         self._unloaded[:2, lifted] = gaps[:2, lifted]
 
     @property
     def touching(self) -> np.ndarray:
         """Part (f,) of the stiffness of each footing that is pressed, from 0 to 1, as it settled last."""
-        pressed = np.where(self._pressed > 0.0, self._soil.vertical_n_m, 0.0)
+        pressed = np.where(self._soil.pressed_n > 0.0, self._soil.vertical_n_m, 0.0)
         return self._summed(pressed) / self._summed(self._soil.vertical_n_m)
 
     def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Return the energy (f,) that the springs would give back."""
-        forces = self._soil.borne(self._gaps(positions_m, rotations)[0] - self._unloaded, self._pressed)[0]
+        forces = self._soil.resisted(self._gaps(positions_m, rotations)[0] - self._unloaded)[0]
         along = forces[0] * forces[0] + forces[1] * forces[1]
         doubled = forces[2] * forces[2] / self._soil.vertical_n_m + along / self._soil.horizontal_n_m
         return self._summed(0.5 * doubled)
@@ -149,20 +152,15 @@ class Footings:
         number[chosen] = np.arange(len(chosen))
         which = np.flatnonzero(number[self._of] >= 0)
         gaps, arms, ground_arms = (each[:, which] for each in self._gaps(positions_m, rotations))
+        between = Gaps(self._ground[which], self._standing[which], ground_arms, arms, gaps - self._unloaded[:, which])
         return FootingStep(
             self.rows[chosen],
             self._stands_first[chosen],
             number[self._of[which]],
-            self._standing[which],
-            self._ground[which],
-            arms,
-            ground_arms,
-            gaps - self._unloaded[:, which],
+            between,
             self._soil.only(which),
-            self._pressed[which],
+            SolvedTangents(self._solved_for, which),
             substep_s,
-            self._solved_for,
-            which,
         )
 
     def _gaps(self, positions_m: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -184,17 +182,15 @@ class FootingStep:
     ----------
     rows, stands_first : (c,) int, (c,) bool
         Connections, and whether the first body of each is the one that stands on the ground.
-    footings, standing, ground : (q,) int
-        Footing of each place, and the bodies that press there.
-    arms_m, ground_arms_m, gaps_m : (3, q) float
-        From the centres of these to the places, and how far these are from where they bear nothing.
-    soil, pressed_n : _Soil, (q,) float
-        The springs, and how they are pressed as it begins.
+    footings : (q,) int
+        Footing of each place.
+    gaps : Gaps
+        From the ground to what stands on it, and how far each place is from where nothing is resisted.
+    soil : Soil
+        The springs, and how they are pressed as the sub-step begins.
+    solved : SolvedTangents
+        For which equations were made last.
     substep_s : float
-    solved_for : (3, 3, p) float
-        Tangents of all places for which equations were made last.
-    which : (q,) int
-        Which of these the places are.
 
     Attributes
     ----------
@@ -207,31 +203,22 @@ class FootingStep:
         rows: np.ndarray,
         stands_first: np.ndarray,
         footings: np.ndarray,
-        standing: np.ndarray,
-        ground: np.ndarray,
-        arms_m: np.ndarray,
-        ground_arms_m: np.ndarray,
-        gaps_m: np.ndarray,
-        soil: _Soil,
-        pressed_n: np.ndarray,
+        gaps: Gaps,
+        soil: Soil,
+        solved: SolvedTangents,
         substep_s: float,
-        solved_for: np.ndarray,
-        which: np.ndarray,
     ):
         self.rows = rows
-        self._stands_first, self._of, self._standing, self._ground = stands_first, footings, standing, ground
-        self._arms, self._ground_arms, self._gaps = arms_m, ground_arms_m, gaps_m
-        self._soil, self._pressed, self._substep_s = soil, pressed_n, substep_s
-        self._solved_for, self._which = solved_for, which
+        self._stands_first, self._of, self._gaps = stands_first, footings, gaps
+        self._soil, self._solved, self._substep_s = soil, solved, substep_s
         counts = np.bincount(footings, minlength=len(rows))
-        self._slack = (_AGREES * np.bincount(footings, pressed_n, len(rows)) / counts)[footings]
+        self._slack = (_AGREES * np.bincount(footings, soil.pressed_n, len(rows)) / counts)[footings]
         self._slack += _EVEN_M * soil.vertical_n_m
-        self._begin_at(np.zeros_like(gaps_m))
+        self._begin_at(np.zeros_like(gaps.widths_m))
 
     def changed(self) -> np.ndarray:
         """Which footings (c,) have other tangents than their equations."""
-        differs = (self._tangents != self._solved_for[..., self._which]).any(axis=(0, 1))
-        return np.bincount(self._of, differs, len(self.rows)) > 0
+        return np.bincount(self._of, self._solved.differ(self._tangents), len(self.rows)) > 0
 
     def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return what footings (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
@@ -239,8 +226,8 @@ class FootingStep:
         is_chosen[chosen] = True
         mine = np.flatnonzero(is_chosen[self._of])
         tangents = self._tangents[..., mine]
-        self._solved_for[..., self._which[mine]] = tangents
-        moving = _motion_of_points(self._arms[:, mine])
+        self._solved.take_over(mine, tangents)
+        moving = motion_of_points(self._gaps.second_arms_m[:, mine])
         implicit = self._substep_s * self._substep_s * tangents
         stiff = matrix_products(transposed(moving), matrix_products(implicit, moving)).reshape(36, -1)
         count = len(self.rows)
@@ -250,17 +237,17 @@ class FootingStep:
 
     def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the impulses (6, c) on the first and second bodies of footings, which have velocities (6, n) then."""
-        push = self._substep_s * self._linear(self._substep_s * self._rates(velocities))
+        push = self._substep_s * self._linear(self._substep_s * self._gaps.rates(velocities))
         standing, ground = (
             self._summed(np.concatenate((force, cross_products(arms, force))))
-            for force, arms in ((push, self._arms), (-push, self._ground_arms))
+            for force, arms in ((push, self._gaps.second_arms_m), (-push, self._gaps.first_arms_m))
         )
         return np.where(self._stands_first, standing, ground), np.where(self._stands_first, ground, standing)
 
     def agrees(self, velocities: np.ndarray) -> bool:
-        """Whether the forces are those of the settlement that follows from velocities (6, n); if not, guess anew."""
-        moved = self._substep_s * self._rates(velocities)
-        off = abs(self._soil.borne(self._gaps + moved, self._pressed)[0] - self._linear(moved)).max(axis=0)
+        """Whether the forces are those of the settlement that follows from velocities (6, n); if not, guess again."""
+        moved = self._substep_s * self._gaps.rates(velocities)
+        off = abs(self._soil.resisted(self._gaps.widths_m + moved)[0] - self._linear(moved)).max(axis=0)
         if (off <= self._slack).all():
             return True
         self._begin_at(moved)
@@ -270,46 +257,49 @@ class FootingStep:
         """Return the sums (6, n) of loads (6, c) on the bodies that stand, for n bodies; the ground does not move."""
         standing = np.where(self._stands_first, *loads)
         bodies = np.zeros(len(self.rows), int)
-        bodies[self._of] = self._standing
+        bodies[self._of] = self._gaps.second
         return np.stack([np.bincount(bodies, each, count) for each in standing])
 
     def _begin_at(self, moved: np.ndarray) -> None:
         """Take forces for linear about places that have moved further (3, q)."""
-        forces, self._tangents = self._soil.borne(self._gaps + moved, self._pressed)
+        forces, self._tangents = self._soil.resisted(self._gaps.widths_m + moved)
         self._forces = forces + turned(self._tangents, moved)
 
     def _linear(self, moved: np.ndarray) -> np.ndarray:
         return self._forces - turned(self._tangents, moved)
-
-    def _rates(self, velocities: np.ndarray) -> np.ndarray:
-        """How fast the places (3, q) move over the ground."""
-        standing, ground = velocities[:, self._standing], velocities[:, self._ground]
-        moving = standing[:3] + cross_products(standing[3:], self._arms)
-        return moving - ground[:3] - cross_products(ground[3:], self._ground_arms)
 
     def _summed(self, values: np.ndarray) -> np.ndarray:
         return np.stack([np.bincount(self._of, each, len(self.rows)) for each in values])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Soil:
-    """Springs at q places: stiffness (q,), largest pressing force (q,), and largest force along the ground by that."""
+class Soil:
+    """Springs at q places.
+
+    Attributes
+    ----------
+    vertical_n_m, horizontal_n_m : (q,) float
+        Stiffness.
+    capacity_n : (q,) float
+        Largest pressing force.
+    friction : (q,) float
+        Largest force along the ground by the pressing force.
+    pressed_n : (q,) float
+        Pressing force by which friction counts.
+    """
 
     vertical_n_m: np.ndarray
     horizontal_n_m: np.ndarray
     capacity_n: np.ndarray
     friction: np.ndarray
+    pressed_n: np.ndarray
 
-    def only(self, which: np.ndarray) -> _Soil:
+    def only(self, which: np.ndarray) -> Soil:
         """Return some of the springs."""
-        found = self.vertical_n_m, self.horizontal_n_m, self.capacity_n, self.friction
-        return _Soil(*(each[which] for each in found))
+        return Soil(*(getattr(self, item.name)[which] for item in fields(self)))
 
-    def borne(self, gaps_m: np.ndarray, pressed_n: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
-        """Return forces (3, q) on what stands on gaps (3, q), and by how much these fall with them, (3, 3, q).
-
-        Friction counts by how places were pressed.
-        """
+    def resisted(self, gaps_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return forces (3, q) on what stands on gaps (3, q), and by how much these fall with them, (3, 3, q)."""
         wanted = -self.vertical_n_m * gaps_m[2]
         forces, tangents = np.zeros_like(gaps_m), np.zeros((3, *gaps_m.shape))
         forces[2] = np.clip(wanted, 0.0, self.capacity_n)
@@ -317,7 +307,7 @@ class _Soil:
         along = gaps_m[:2]
         squares = _squares(along)
         size = np.sqrt(squares) * self.horizontal_n_m
-        limit = self.friction * pressed_n
+        limit = self.friction * self.pressed_n
         slides = size > limit
         share = np.divide(limit, size, out=np.ones_like(size), where=slides)
         forces[:2] = -share * self.horizontal_n_m * along
@@ -330,14 +320,3 @@ class _Soil:
 def _squares(vectors: np.ndarray) -> np.ndarray:
     """Return the squares (q,) of vectors (2, q)."""
     return vectors[0] * vectors[0] + vectors[1] * vectors[1]
-
-
-def _motion_of_points(arms_m: np.ndarray) -> np.ndarray:
-    """Matrices (3, 6, q) that give the velocities of points at arms (3, q) from those of their bodies."""
-    x, y, z = arms_m
-    matrices = np.zeros((3, 6, len(x)))
-    matrices[[0, 1, 2], [0, 1, 2]] = 1.0
-    matrices[0, 4], matrices[0, 5] = z, -y
-    matrices[1, 3], matrices[1, 5] = -z, x
-    matrices[2, 3], matrices[2, 4] = y, -x
-    return matrices

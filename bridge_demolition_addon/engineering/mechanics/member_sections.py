@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..geometry.vectors import dot
-from .section_cuts import cut_loads
+from .section_cuts import ConnectedFaces, cut_loads
 from .section_forces import SectionForces
 
 SPREAD = 7.0
@@ -32,12 +32,7 @@ class MemberSections:
 
     Parameters
     ----------
-    pairs : (m, 2) int
-        Connected bodies.
-    points_m, normals, areas_m2 : (m, 3), (m, 3), (m,) float
-        Middles of the faces, unit vectors from the first body to the second, and areas.
-    second_moments_m4 : (m, 2, 2) float
-        Of the faces, each in its own axes.
+    faces : ConnectedFaces
     centres_m : (n, 3) float
         Centres of the bodies.
     moves : (n,) bool
@@ -50,24 +45,20 @@ class MemberSections:
 
     def __init__(
         self,
-        pairs: np.ndarray,
-        points_m: np.ndarray,
-        normals: np.ndarray,
-        areas_m2: np.ndarray,
-        second_moments_m4: np.ndarray,
+        faces: ConnectedFaces,
         centres_m: np.ndarray,
         moves: np.ndarray,
         kinds: np.ndarray,
         thicknesses_m: np.ndarray,
     ):
-        self._points, self._normals, self._areas = points_m, normals, areas_m2
-        self._second_moments, self._kinds, self._thicknesses = second_moments_m4, kinds, thicknesses_m
+        self._points, self._normals, self._areas = faces.points_m, faces.normals, faces.areas_m2
+        self._second_moments, self._kinds, self._thicknesses = faces.second_moments_m4, kinds, thicknesses_m
         self._reaches = np.where(np.isfinite(thicknesses_m), SPREAD * thicknesses_m, 0.0)
-        beyond = 2.0 * self._reaches[:, None] * normals
-        first, second = pairs.T
-        self._before = np.where(moves[first, None], centres_m[first], points_m - beyond)
-        self._behind = np.where(moves[second, None], centres_m[second], points_m + beyond)
-        self._tree = cKDTree(points_m)
+        beyond = 2.0 * self._reaches[:, None] * faces.normals
+        first, second = faces.pairs.T
+        self._before = np.where(moves[first, None], centres_m[first], self._points - beyond)
+        self._behind = np.where(moves[second, None], centres_m[second], self._points + beyond)
+        self._tree = cKDTree(self._points)
         self._found: dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
 
     def are_whole(self, rows: np.ndarray) -> np.ndarray:

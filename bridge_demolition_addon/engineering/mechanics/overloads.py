@@ -1,4 +1,4 @@
-"""Which connections bear more than their strength: judged face by face, and with the sections that they are part of."""
+"""Which connections carry more than their strength: judged face by face, and with the sections they are part of."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ..geometry.vectors import length
 from .member_sections import MemberSections
-from .section_cuts import SectionCuts, worst_around
+from .section_cuts import ConnectedFaces, SectionCuts, worst_around
 from .section_forces import SectionForces, section_forces
 from .strength import Strength, largest_utilisations, rectangular_sections, sections_at, strength_at, utilisation
 
@@ -18,7 +18,7 @@ _MOST_REDISTRIBUTED = 3.0
 """By how much the stress in an elastic face may exceed its strength as long as its section bears the load.
 
 A section evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
-further has torn, whatever the faces beside it bear. Rigid connections share a load by chance: only the cut counts.
+further has torn, whatever the faces beside it carry. Rigid connections share a load by chance: only the cut counts.
 """
 
 
@@ -46,8 +46,7 @@ class Overloads:
 
     Parameters
     ----------
-    pairs, normals, areas_m2, second_moments_m4 : (m, 2) int, (m, 3), (m,), (m, 2, 2) float
-        Connected bodies, unit vectors from the first to the second, and the faces, each in its own axes.
+    faces : ConnectedFaces
     moves : (n,) bool
         Whether each body moves.
     strength : Strength
@@ -59,22 +58,19 @@ class Overloads:
 
     def __init__(
         self,
-        pairs: np.ndarray,
-        normals: np.ndarray,
-        areas_m2: np.ndarray,
-        second_moments_m4: np.ndarray,
+        faces: ConnectedFaces,
         moves: np.ndarray,
         strength: Strength,
         member_sections: MemberSections | None,
     ):
-        self._pairs, self._moves, self._strength = pairs, moves, strength
-        self._areas, self._second_moments = areas_m2, second_moments_m4
+        self._pairs, self._moves, self._strength = faces.pairs, moves, strength
+        self._areas, self._second_moments = faces.areas_m2, faces.second_moments_m4
         self._member_sections = member_sections
-        self._sections = rectangular_sections(areas_m2, second_moments_m4)
+        self._sections = rectangular_sections(self._areas, self._second_moments)
         self._largest_utilisations = largest_utilisations(self._sections, strength)
-        self._cuts = SectionCuts.between(pairs, normals, areas_m2, moves)
+        self._cuts = SectionCuts.between(faces.pairs, faces.normals, faces.areas_m2, moves)
 
-    def possible(self, loads: np.ndarray, lever_arms_m: np.ndarray, left: np.ndarray) -> np.ndarray:
+    def candidates(self, loads: np.ndarray, lever_arms_m: np.ndarray, left: np.ndarray) -> np.ndarray:
         """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
 
         Parameters
@@ -91,7 +87,7 @@ class Overloads:
         most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
         return np.flatnonzero(most * (1.0 + _SINGLE_PRECISION) > left)
 
-    def among(
+    def breaking(
         self,
         rows: np.ndarray,
         loads: ConnectionLoads,
@@ -131,7 +127,7 @@ class Overloads:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return which connections (k,) are overloaded alone and in their sections, and their utilisations (k,).
 
-        Parameters are those of `among`.
+        Parameters are those of `breaking`.
         """
         alone = self.alone(rows, loads, axes, left)
         is_over = alone > 1.0
@@ -142,7 +138,7 @@ class Overloads:
         return rows[used > 1.0], used[used > 1.0]
 
     def alone(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, left: np.ndarray) -> np.ndarray:
-        """Utilisations (r,) of some connections, each by itself; parameters are those of `among`."""
+        """Utilisations (r,) of some connections, each by itself; parameters are those of `breaking`."""
         return self.of_forces(rows, loads.in_sections(rows, axes)) / left[rows]
 
     def of_forces(self, rows: np.ndarray, forces: SectionForces) -> np.ndarray:
@@ -161,7 +157,7 @@ class Overloads:
     ) -> np.ndarray:
         """Utilisations (r,) of the sections of some connections, whose own (r,) are known.
 
-        Parameters are those of `among`.
+        Parameters are those of `breaking`.
         """
         if self._member_sections is None:
             return self._in_cuts(rows, loads, axes, intact) / left[rows]

@@ -22,6 +22,27 @@ within 73° of a direction are what a cut across that direction goes through."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class ConnectedFaces:
+    """The faces between bodies that m connections stand for, as they were built.
+
+    Attributes
+    ----------
+    pairs : (m, 2) int
+        Connected bodies.
+    points_m, normals : (m, 3) float
+        Middles of the faces, and unit vectors from the first body to the second.
+    areas_m2, second_moments_m4 : (m,), (m, 2, 2) float
+        Of each, the latter in its own axes.
+    """
+
+    pairs: np.ndarray
+    points_m: np.ndarray
+    normals: np.ndarray
+    areas_m2: np.ndarray
+    second_moments_m4: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class SectionCuts:
     """Two cuts for each of m connections, through its first and through its second shard.
 

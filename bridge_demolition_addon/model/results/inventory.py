@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...engineering.mechanics.section_cuts import ConnectedFaces
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Inventory:
@@ -62,6 +64,11 @@ class Inventory:
     def moves(self) -> np.ndarray:
         """Whether each body (n,) can move at all."""
         return self.masses_kg > 0.0
+
+    @property
+    def faces(self) -> ConnectedFaces:
+        """The faces that the connections stand for."""
+        return ConnectedFaces(self.pairs, self.points_m, self.normals, self.areas_m2, self.second_moments_m4)
 
     def of_kind(self, kind: str) -> np.ndarray:
         """Indices of the bodies of a kind."""

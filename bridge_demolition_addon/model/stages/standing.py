@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.section_stiffness import SectionStiffness
-from ...engineering.elasticity.structure import connected_parts
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
 from ...engineering.mechanics.section_cuts import worst_around

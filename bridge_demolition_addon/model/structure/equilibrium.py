@@ -6,12 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.mechanics.joint import MOTIONS, Joint
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
 from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
+from ...engineering.mechanics.section_cuts import ConnectedFaces
 from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.mechanics.strength import Strength
 from ...engineering.structure.connections import GROUND, Connections
@@ -61,26 +63,26 @@ def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength
 
 def member_sections_of(model: Model) -> MemberSections:
     """Return the sections across the members of a model."""
-    connections, moves = model.connections, _moves(model)
-    pairs = connections.pairs % len(moves)
+    faces, moves = _faces(model), _moves(model)
     return MemberSections(
-        pairs,
-        connections.points,
-        connections.normals,
-        connections.areas,
-        model.second_moments_m4,
+        faces,
         np.vstack((model.centres_m, np.zeros(3))),
         moves,
-        kinds_of(np.append(model.member_of_shard, -1)[pairs]),
+        kinds_of(np.append(model.member_of_shard, -1)[faces.pairs]),
         model.thicknesses_m(),
     )
 
 
 def overloads_of(model: Model, strength: Strength, sections: MemberSections) -> Overloads:
     """Return what judges the connections of a model by a strength."""
-    connections, moves = model.connections, _moves(model)
-    faces = connections.normals, connections.areas, model.second_moments_m4
-    return Overloads(connections.pairs % len(moves), *faces, moves, strength, sections)
+    return Overloads(_faces(model), _moves(model), strength, sections)
+
+
+def _faces(model: Model) -> ConnectedFaces:
+    """The faces of the connections of a model; the ground is the last body."""
+    connections = model.connections
+    pairs = connections.pairs % (len(model.fixed) + 1)
+    return ConnectedFaces(pairs, connections.points, connections.normals, connections.areas, model.second_moments_m4)
 
 
 def _moves(model: Model) -> np.ndarray:
@@ -153,15 +155,12 @@ def at_rest(
     second = np.where(second == GROUND, len(masses_kg), second)
     places = np.vstack((centres_m, np.zeros(3)))
     levers = [(connections.points - places[each]).T for each in (first, second)]
-    tensors = np.zeros((3, 3, len(places)))
+    tensors, unturned = np.zeros((3, 3, len(places))), np.repeat(np.eye(3)[:, :, None], len(places), axis=2)
     tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
     return equilibrium(
         JointFrames(first, second, axes, axes, *levers),
         in_frames(stiffness, sections, held),
-        np.append(masses_kg, 0.0),
-        tensors,
-        places.T,
-        np.repeat(np.eye(3)[:, :, None], len(places), axis=2),
+        RigidBodies(np.append(masses_kg, 0.0), tensors, places.T, unturned),
         np.array(gravity_m_s2),
         None if loads is None else np.column_stack((loads, np.zeros(6))),
     )

@@ -136,11 +136,7 @@ class BulletReader:
         """Return the sections across members, as they were built, that connections are judged by."""
         inventory = self._inventory
         return MemberSections(
-            inventory.pairs,
-            inventory.points_m,
-            inventory.normals,
-            inventory.areas_m2,
-            inventory.second_moments_m4,
+            inventory.faces,
             self._built_positions_m,
             inventory.moves,
             kinds_of(inventory.body_members[inventory.pairs]),

@@ -13,10 +13,11 @@ from ...bullet.constraint_rows import check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_places, corner_shares
+from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
-from ...engineering.elasticity.structure import BodyStates, ElasticStructure
+from ...engineering.elasticity.structure import ElasticStructure, StepInput
 from ...engineering.foundations.footings import Footings, SoilSprings
 from ...engineering.geometry.vectors import transformed_back
 from ...engineering.mechanics.section_forces import section_axes
@@ -186,7 +187,7 @@ class ElasticConnections:
         self._structure.settle(motion.positions_m, motion.rotations)
         if self._footings:
             self._follow_lifting()
-        self._states = BodyStates(motion.positions_m, motion.rotations, velocities, motion.asleep)
+        self._start = StepInput(motion.positions_m, motion.rotations, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
         """Work out the sub-step with what is intact, as if there were no contacts.
@@ -197,7 +198,7 @@ class ElasticConnections:
             Forces and torques on Bullet's bodies A and B of each connection.
         """
         intact = self._world.intact()
-        self._coming = step = self._structure.step(self._states, intact, self._substep_s)
+        self._coming = step = self._structure.step(self._start, intact, self._substep_s)
         self._loads[:, :, ~self.holding(intact)] = 0.0
         for loads, of_connections, of_cracks in (
             (self._loads[0], step.of_first, step.of_cracks_on_first),
@@ -235,18 +236,11 @@ class ElasticConnections:
     def _settle(self, motion: BodyMotion) -> Equilibrium:
         """Put the bodies where they rest under their own weight."""
         masses = np.where(motion.inverse_masses > 0.0, self._masses, 0.0)
-        found = equilibrium(
-            self._frames,
-            self._stiffness,
-            masses,
-            self._inertias,
-            motion.positions_m,
-            motion.rotations,
-            self._gravity,
-        )
-        rows = np.flatnonzero(found.held)
-        self._reader.put(rows, found.positions_m[:, rows], found.rotations[..., rows])
-        return found
+        bodies = RigidBodies(masses, self._inertias, motion.positions_m, motion.rotations)
+        rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity)
+        rows = np.flatnonzero(rest.held)
+        self._reader.put(rows, rest.positions_m[:, rows], rest.rotations[..., rows])
+        return rest
 
     def _prepare(self, motion: BodyMotion, substep_s: float) -> None:
         """Take over the length of sub-steps."""
@@ -255,16 +249,9 @@ class ElasticConnections:
             frequency = self._rest.frequency_hz
             # Stiffness-proportional damping has the ratio π f β, to which implicit steps add π f dt.
             damping_s = max(self._damping_ratio / (np.pi * frequency) - substep_s, 0.0) if frequency > 0.0 else 0.0
+            bodies = RigidBodies(self._masses, self._inertias, self._built.positions_m, self._built.rotations)
             self._structure = ElasticStructure(
-                self._frames,
-                self._stiffness,
-                self._masses,
-                self._inertias,
-                damping_s,
-                self._built.positions_m,
-                self._built.rotations,
-                self._cracks,
-                self._footings,
+                self._frames, self._stiffness, bodies, damping_s, self._cracks, self._footings
             )
             self._damping_s = damping_s
         places = joint_places(self._frames, motion.positions_m, motion.rotations)

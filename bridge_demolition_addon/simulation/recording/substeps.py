@@ -179,15 +179,7 @@ class SubstepRecorder:
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
         self._overloads = None
         if breaking.strength:
-            self._overloads = Overloads(
-                inventory.pairs,
-                inventory.normals,
-                inventory.areas_m2,
-                inventory.second_moments_m4,
-                can_move,
-                breaking.strength,
-                member_sections,
-            )
+            self._overloads = Overloads(inventory.faces, can_move, breaking.strength, member_sections)
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._unknown = None if loads else (self._frame.finish().unknown(), FrameWork.unknown(len(inventory.masses_kg)))
         self._intact = world.intact()
@@ -492,7 +484,7 @@ class SubstepRecorder:
 
     def _perhaps_overloaded(self, loads: np.ndarray) -> np.ndarray:
         """Return the intact connections (k,) whose loads (6, m) are large enough for it, whatever they act on."""
-        rows = self._overloads.possible(loads, self._reader.lever_arms_m, self._events.remaining_strength)
+        rows = self._overloads.candidates(loads, self._reader.lever_arms_m, self._events.remaining_strength)
         return rows[self._intact[rows]]
 
     def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
@@ -500,7 +492,7 @@ class SubstepRecorder:
         loads = ConnectionLoads(moment.connection_forces_n, moment.connection_moments_nm, moment.connection_points_m)
         axes = self._reader.section_axes(moment.rotations, rows)
         parts = self._elastic.parts if self._elastic else None
-        return self._overloads.among(rows, loads, axes, self._intact, self._events.remaining_strength, parts)
+        return self._overloads.breaking(rows, loads, axes, self._intact, self._events.remaining_strength, parts)
 
     def _note_balls(self, bodies: BodyStates, loads: SubstepLoads, substep: int, end_s: float) -> None:
         contacts = loads.contacts_of(substep)

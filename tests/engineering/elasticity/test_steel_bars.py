@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.elasticity.cracks import corner_places
-from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel, stretched
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel, bar_response
 from bridge_demolition_addon.errors import ScenarioError
 
 YIELD_N, ELONGATION_M = 100e3, 0.1
@@ -17,7 +17,7 @@ def pulled(*stretches_m):
     """Forces of a bar along x, one stretch after another, and along y and z."""
     bars, slips, flows, forces = Bars.of(np.array([YIELD_N]), STEEL, ELONGATION_M), np.zeros((3, 1)), np.zeros(1), []
     for each in stretches_m:
-        answer = stretched(bars, np.array([[each], [0.0], [0.0]]), slips, flows)
+        answer = bar_response(bars, np.array([[each], [0.0], [0.0]]), slips, flows)
         slips, flows = answer.slips_m, answer.flows_m
         assert answer.forces_n[1:].tolist() == [[0.0], [0.0]]
         forces.append(float(answer.forces_n[0, 0]))
@@ -46,9 +46,9 @@ def test_tangents_are_how_forces_change():
     slips, flows = np.tile([[0.01], [0.002], [0.0]], 3), np.full(3, 0.0102)
     stretch, step = np.array([0.02, 0.015, -0.01]), 1e-9
     around = np.stack([stretch + sign * step * np.eye(3) for sign in (1.0, -1.0)])
-    forces = [stretched(bars, each.T, slips, flows).forces_n for each in around]
+    forces = [bar_response(bars, each.T, slips, flows).forces_n for each in around]
     differences = (forces[0] - forces[1]) / (2.0 * step)
-    found = stretched(bars, np.tile(stretch[:, None], 3), slips, flows).tangents_n_m[..., 0]
+    found = bar_response(bars, np.tile(stretch[:, None], 3), slips, flows).tangents_n_m[..., 0]
     np.testing.assert_allclose(found, differences, rtol=1e-4, atol=1e-5 * bars.stiffness_n_m[0])
 
 

@@ -11,6 +11,7 @@ from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.mechanics.member_sections import SPREAD, MemberSections, kinds_of
 from bridge_demolition_addon.engineering.mechanics.overloads import ConnectionLoads, Overloads
+from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_axes
 from bridge_demolition_addon.engineering.mechanics.strength import Strength
 from bridge_demolition_addon.engineering.structure.connections import (
@@ -71,19 +72,23 @@ class PulledSlab:
         return self.connections.pairs % len(self.centres_m)
 
     @property
+    def faces(self) -> ConnectedFaces:
+        """Of its connections."""
+        connections = self.connections
+        return ConnectedFaces(
+            self.pairs, connections.points, connections.normals, connections.areas, self.second_moments_m4
+        )
+
+    @property
     def moves(self) -> np.ndarray:
         """Whether each body moves."""
         return np.arange(len(self.centres_m)) < len(self.centres_m) - 1
 
     def member_sections(self, thickness_m: float = SLAB.thickness_m) -> MemberSections:
         """Its sections."""
-        count, connections = len(self.connections), self.connections
+        count = len(self.connections)
         return MemberSections(
-            self.pairs,
-            connections.points,
-            connections.normals,
-            connections.areas,
-            self.second_moments_m4,
+            self.faces,
             self.centres_m,
             self.moves,
             kinds_of((~self.moves[self.pairs]).astype(int)),
@@ -99,10 +104,8 @@ class PulledSlab:
 
     def overloads(self, tension_pa: float, sections: MemberSections | None) -> Overloads:
         """What judges it by a strength that cracks in tension and bending."""
-        connections = self.connections
         strength = Strength(*(1e12 if name == "compression" else tension_pa for name in ("compression", *"1234")))
-        faces = connections.normals, connections.areas, self.second_moments_m4
-        return Overloads(self.pairs, *faces, self.moves, strength, sections)
+        return Overloads(self.faces, self.moves, strength, sections)
 
 
 @pytest.mark.parametrize("count", [40, 200, 1000])

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
-from bridge_demolition_addon.engineering.elasticity.structure import BodyStates, ElasticStructure
+from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.foundations.footings import Footings, SoilSprings
 from bridge_demolition_addon.engineering.foundations.soils import SOILS
 from bridge_demolition_addon.errors import ScenarioError
@@ -48,9 +49,8 @@ class Block:
         self.rotations = np.repeat(np.eye(3)[:, :, None], 2, axis=2)
         self.velocities = np.zeros((6, 2))
         footings = Footings(soil, *ends, self.masses > 0.0, self.positions, self.rotations)
-        self.structure = ElasticStructure(
-            frames, np.zeros((2, 3, 3, 1)), self.masses, inertias, 0.0, self.positions, self.rotations, beds=footings
-        )
+        bodies = RigidBodies(self.masses, inertias, self.positions, self.rotations)
+        self.structure = ElasticStructure(frames, np.zeros((2, 3, 3, 1)), bodies, 0.0, soil=footings)
         self.turn = 0.0
 
     def push(self, force_n, seconds):
@@ -60,7 +60,7 @@ class Block:
             self.velocities *= 0.8
             self.velocities[:3, 0] += impulse / MASS_KG
             self.structure.settle(self.positions, self.rotations)
-            states = BodyStates(self.positions, self.rotations, self.velocities, np.zeros(2, bool))
+            states = StepInput(self.positions, self.rotations, self.velocities, np.zeros(2, bool))
             step = self.structure.step(states, np.ones(1, bool), SUBSTEP_S)
             self.velocities[:3, 0] += step.of_bodies[:3, 0] / MASS_KG
             self.velocities[3:, 0] += step.of_bodies[3:, 0] / self.inertia

@@ -1,0 +1,104 @@
+"""Bodies and elastic connections as blocks of linear equations.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from .joint_rows import JointFrames, JointRows, matrix_products, transposed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RigidBodies:
+    """n bodies of known mass, where no connection between them is deformed.
+
+    Attributes
+    ----------
+    masses_kg : (n,) float
+        Masses; 0 for bodies that never move.
+    inertias_kg_m2 : (3, 3, n) float
+        Tensors of inertia in the axes of the bodies; 0 for bodies that never move.
+    positions_m, rotations : (3, n) and (3, 3, n) float
+        Centres of mass, and axes of the bodies.
+    """
+
+    masses_kg: np.ndarray
+    inertias_kg_m2: np.ndarray
+    positions_m: np.ndarray
+    rotations: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.masses_kg)
+
+    @property
+    def moves(self) -> np.ndarray:
+        """Whether each body (n,) can move."""
+        return self.masses_kg > 0.0
+
+    def mass_matrices(self, rotations: np.ndarray, bodies: np.ndarray) -> np.ndarray:
+        """Return mass and inertia (6, 6, b) in the axes of the world, of some bodies (b,) in rotations (3, 3, n)."""
+        turned = rotations[..., bodies]
+        matrices = np.zeros((6, 6, len(bodies)))
+        matrices[[0, 1, 2], [0, 1, 2]] = self.masses_kg[bodies]
+        of_bodies = self.inertias_kg_m2[..., bodies]
+        matrices[3:, 3:] = matrix_products(matrix_products(turned, of_bodies), transposed(turned))
+        return matrices
+
+
+def summed_on_bodies(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+    """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
+    bodies = np.concatenate((frames.first, frames.second))
+    return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+
+
+def without(stiffness: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return stiffness (2, 3, 3, m) with nothing of connections (r,)."""
+    left = stiffness.copy()
+    left[..., rows] = 0.0
+    return left
+
+
+def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the part (n,) to which each body belongs, -1 for those that do not move.
+
+    Parameters
+    ----------
+    moves : (n,) bool
+        Which bodies can move.
+    first, second : (m,) int
+        Bodies of each connection.
+    """
+    free = moves[first] & moves[second]
+    links = coo_matrix((np.ones(free.sum()), (first[free], second[free])), shape=(len(moves),) * 2)
+    return np.where(moves, connected_components(links, directed=False)[1], -1)
+
+
+def stressed(stiffness: np.ndarray, strains: np.ndarray) -> np.ndarray:
+    """Return the amounts (6, m) in rows, by stiffness (2, 3, 3, m), of deformations (6, m)."""
+    shifts, turns = stiffness
+    return np.concatenate(
+        (
+            shifts[:, 0] * strains[0] + shifts[:, 1] * strains[1] + shifts[:, 2] * strains[2],
+            turns[:, 0] * strains[3] + turns[:, 1] * strains[4] + turns[:, 2] * strains[5],
+        )
+    )
+
+
+def stiffness_blocks(rows: JointRows, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return what connections add to the equations of their first and second bodies, and between: (6, 6, m) each."""
+    first, second = rows.matrices()
+    first_stressed, second_stressed = (
+        np.concatenate((matrix_products(stiffness[0], each[:3]), matrix_products(stiffness[1], each[3:])))
+        for each in (first, second)
+    )
+    return (
+        matrix_products(transposed(first), first_stressed),
+        matrix_products(transposed(second), second_stressed),
+        matrix_products(transposed(first), second_stressed),
+    )

@@ -1,0 +1,74 @@
+"""Gaps between pairs of points on two bodies, across which bars or soil act, in the equations of a sub-step.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .joint_rows import cross_products
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Gaps:
+    """Gaps between q pairs of points.
+
+    Attributes
+    ----------
+    first, second : (q,) int
+        Bodies of the points.
+    first_arms_m, second_arms_m : (3, q) float
+        From the centres of these to where the forces act.
+    widths_m : (3, q) float
+        From the first points to the second.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    first_arms_m: np.ndarray
+    second_arms_m: np.ndarray
+    widths_m: np.ndarray
+
+    def rates(self, velocities: np.ndarray) -> np.ndarray:
+        """Return how fast the gaps (3, q) open, with velocities and angular velocities (6, n) of the bodies."""
+        first, second = velocities[:, self.first], velocities[:, self.second]
+        moving = second[:3] + cross_products(second[3:], self.second_arms_m)
+        return moving - first[:3] - cross_products(first[3:], self.first_arms_m)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SolvedTangents:
+    """The tangents of q gaps for which the equations were made last, among those of all gaps.
+
+    Attributes
+    ----------
+    tangents_n_m : (3, 3, p) float
+        Of all gaps; written to.
+    rows : (q,) int
+        Which of these the gaps are.
+    """
+
+    tangents_n_m: np.ndarray
+    rows: np.ndarray
+
+    def differ(self, tangents_n_m: np.ndarray) -> np.ndarray:
+        """Return whether each gap (q,) now has other tangents."""
+        return (tangents_n_m != self.tangents_n_m[..., self.rows]).any(axis=(0, 1))
+
+    def take_over(self, gaps: np.ndarray, tangents_n_m: np.ndarray) -> None:
+        """Note the tangents (3, 3, k) of some of the gaps (k,)."""
+        self.tangents_n_m[..., self.rows[gaps]] = tangents_n_m
+
+
+def motion_of_points(arms_m: np.ndarray) -> np.ndarray:
+    """Return matrices (3, 6, q) that give the velocities of points at arms (3, q) from those of their bodies."""
+    x, y, z = arms_m
+    matrices = np.zeros((3, 6, len(x)))
+    matrices[[0, 1, 2], [0, 1, 2]] = 1.0
+    matrices[0, 4], matrices[0, 5] = z, -y
+    matrices[1, 3], matrices[1, 5] = -z, x
+    matrices[2, 3], matrices[2, 4] = y, -x
+    return matrices
