@@ -98,7 +98,7 @@ class Footings:
             for each in (self._standing, self._ground)
         )
         areas = springs.areas_m2
-        self._soil = Soil(
+        self._soil = PressedSprings(
             areas * springs.stiffness_n_m3[of],
             areas * springs.horizontal_n_m3[of],
             areas * springs.capacity_pa[of],
@@ -186,7 +186,7 @@ class FootingStep:
         Footing of each place.
     gaps : Gaps
         From the ground to what stands on it, and how far each place is from where nothing is resisted.
-    soil : Soil
+    soil : PressedSprings
         The springs, and how they are pressed as the sub-step begins.
     solved : SolvedTangents
         For which equations were made last.
@@ -204,7 +204,7 @@ class FootingStep:
         stands_first: np.ndarray,
         footings: np.ndarray,
         gaps: Gaps,
-        soil: Soil,
+        soil: PressedSprings,
         solved: SolvedTangents,
         substep_s: float,
     ):
@@ -273,7 +273,7 @@ class FootingStep:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Soil:
+class PressedSprings:
     """Springs at q places.
 
     Attributes
@@ -294,9 +294,9 @@ class Soil:
     friction: np.ndarray
     pressed_n: np.ndarray
 
-    def only(self, which: np.ndarray) -> Soil:
+    def only(self, which: np.ndarray) -> PressedSprings:
         """Return some of the springs."""
-        return Soil(*(getattr(self, item.name)[which] for item in fields(self)))
+        return PressedSprings(*(getattr(self, item.name)[which] for item in fields(self)))
 
     def resisted(self, gaps_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return forces (3, q) on what stands on gaps (3, q), and by how much these fall with them, (3, 3, q)."""
