@@ -132,14 +132,14 @@ def engine_of(study: Study, arguments: argparse.Namespace) -> Engine:
 
 def _report(table: RunsTable, output: Path, progress: CommandProgress) -> list[Path]:
     """Write the report of a study, with pictures of its median and of its worst draw."""
-    from ..report.write import write_study_report  # loading matplotlib takes a second
+    from ..report.write import write_report  # loading matplotlib takes a second
 
     try:
         for row in dict.fromkeys([table.median_row, table.worst_row]):
             if row is not None and not (output / AGAIN_FOLDER / str(table.numbers[row])).exists():
                 progress.stage(f"running draw {table.numbers[row]} once more for its pictures")
                 _play_again_elsewhere(output, int(table.numbers[row]))
-        return write_study_report(output, progress=progress)
+        return write_report([output], None, progress=progress)
     finally:
         progress.finish()
 

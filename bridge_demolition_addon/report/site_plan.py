@@ -20,8 +20,22 @@ from ..system.disk import write_whole_text
 _CLOSED = 1
 _MOST_LETTERS = 31
 
-
 CONTOUR_LAYER = "CONTOURS"
+
+
+def write_areas(
+    areas: Mapping[str, CrossSection],
+    site: Site | None,
+    dxf: Path,
+    geojson: Path,
+    contours_m: np.ndarray | None = None,
+) -> list[Path]:
+    """Write areas for a site plan, and return the files; in degrees only where the site is known."""
+    write_dxf(dxf, areas, contours_m)
+    if site is None:
+        return [dxf]
+    write_geojson(geojson, areas, site)
+    return [dxf, geojson]
 
 
 def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.ndarray | None = None) -> None:

@@ -20,7 +20,7 @@ from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Zone
 from bridge_demolition_addon.model.study.runs_table import read_runs
 from bridge_demolition_addon.report.ensemble.study_folder import read_study_runs
-from bridge_demolition_addon.report.write import write_report, write_study_report
+from bridge_demolition_addon.report.write import write_report
 
 ASKED = {"quantile": 0.5, "confidence": 0.75, "rank": 2}
 FILES = {"report.html", "report.pdf", "study_plan.dxf", "study_plan.geojson", "tables"}
@@ -93,7 +93,7 @@ def test_site_plans_have_the_limit_and_the_zones(kept):
 
 
 def test_the_limit_is_drawn_where_it_is_said(folder):
-    write_study_report(folder, progress=Silence())
+    write_report([folder], None, progress=Silence())
     content = json.loads((folder / "report" / "study_plan.geojson").read_text(encoding="utf-8"))
     areas = {feature["properties"]["name"]: feature["properties"]["area_m2"] for feature in content["features"]}
     limit_m = sorted(read_study_runs(folder).reaches_m)[-2]
@@ -104,7 +104,7 @@ def test_the_limit_is_drawn_where_it_is_said(folder):
 
 def test_the_same_folder_gives_the_same_files(folder, tmp_path):
     for name in ("one", "other"):
-        write_study_report(folder, tmp_path / name, progress=Silence())
+        write_report([folder], tmp_path / name, progress=Silence())
     assert not (folder / "report").exists()
     for path in (tmp_path / "one").rglob("*"):
         if path.is_file():
@@ -118,7 +118,7 @@ def test_pictures_of_the_worst_draw_are_shown_once_it_was_run_again(folder):
     pictures.mkdir(parents=True)
     imsave(pictures / "after.png", np.full((9, 16, 3), 0.5))
     (pictures / "before.png").write_text("no picture")
-    write_study_report(folder, progress=Silence())
+    write_report([folder], None, progress=Silence())
     text = (folder / "report" / "report.html").read_text(encoding="utf-8")
     assert b64encode((pictures / "after.png").read_bytes()).decode("ascii") in text
     assert f"Worst draw, {worst}, with a reach of" in text and ": before." not in text
@@ -127,7 +127,7 @@ def test_pictures_of_the_worst_draw_are_shown_once_it_was_run_again(folder):
 def test_a_study_of_which_nothing_finished_has_a_report(tmp_path):
     runs = told_runs(told_study(runs=8, vary=(), **ASKED), ends=dict.fromkeys(range(1, 9), "failed"))
     folder = keep_study(tmp_path / "told", runs)
-    write_study_report(folder, progress=Silence())
+    write_report([folder], None, progress=Silence())
     text = (folder / "report" / "report.html").read_text(encoding="utf-8")
     assert "These runs set no limit: 8 of 8 did not finish" in text and "there is nothing to draw" in text
 
@@ -135,7 +135,7 @@ def test_a_study_of_which_nothing_finished_has_a_report(tmp_path):
 def test_a_study_without_a_site_has_no_degrees(tmp_path):
     bare = told_runs(told_study(runs=8, vary=(), scenario=replace(TOLD_SCENARIO, site=None), **ASKED))
     folder = keep_study(tmp_path / "bare", bare)
-    write_study_report(folder, progress=Silence())
+    write_report([folder], None, progress=Silence())
     assert not (folder / "report" / "study_plan.geojson").exists()
 
 

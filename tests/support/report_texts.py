@@ -4,9 +4,9 @@ from bridge_demolition_addon.report.comparison import comparison
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.ensemble.study import study_document
+from bridge_demolition_addon.report.run import run_document
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.debris import zone_of
-from bridge_demolition_addon.report.write import document_of
 
 
 class Told:
@@ -28,7 +28,7 @@ class Told:
 def told(folder):
     """What the report of a run says; all its pictures are drawn and laid out."""
     run = read_run(folder)
-    document = document_of(run, "0", zone_of(run))
+    document = run_document(run, "0", zone_of(run))
     assert drawings(document)
     return Told(document)
 

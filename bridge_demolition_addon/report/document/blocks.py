@@ -160,6 +160,25 @@ class Document:
         return [block for block in self.blocks() if isinstance(block, DataTable) and block.name]
 
 
+@dataclass(frozen=True, slots=True)
+class Report:
+    """A report that is to be written.
+
+    Attributes
+    ----------
+    document
+        Its page.
+    tables
+        Tables that are files only, besides those of the page.
+    files
+        Files that are written already, such as site plans.
+    """
+
+    document: Document
+    tables: tuple[DataTable, ...] = ()
+    files: tuple[Path, ...] = ()
+
+
 def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:
     """Return a table of names and values."""
     return DataTable(name, title, (Column("", "fact"), Column("", "value")), rows)

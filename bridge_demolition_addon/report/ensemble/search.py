@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
 
 from ...charts.search_curve import search_curve
 from ...model.search.conclusions import sentences
 from ...model.search.curve import curve_of
-from ..document.blocks import Column, DataTable, Paragraph, Picture, Section
+from ...system.progress import Progress
+from ..document.blocks import Column, DataTable, Document, Listing, Paragraph, Picture, Report, Section
+from ..sections.cover import add_on_version
 from .search_folder import FoundSearch
+
+
+def search_report(found: FoundSearch, _target: Path, _progress: Progress) -> Report:
+    """Return the report of a search."""
+    sections = (search_section(found), Section("Search file", (Listing(found.search.text),)))
+    subtitle = f"Report of a search in a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
+    return Report(Document(found.search.study.scenario.title, subtitle, sections))
 
 
 def search_section(found: FoundSearch) -> Section:

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from ...model.study.file import Study
-from ..document.blocks import Document, Listing, Paragraph, Section
-from ..sections.cover import trust_section
+from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
+from ...system.progress import Progress
+from ..document.blocks import Document, Listing, Paragraph, Report, Section
+from ..sections.cover import add_on_version, trust_section
+from ..site_plan import write_areas
 from .criteria import criteria_section
-from .influence import influence_section, varied_section
-from .plan import plan_section
+from .influence import correlation_table, influence_section, varied_section
+from .plan import layers, plan_section
 from .runs import draws_section, telling_section
 from .statement import reach_section, statement_section
 from .study_runs import StudyRuns
@@ -23,6 +27,14 @@ _AS_DRAWN = (
     "They say how the model scatters over the inputs that were drawn, from the distributions that were given. Wrong "
     "distributions, inputs that scatter and were not drawn, and errors of the model are in none of them."
 )
+
+
+def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
+    """Return the report of a study, and write its site plans."""
+    progress.stage("evaluating the runs")
+    plans = write_areas(layers(runs), runs.study.scenario.site, target / PLAN_DXF, target / PLAN_GEOJSON)
+    document = study_document(runs, add_on_version(), [path.name for path in plans])
+    return Report(document, (correlation_table(runs),), tuple(plans))
 
 
 def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> Document:

@@ -10,8 +10,11 @@ from pathlib import Path
 
 from ...errors import OutputError, UnreadableError
 from ...model.stages.tables import CRITICALITY_COLUMNS, CRITICALITY_FILE, STAGE_COLUMNS, STAGES_FILE
+from ...system.progress import Progress
 from ...system.reading import MEGABYTE, file_text
-from ..document.blocks import Block, Column, DataTable, Paragraph, Section
+from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
+from ..run_folder import shown_name
+from .cover import add_on_version
 
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
@@ -37,6 +40,12 @@ _COLUMNS = (
 def has_stages(folder: Path) -> bool:
     """Return whether a folder holds the tables of stages."""
     return (folder / STAGES_FILE).is_file() and (folder / CRITICALITY_FILE).is_file()
+
+
+def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
+    """Return the report of stages alone."""
+    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {add_on_version()}"
+    return Report(Document(shown_name(folder), subtitle, (stages_section(folder),)))
 
 
 def stages_section(folder: Path) -> Section:

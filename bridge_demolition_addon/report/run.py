@@ -1,0 +1,144 @@
+"""The report of a run: page, tables and site plans."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..engineering.terrain.contour_lines import contour_lines
+from ..errors import OutputError
+from ..model.debris.exclusion import ExclusionZone
+from ..model.debris.throws import debris_of
+from ..model.results.files import DXF_FILE, GEOJSON_FILE
+from ..model.scenario.file import scenario_text
+from ..model.sequence.checked_model import checked_model
+from ..model.stages.made_elastic import made_elastic
+from ..model.stages.stages import criticality, stages_of
+from ..model.stages.standing import StandingBridge
+from ..model.stages.tables import write_tables as write_stage_tables
+from ..system.progress import Progress
+from .document.blocks import Document, Report
+from .run_folder import Run
+from .sections.blast import blast_section
+from .sections.collapse import collapse_section
+from .sections.cover import ONE_RUN, add_on_version, cover_section, scenario_section, trust_section
+from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
+from .sections.forces import force_section, logged_section
+from .sections.ground_motion import motion_section
+from .sections.model import model_section
+from .sections.stages import has_stages, stages_section
+from .sections.touchdown import touchdown_section
+from .site_plan import write_areas
+
+
+def run_report(
+    run: Run, target: Path, progress: Progress, *, trajectories: bool = False, stages: bool = False
+) -> Report:
+    """Return the report of a run, and write its site plans.
+
+    Parameters
+    ----------
+    run, target, progress
+        The run, where its report goes, and what shows how far this is.
+    trajectories
+        Whether the map of the debris shows the paths of the shards.
+    stages
+        Whether the stages of the run's scenario are worked out first, so that the report has a chapter on them.
+    """
+    if stages:
+        _work_out_stages(run, target, progress)
+    progress.stage("evaluating debris, zones, forces and energy")
+    zone = zone_of(run)
+    plans = [] if zone is None else _write_plans(zone, run, target)
+    with_stages = next((folder for folder in (target, run.folder) if has_stages(folder)), None)
+    names = [path.name for path in plans]
+    document = run_document(run, add_on_version(), zone, names, trajectories=trajectories, stages=with_stages)
+    return Report(document, () if zone is None else (corner_table(zone),), tuple(plans))
+
+
+def run_document(
+    run: Run,
+    version: str,
+    zone: ExclusionZone | None,
+    plans: Sequence[str] = (),
+    *,
+    trajectories: bool = False,
+    stages: Path | None = None,
+) -> Document:
+    """Return the report of a run.
+
+    Parameters
+    ----------
+    run
+        The run.
+    version
+        That of this program.
+    zone
+        Its exclusion zone.
+    plans
+        Names of the files that have the zone for the site plan.
+    trajectories
+        Whether the map of the debris shows the paths of the shards.
+    stages
+        Folder with the tables of stages, if there is one.
+    """
+    debris = None if run.results is None else debris_of(run.results)
+    sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
+    if run.results is not None and len(run.results.inventory.of_kind("shard")):
+        sections.append(model_section(run.results))
+        if (terrain := terrain_section(run)) is not None:
+            sections.append(terrain)
+        sections.append(debris_section(run, debris, trajectories=trajectories))
+        sections.append(exclusion_section(zone, run, plans))
+        sections.append(force_section(run))
+        sections.append(collapse_section(run))
+        if run.scenario and (blast := blast_section(run.scenario, debris.outline, debris.ground)):
+            sections.append(blast)
+        if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
+            sections.append(touchdown)
+        if motion := motion_section(run):
+            sections.append(motion)
+    elif run.results is None:
+        sections.append(logged_section(run))
+    if stages is not None:
+        sections.append(stages_section(stages))
+    if run.scenario:
+        sections.append(scenario_section(run, scenario_text(run.scenario)))
+    subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
+    return Document(run.title, subtitle, tuple(sections))
+
+
+def _work_out_stages(run: Run, target: Path, progress: Progress) -> None:
+    """Write the tables of the stages of a run's scenario."""
+    if run.scenario is None:
+        raise OutputError(f"{run.folder}: has no scenario whose stages could be worked out; leave out --stages")
+    progress.stage("working out the stages")
+    bridge = StandingBridge(checked_model(made_elastic(run.scenario)), run.scenario.joints)
+    found = stages_of(run.scenario, bridge, lambda done, total: progress.part(done, total, "stages"))
+    members = criticality(bridge, lambda done, total: progress.part(done, total, "members taken away"))
+    write_stage_tables(target, found, members, bridge)
+
+
+def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
+    areas = {
+        "exclusion zone": zone.whole,
+        "predicted debris": zone.debris,
+        "designed drop": zone.drop,
+        "bridge": zone.plan,
+    }
+    contours = _contours_around(run, zone)
+    return write_areas(areas, run.scenario.site, target / DXF_FILE, target / GEOJSON_FILE, contours)
+
+
+def _contours_around(run: Run, zone: ExclusionZone) -> np.ndarray | None:
+    """Contour lines (s, 2, 3) of the ground in and around an exclusion zone, m; None where the ground is flat."""
+    terrain = run.results.ground().terrain
+    if terrain is None:
+        return None
+    low, high = np.array(zone.bounds_m).reshape(2, 2)
+    room, corners = (high - low) / 2.0, terrain.mesh.corners
+    plan = corners[:, :, :2]
+    near = (plan.max(axis=1) >= low - room).all(axis=1) & (plan.min(axis=1) <= high + room).all(axis=1)
+    return contour_lines(corners[near])
