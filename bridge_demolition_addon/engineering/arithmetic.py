@@ -19,6 +19,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .arrays import FloatArray
+
 LARGEST_ANGLE = 2.0**20
 """Largest angle that `sine` and `cosine` take, rad."""
 
@@ -84,18 +86,18 @@ _ARCTANGENT_STARTS = np.array(
 )
 
 
-def exponential(x: ArrayLike) -> np.ndarray:
+def exponential(x: ArrayLike) -> FloatArray:
     """e to the power of x: infinity where that is too large for a number."""
     return _exponential(np.asarray(x, float), 0.0)[()]
 
 
-def logarithm(x: ArrayLike) -> np.ndarray:
+def logarithm(x: ArrayLike) -> FloatArray:
     """Natural logarithm of x: minus infinity at 0, not a number below."""
     upper, lower = _logarithm(np.asarray(x, float))
     return (upper + lower)[()]
 
 
-def power(base: ArrayLike, exponent: ArrayLike) -> np.ndarray:
+def power(base: ArrayLike, exponent: ArrayLike) -> FloatArray:
     """Base, not negative, to the power of the exponent."""
     base, exponent = np.asarray(base, float), np.asarray(exponent, float)
     upper, lower = _logarithm(base)
@@ -106,7 +108,7 @@ def power(base: ArrayLike, exponent: ArrayLike) -> np.ndarray:
     return _exponential(np.where(finite, product, endless), rest + lower * exponent)[()]
 
 
-def cube_root(x: ArrayLike) -> np.ndarray:
+def cube_root(x: ArrayLike) -> FloatArray:
     """The number whose cube is x."""
     x = np.asarray(x, float)
     size = np.abs(x)
@@ -114,10 +116,11 @@ def cube_root(x: ArrayLike) -> np.ndarray:
     # One step by Newton, because a third is not exact.
     with np.errstate(invalid="ignore"):
         error = (root - np.divide(size, root * root, out=np.zeros(x.shape), where=root > 0.0)) / 3.0
-    return np.copysign(np.where(np.isfinite(size), root - error, root), x)[()]
+    signed: FloatArray = np.copysign(np.where(np.isfinite(size), root - error, root), x)[()]
+    return signed
 
 
-def sine(angle: ArrayLike) -> np.ndarray:
+def sine(angle: ArrayLike) -> FloatArray:
     """Sine of an angle in rad.
 
     Raises
@@ -128,7 +131,7 @@ def sine(angle: ArrayLike) -> np.ndarray:
     return _sine_after(0, angle)
 
 
-def cosine(angle: ArrayLike) -> np.ndarray:
+def cosine(angle: ArrayLike) -> FloatArray:
     """Cosine of an angle in rad.
 
     Raises
@@ -139,7 +142,7 @@ def cosine(angle: ArrayLike) -> np.ndarray:
     return _sine_after(1, angle)
 
 
-def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> np.ndarray:
+def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> FloatArray:
     """Angle of the point (x, y) from the x axis, -π to π."""
     y, x = np.broadcast_arrays(np.asarray(y, float), np.asarray(x, float))
     with np.errstate(divide="ignore", over="ignore"):
@@ -162,10 +165,11 @@ def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> np.ndarray:
     less = shorter * square * _polynomial(square, _ARCTANGENT)
     angle = upper - ((less - lower) - shorter)
     left = np.signbit(x) & (slope < np.inf)
-    return np.copysign(np.where(left, np.pi - (angle - _PI_REST), angle), y)[()]
+    signed: FloatArray = np.copysign(np.where(left, np.pi - (angle - _PI_REST), angle), y)[()]
+    return signed
 
 
-def _exponential(x: np.ndarray, rest: ArrayLike) -> np.ndarray:
+def _exponential(x: FloatArray, rest: FloatArray | float) -> FloatArray:
     """e to the power of the sum of x and a rest that is small beside it."""
     limited = np.clip(x, -750.0, 710.0)
     doublings = np.rint(limited * 1.44269504088896338700e00)
@@ -175,10 +179,11 @@ def _exponential(x: np.ndarray, rest: ArrayLike) -> np.ndarray:
     square = short * short
     bend = short - square * _polynomial(square, _EXPONENTIAL)
     with np.errstate(over="ignore", under="ignore"):
-        return np.ldexp(1.0 - ((lower - short * bend / (2.0 - bend)) - upper), doublings.astype(np.int32))
+        scaled: FloatArray = np.ldexp(1.0 - ((lower - short * bend / (2.0 - bend)) - upper), doublings.astype(np.int32))
+        return scaled
 
 
-def _logarithm(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _logarithm(x: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Logarithm of x as a sum of two numbers, the second of them the rounding of the first."""
     usable = (x > 0.0) & (x < np.inf)
     mantissa, exponent = np.frexp(np.where(usable, x, 1.0))
@@ -195,7 +200,7 @@ def _logarithm(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.where(usable, upper, outside), np.where(usable, lower, 0.0)
 
 
-def _sine_after(quarters: int, angle: ArrayLike) -> np.ndarray:
+def _sine_after(quarters: int, angle: ArrayLike) -> FloatArray:
     """Sine of an angle plus a number of right angles."""
     angle = np.asarray(angle, float)
     if (np.abs(angle) > LARGEST_ANGLE).any():
@@ -213,7 +218,7 @@ def _sine_after(quarters: int, angle: ArrayLike) -> np.ndarray:
     return np.where(quadrant >= 2.0, -value, value)[()]
 
 
-def _polynomial(x: np.ndarray, coefficients: Sequence[float]) -> np.ndarray:
+def _polynomial(x: FloatArray, coefficients: Sequence[float]) -> FloatArray:
     """Value of a polynomial, by Horner; coefficients from the constant upwards."""
     value = np.full_like(x, coefficients[-1])
     for coefficient in coefficients[-2::-1]:
@@ -221,14 +226,14 @@ def _polynomial(x: np.ndarray, coefficients: Sequence[float]) -> np.ndarray:
     return value
 
 
-def _sum(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _sum(one: FloatArray, other: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Sum, and what its rounding left out."""
     total = one + other
     of_other = total - one
     return total, (one - (total - of_other)) + (other - of_other)
 
 
-def _product(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _product(one: FloatArray, other: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Product, and what its rounding left out."""
     product = one * other
     (one_high, one_low), (other_high, other_low) = _halves(one), _halves(other)
@@ -236,7 +241,7 @@ def _product(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return product, rest
 
 
-def _halves(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _halves(x: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Upper and lower 26 bits of x."""
     scaled = 134217729.0 * x
     upper = scaled - (scaled - x)

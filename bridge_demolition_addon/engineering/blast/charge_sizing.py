@@ -12,6 +12,7 @@ import numpy as np
 
 from ...errors import BlastError
 from ..arithmetic import cube_root, power
+from ..arrays import FloatArray
 from .models import BlastModel, blast_wave
 from .wave import SMALLEST_SCALED_DISTANCE, Burst, checked
 
@@ -111,15 +112,15 @@ def _distance_of_overpressure(overpressure_pa: float, burst: Burst, model: Blast
     return z
 
 
-def _peak_overpressure(z: np.ndarray, burst: Burst, model: BlastModel) -> np.ndarray:
+def _peak_overpressure(z: FloatArray, burst: Burst, model: BlastModel) -> FloatArray:
     return blast_wave(z, 1.0, burst, model).peak_overpressure_pa
 
 
-def _impulse_over_distance(z: np.ndarray, burst: Burst, model: BlastModel) -> np.ndarray:
+def _impulse_over_distance(z: FloatArray, burst: Burst, model: BlastModel) -> FloatArray:
     return blast_wave(z, 1.0, burst, model).incident_impulse_pa_s / z
 
 
-def _farthest(wanted: float, load: Callable[..., np.ndarray], burst: Burst, model: BlastModel) -> float | None:
+def _farthest(wanted: float, load: Callable[..., FloatArray], burst: Burst, model: BlastModel) -> float | None:
     """Return the farthest scaled distance at which a load is reached, None if it is reached nowhere."""
     distances, loads = _distances(), _on_grid(load, burst, model)
     reached = np.flatnonzero(loads >= wanted)
@@ -136,13 +137,13 @@ def _farthest(wanted: float, load: Callable[..., np.ndarray], burst: Burst, mode
 
 
 @cache
-def _distances() -> np.ndarray:
+def _distances() -> FloatArray:
     span = _FARTHEST_SCALED_DISTANCE / SMALLEST_SCALED_DISTANCE
     return SMALLEST_SCALED_DISTANCE * power(span, np.linspace(0.0, 1.0, _GRID_POINTS))
 
 
 @cache
-def _on_grid(load: Callable[..., np.ndarray], burst: Burst, model: BlastModel) -> np.ndarray:
+def _on_grid(load: Callable[..., FloatArray], burst: Burst, model: BlastModel) -> FloatArray:
     return load(_distances(), burst, model)
 
 

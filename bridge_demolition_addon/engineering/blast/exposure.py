@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.hulls import ConvexHulls
 from ..geometry.proximity import ranges
 from ..geometry.vectors import dot, length, transformed, transformed_back
@@ -28,7 +29,7 @@ _PAIRS_AT_ONCE = 1_000_000
 """Ray-and-body or ray-and-face pairs looked at in one array operation: some tens of megabytes."""
 
 
-def lines_of_blast(sources: np.ndarray, centres: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def lines_of_blast(sources: FloatArray, centres: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return stand-offs and directions from sources to bodies.
 
     Parameters
@@ -54,7 +55,7 @@ def lines_of_blast(sources: np.ndarray, centres: np.ndarray) -> tuple[np.ndarray
     return stand_offs, directions
 
 
-def projected_areas(hulls: ConvexHulls, rotations: np.ndarray, directions: np.ndarray) -> np.ndarray:
+def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: FloatArray) -> FloatArray:
     """Return the bodies' areas projected along directions, the report's equation 6: ½ Σ |n̂ · n̂ᵢ| Sᵢ over the faces.
 
     Parameters
@@ -86,7 +87,7 @@ def projected_areas(hulls: ConvexHulls, rotations: np.ndarray, directions: np.nd
     return np.add.reduceat(shown, hulls.starts[:-1], axis=1).T
 
 
-def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, sources: np.ndarray) -> np.ndarray:
+def visible_shares(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray, sources: FloatArray) -> FloatArray:
     """Return the shares of the bodies that the charges see.
 
     Parameters
@@ -122,17 +123,17 @@ def visible_shares(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarra
     return shares
 
 
-def _in_body_axes(rotations: np.ndarray, directions: np.ndarray) -> np.ndarray:
+def _in_body_axes(rotations: FloatArray, directions: FloatArray) -> FloatArray:
     """Return components (3, c, n) of directions (n, c, 3) in the axes of bodies with rotations (n, 3, 3)."""
     matrices = np.ascontiguousarray(rotations.transpose(1, 2, 0))[:, :, None]
     x, y, z = np.ascontiguousarray(directions.transpose(2, 1, 0))
-    turned = matrices[0] * x
+    turned: FloatArray = matrices[0] * x
     turned += matrices[1] * y
     turned += matrices[2] * z
     return turned
 
 
-def _targets(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _targets(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray) -> tuple[IntArray, FloatArray]:
     """Return bodies (t,) and positions (t, 3) that rays go to."""
     bodies = np.arange(len(hulls))
     owners = np.repeat(bodies, np.diff(hulls.vertex_starts))
@@ -140,7 +141,7 @@ def _targets(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray) -> 
     return np.concatenate((bodies, owners)), np.concatenate((centres, half_way))
 
 
-def _containing(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, source: np.ndarray) -> np.ndarray:
+def _containing(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray, source: FloatArray) -> BoolArray:
     """Return which bodies (n,) contain a charge."""
     if not len(hulls):
         return np.zeros(0, bool)
@@ -150,24 +151,25 @@ def _containing(hulls: ConvexHulls, centres: np.ndarray, rotations: np.ndarray, 
 
 
 def _near_misses(
-    hulls: ConvexHulls, centres: np.ndarray, source: np.ndarray, targets: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+    hulls: ConvexHulls, centres: FloatArray, source: FloatArray, targets: FloatArray
+) -> tuple[IntArray, IntArray]:
     """Return rows of targets (t, 3), and the bodies whose bounding spheres the rays to them touch."""
     rays, others = targets - source, centres - source
     along, squares = dot(rays[:, None], others), dot(rays, rays)[:, None]
     nearest = np.clip(np.divide(along, squares, out=np.zeros(along.shape), where=squares > 0.0), 0.0, 1.0)
     distances = dot(others, others) - nearest * (2.0 * along - nearest * squares)
-    return np.nonzero(distances < np.square(hulls.radii))
+    rows, bodies = np.nonzero(distances < np.square(hulls.radii))
+    return rows, bodies
 
 
 def _pass_through(
     hulls: ConvexHulls,
-    centres: np.ndarray,
-    rotations: np.ndarray,
-    source: np.ndarray,
-    targets: np.ndarray,
-    bodies: np.ndarray,
-) -> np.ndarray:
+    centres: FloatArray,
+    rotations: FloatArray,
+    source: FloatArray,
+    targets: FloatArray,
+    bodies: IntArray,
+) -> BoolArray:
     """Return whether rays to targets (k, 3) pass through the bodies (k,) that they are paired with."""
     rays = transformed_back(rotations[bodies], targets - source)
     origins = transformed_back(rotations[bodies], source - centres[bodies])
@@ -179,9 +181,7 @@ def _pass_through(
     return passing
 
 
-def _cross(
-    hulls: ConvexHulls, rows: np.ndarray, faces: np.ndarray, origins: np.ndarray, rays: np.ndarray
-) -> np.ndarray:
+def _cross(hulls: ConvexHulls, rows: IntArray, faces: IntArray, origins: FloatArray, rays: FloatArray) -> BoolArray:
     """Return whether rays (k, 3) cross hulls, given as faces with the row of the ray: where all half-spaces overlap."""
     normals = hulls.normals[faces]
     slopes = dot(normals, rays[rows])
@@ -194,7 +194,7 @@ def _cross(
     return np.maximum.reduceat(entries, starts).clip(min=0.0) < np.minimum.reduceat(exits, starts).clip(max=1.0)
 
 
-def _blocks(counts: np.ndarray) -> list[tuple[int, int]]:
+def _blocks(counts: IntArray) -> list[tuple[int, int]]:
     """Return rows from and to, so that the counts (k,) of each block add up to some `_PAIRS_AT_ONCE`."""
     block_of = np.cumsum(counts) // _PAIRS_AT_ONCE
     edges = np.flatnonzero(np.diff(block_of)) + 1

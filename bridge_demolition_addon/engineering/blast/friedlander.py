@@ -9,6 +9,7 @@ from math import factorial
 import numpy as np
 
 from ..arithmetic import exponential
+from ..arrays import FloatArray
 
 LARGEST_SHARE = 0.5
 """Share of p₀ t_d that the impulse of a pulse without decay has, a triangle; no decay gives more."""
@@ -25,7 +26,7 @@ _SERIES = [
 _MOST_STEPS = 50
 
 
-def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np.ndarray) -> np.ndarray:
+def pressure(peak: FloatArray, duration: FloatArray, decay: FloatArray, time: FloatArray) -> FloatArray:
     """Return the overpressure at times since the front arrived; 0 before that and after the positive phase.
 
     Parameters
@@ -41,8 +42,8 @@ def pressure(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, time: np
 
 
 def impulse_between(
-    peak: np.ndarray, duration: np.ndarray, decay: np.ndarray, start: np.ndarray, end: np.ndarray
-) -> np.ndarray:
+    peak: FloatArray, duration: FloatArray, decay: FloatArray, start: FloatArray, end: FloatArray
+) -> FloatArray:
     """Return the exact integral of the overpressure from `start` to `end`, s since the front arrived, in Pa·s.
 
     The interval may begin before the front and end after the pulse. It is integrated from its own beginning, so that
@@ -56,12 +57,12 @@ def impulse_between(
     return peak * duration * exponential(-decay * first) * length * mean
 
 
-def whole_impulse(peak: np.ndarray, duration: np.ndarray, decay: np.ndarray) -> np.ndarray:
+def whole_impulse(peak: FloatArray, duration: FloatArray, decay: FloatArray) -> FloatArray:
     """Return the impulse of the whole positive phase, p₀ t_d (b - 1 + e^(-b)) / b², in Pa·s."""
     return peak * duration * _share(np.asarray(decay, float))
 
 
-def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def fitted(peak: FloatArray, duration: FloatArray, impulse: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return duration and decay of the pulses that have a peak, a duration and an impulse.
 
     No decay of at least 0 gives more than half of p₀ t_d. Where more is asked for, the pulse gets no decay and a longer
@@ -81,7 +82,7 @@ def fitted(peak: np.ndarray, duration: np.ndarray, impulse: np.ndarray) -> tuple
     return np.where(there, np.maximum(duration, triangle), 0.0), decay_of(share)
 
 
-def decay_of(share: np.ndarray) -> np.ndarray:
+def decay_of(share: FloatArray) -> FloatArray:
     """Return the decay b ≥ 0 at which the impulse is a share of p₀ t_d, from above 0 to `LARGEST_SHARE`.
 
     The share falls with b and is convex, and at b = 1/share - 2 it is not below what is asked for. So Newton's steps
@@ -98,12 +99,12 @@ def decay_of(share: np.ndarray) -> np.ndarray:
     return decay
 
 
-def _share(decay: np.ndarray) -> np.ndarray:
+def _share(decay: FloatArray) -> FloatArray:
     mean, first = _moments(decay, 2)
     return mean - first
 
 
-def _moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
+def _moments(exponent: FloatArray, count: int) -> list[FloatArray]:
     """Return ∫₀¹ uⁿ e^(-y u) du for y ≥ 0 and n from 0 on; a series where the closed form would lose its digits."""
     is_small = exponent < _SERIES_BELOW
     # Both are costly: most steps are so short, or so long, that one of them serves all pulses.
@@ -116,7 +117,7 @@ def _moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
     return [np.where(is_small, *each) for each in zip(series, closed, strict=True)]
 
 
-def _series_of_moments(exponent: np.ndarray, count: int) -> np.ndarray:
+def _series_of_moments(exponent: FloatArray, count: int) -> FloatArray:
     """Return the moments (count, ...) by their series, for small exponents."""
     sums = np.zeros((count, *exponent.shape))
     for coefficients in np.array(_SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
@@ -125,7 +126,7 @@ def _series_of_moments(exponent: np.ndarray, count: int) -> np.ndarray:
     return sums
 
 
-def _closed_moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
+def _closed_moments(exponent: FloatArray, count: int) -> list[FloatArray]:
     """Return the moments in closed form, for exponents that are not small."""
     left = exponential(-exponent)
     moments = [(1.0 - left) / exponent]
@@ -134,7 +135,8 @@ def _closed_moments(exponent: np.ndarray, count: int) -> list[np.ndarray]:
     return moments
 
 
-def _part_of_phase(time: np.ndarray, duration: np.ndarray) -> np.ndarray:
+def _part_of_phase(time: FloatArray, duration: FloatArray) -> FloatArray:
     """Return time as part of the positive phase; a pulse without duration is over at once."""
     time, duration = np.broadcast_arrays(np.asarray(time, float), np.asarray(duration, float))
-    return np.divide(time, duration, out=np.full(time.shape, np.inf), where=duration > 0.0)
+    part: FloatArray = np.divide(time, duration, out=np.full(time.shape, np.inf), where=duration > 0.0)
+    return part

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.polynomial import polynomial
 
 from ..arithmetic import exponential, logarithm, power
+from ..arrays import FloatArray
 from .wave import SOUND_SPEED_M_S, Burst, Wave
 
 
@@ -52,14 +53,17 @@ _FALLING_AS_SOUND = {
 _LN_10 = 2.302585092994045684
 
 
+Formula = Callable[[FloatArray], FloatArray]
+
+
 @dataclass(frozen=True, slots=True)
 class _Piece:
     nearest: float
     farthest: float
-    value_at: Callable[[np.ndarray], np.ndarray]
+    value_at: Formula
 
 
-def evaluate(quantity: Quantity, scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> np.ndarray:
+def evaluate(quantity: Quantity, scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> FloatArray:
     """Return one quantity for 1 kg of TNT at scaled distances of any shape (m/kg^(1/3)), in Pa, Pa·s, s or m/s."""
     pieces = _tables()[burst][quantity]
     nearest, farthest = pieces[0].nearest, pieces[-1].farthest
@@ -71,13 +75,14 @@ def evaluate(quantity: Quantity, scaled_distance: np.ndarray, burst: Burst = Bur
         rows = piece_of == number
         values[rows] = piece.value_at(within[rows])
     if quantity in _FALLING_AS_SOUND:
-        return values * within / np.maximum(z, within)
+        falling: FloatArray = values * within / np.maximum(z, within)
+        return falling
     if quantity is Quantity.ARRIVAL_TIME:
         return values + np.maximum(z - farthest, 0.0) / SOUND_SPEED_M_S
     return values
 
 
-def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
+def unit_wave(scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> Wave:
     """Return the wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
     return Wave(
         evaluate(Quantity.PEAK_OVERPRESSURE, scaled_distance, burst),
@@ -97,7 +102,9 @@ def _tables() -> Mapping[Burst, Mapping[Quantity, list[_Piece]]]:
     }
 
 
-def _read(name: str, value_of: Callable) -> Mapping[Quantity, list[_Piece]]:
+def _read(
+    name: str, value_of: Callable[[Mapping[str, str], float], Callable[[FloatArray], FloatArray]]
+) -> Mapping[Quantity, list[_Piece]]:
     # Named from here, as the package has another name inside Blender.
     here = resources.files(__package__)
     pieces = defaultdict(list)
@@ -107,13 +114,13 @@ def _read(name: str, value_of: Callable) -> Mapping[Quantity, list[_Piece]]:
     return pieces
 
 
-def _power_of_ten(row: Mapping[str, str], unit: float) -> Callable[[np.ndarray], np.ndarray]:
+def _power_of_ten(row: Mapping[str, str], unit: float) -> Formula:
     """10^(Σ cᵢ Uⁱ) with U = u₀ + u₁ log₁₀ Z."""
     coefficients, u0, u1 = _coefficients(row), float(row["u0"]), float(row["u1"])
     return lambda z: unit * power(10.0, polynomial.polyval(u0 + u1 * (logarithm(z) / _LN_10), coefficients))
 
 
-def _power_of_e(row: Mapping[str, str], unit: float) -> Callable[[np.ndarray], np.ndarray]:
+def _power_of_e(row: Mapping[str, str], unit: float) -> Formula:
     """e^(Σ cᵢ (ln Z)ⁱ)."""
     coefficients = _coefficients(row)
     return lambda z: unit * exponential(polynomial.polyval(logarithm(z), coefficients))

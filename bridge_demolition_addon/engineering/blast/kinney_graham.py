@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 
 from ..arithmetic import cube_root, power
+from ..arrays import FloatArray
 from .wave import (
     AMBIENT_PRESSURE_PA,
     SMALLEST_SCALED_DISTANCE,
@@ -32,7 +33,7 @@ _TABLE_DECADES = (-3.0, 4.0)
 a sound wave."""
 
 
-def peak_overpressure(scaled_distance: np.ndarray) -> np.ndarray:
+def peak_overpressure(scaled_distance: FloatArray) -> FloatArray:
     """Return the peak incident overpressure, Pa (equation 3)."""
     z = np.asarray(scaled_distance, float)
     ratio = (
@@ -44,10 +45,11 @@ def peak_overpressure(scaled_distance: np.ndarray) -> np.ndarray:
             * np.sqrt(1.0 + _raised(z / 1.35, 2))
         )
     )
-    return AMBIENT_PRESSURE_PA * ratio
+    overpressure: FloatArray = AMBIENT_PRESSURE_PA * ratio
+    return overpressure
 
 
-def scaled_duration(scaled_distance: np.ndarray) -> np.ndarray:
+def scaled_duration(scaled_distance: FloatArray) -> FloatArray:
     """Return the positive-phase duration of 1 kg of TNT, s (equation 4)."""
     z = np.asarray(scaled_distance, float)
     milliseconds = (
@@ -58,16 +60,17 @@ def scaled_duration(scaled_distance: np.ndarray) -> np.ndarray:
     return 1e-3 * milliseconds
 
 
-def scaled_incident_impulse(scaled_distance: np.ndarray) -> np.ndarray:
+def scaled_incident_impulse(scaled_distance: FloatArray) -> FloatArray:
     """Return the incident impulse per area of 1 kg of TNT, Pa·s: 6.7 √(1 + (Z/0.23)⁴) / (Z² ∛(1 + (Z/1.55)³)).
 
     Not in the report; Kinney and Graham give it in bar·ms, with 0.067.
     """
     z = np.asarray(scaled_distance, float)
-    return 6.7 * np.sqrt(1.0 + _raised(z / 0.23, 4)) / (z * z * cube_root(1.0 + _raised(z / 1.55, 3)))
+    impulse: FloatArray = 6.7 * np.sqrt(1.0 + _raised(z / 0.23, 4)) / (z * z * cube_root(1.0 + _raised(z / 1.55, 3)))
+    return impulse
 
 
-def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
+def scaled_arrival_time(scaled_distance: FloatArray) -> FloatArray:
     """Return the arrival time for 1 kg of TNT, s: of a front with the speed that its overpressure gives it.
 
     Kinney and Graham have no formula for it. Its path begins in the middle of the charge.
@@ -75,10 +78,11 @@ def scaled_arrival_time(scaled_distance: np.ndarray) -> np.ndarray:
     distances, times = _arrival_table()
     z = np.asarray(scaled_distance, float)
     beyond = np.maximum(z - distances[-1], 0.0) / SOUND_SPEED_M_S
-    return np.interp(z, distances, times) + beyond
+    arrival: FloatArray = np.interp(z, distances, times) + beyond
+    return arrival
 
 
-def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
+def unit_wave(scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> Wave:
     """Return the wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
     if burst is Burst.SURFACE:
         size = cube_root(GROUND_REFLECTION)
@@ -96,7 +100,7 @@ def unit_wave(scaled_distance: np.ndarray, burst: Burst = Burst.AIR) -> Wave:
     )
 
 
-def _raised(base: np.ndarray, exponent: int) -> np.ndarray:
+def _raised(base: FloatArray, exponent: int) -> FloatArray:
     """Return base to the power of a whole exponent, by products alone."""
     result = base
     for _ in range(exponent - 1):
@@ -105,7 +109,7 @@ def _raised(base: np.ndarray, exponent: int) -> np.ndarray:
 
 
 @cache
-def _arrival_table() -> tuple[np.ndarray, np.ndarray]:
+def _arrival_table() -> tuple[FloatArray, FloatArray]:
     distances = np.concatenate(([0.0], power(10.0, np.linspace(*_TABLE_DECADES, 4001))))
     slowness = 1.0 / shock_speed(peak_overpressure(distances))
     steps = np.diff(distances) * (slowness[1:] + slowness[:-1]) / 2.0

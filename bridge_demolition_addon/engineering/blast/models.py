@@ -1,6 +1,7 @@
 """Models of the blast wave, and the wave of any charge at any stand-off."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..arithmetic import cube_root
 from . import kingery_bulmash, kinney_graham
@@ -24,8 +25,8 @@ _UNIT_WAVES = {
 
 
 def blast_wave(
-    stand_off_m: np.ndarray,
-    tnt_kg: np.ndarray,
+    stand_off_m: ArrayLike,
+    tnt_kg: ArrayLike,
     burst: Burst = Burst.AIR,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
 ) -> Wave:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import BlastError
+from ..arrays import BoolArray, FloatArray, IntArray
 from . import friedlander
 from .models import BlastModel, blast_wave
 from .wave import Burst, Choice, checked
@@ -40,42 +41,42 @@ class Pulses:
         Decays b.
     """
 
-    arrivals_s: np.ndarray
-    peaks_pa: np.ndarray
-    durations_s: np.ndarray
-    decays: np.ndarray
+    arrivals_s: FloatArray
+    peaks_pa: FloatArray
+    durations_s: FloatArray
+    decays: FloatArray
 
     @property
-    def ends_s(self) -> np.ndarray:
+    def ends_s(self) -> FloatArray:
         """Return when each positive phase ends, (n, c) s."""
         return self.arrivals_s + self.durations_s
 
     @property
-    def impulses_pa_s(self) -> np.ndarray:
+    def impulses_pa_s(self) -> FloatArray:
         """Return the impulse per area of each whole pulse, (n, c) Pa·s."""
         return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
-    def take(self, pairs: np.ndarray) -> "Pulses":
+    def take(self, pairs: IntArray) -> "Pulses":
         """Return the pulses (k,) of pairs (k,): c i + j is that of body i and charge j."""
         every = (self.arrivals_s, self.peaks_pa, self.durations_s, self.decays)
         return Pulses(*(values.take(pairs) for values in every))
 
-    def put(self, columns: np.ndarray, other: "Pulses") -> None:
+    def put(self, columns: IntArray, other: "Pulses") -> None:
         """Replace the pulses of some charges (k,) by others (n, k)."""
         self.arrivals_s[:, columns] = other.arrivals_s
         self.peaks_pa[:, columns] = other.peaks_pa
         self.durations_s[:, columns] = other.durations_s
         self.decays[:, columns] = other.decays
 
-    def load_between(self, start_s: float, end_s: float) -> np.ndarray:
+    def load_between(self, start_s: float, end_s: float) -> BoolArray:
         """Return whether each pulse (n, c) loads its body at some time between two."""
         return (self.peaks_pa > 0.0) & (self.arrivals_s < end_s) & (start_s < self.ends_s)
 
 
 def blast_pulses(
-    stand_offs_m: np.ndarray,
-    tnt_kg: np.ndarray,
-    delays_s: np.ndarray,
+    stand_offs_m: FloatArray,
+    tnt_kg: FloatArray,
+    delays_s: FloatArray,
     bursts: Sequence[Burst],
     *,
     model: BlastModel = BlastModel.KINGERY_BULMASH,
@@ -135,7 +136,7 @@ def blast_pulses(
     return pulses
 
 
-def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> np.ndarray:
+def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
     """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s.
 
     Raises
@@ -150,7 +151,7 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> np.ndarray:
     )
 
 
-def pressure_at(pulses: Pulses, time_s: np.ndarray) -> np.ndarray:
+def pressure_at(pulses: Pulses, time_s: FloatArray) -> FloatArray:
     """Return the overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it.
 
     Instead of one time there can be an array of them that broadcasts with (n, c).
@@ -158,7 +159,7 @@ def pressure_at(pulses: Pulses, time_s: np.ndarray) -> np.ndarray:
     return friedlander.pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
 
 
-def _check_shapes(stand_offs: np.ndarray, masses: np.ndarray, delays: np.ndarray, bursts: Sequence[Burst]) -> None:
+def _check_shapes(stand_offs: FloatArray, masses: FloatArray, delays: FloatArray, bursts: Sequence[Burst]) -> None:
     count = stand_offs.shape[1] if stand_offs.ndim == 2 else None
     if not masses.shape == delays.shape == (len(bursts),) == (count,):
         raise BlastError(

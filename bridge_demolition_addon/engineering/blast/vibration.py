@@ -9,9 +9,11 @@ charges, is not in them.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import BlastError
 from ..arithmetic import power
+from ..arrays import FloatArray
 from .wave import checked
 
 DAMAGE_LIMIT_M_S = 0.0508
@@ -47,8 +49,8 @@ GROUNDS = {"hard": FREE_FACE_HARD, "average": FREE_FACE_AVERAGE, "confined": CON
 
 
 def peak_particle_velocity(
-    distance_m: np.ndarray, charge_kg: np.ndarray, ground: Ground = FREE_FACE_AVERAGE
-) -> np.ndarray:
+    distance_m: ArrayLike, charge_kg: ArrayLike, ground: Ground = FREE_FACE_AVERAGE
+) -> FloatArray:
     """Return the peak particle velocity, m/s.
 
     Parameters
@@ -70,16 +72,16 @@ def peak_particle_velocity(
 
 
 def charge_per_delay(
-    distance_m: np.ndarray, limit_m_s: np.ndarray = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
-) -> np.ndarray:
+    distance_m: ArrayLike, limit_m_s: ArrayLike = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
+) -> FloatArray:
     """Return the explosive that may detonate within one delay so that a velocity is kept at distances, kg."""
     limit = checked(limit_m_s, "limit", "m/s")
     return np.square(_distances(distance_m) * power(limit / ground.velocity_m_s, 1.0 / ground.exponent))
 
 
 def distance_for_velocity(
-    charge_kg: np.ndarray, limit_m_s: np.ndarray = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
-) -> np.ndarray:
+    charge_kg: ArrayLike, limit_m_s: ArrayLike = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
+) -> FloatArray:
     """Return the distance from which on a charge keeps a velocity (above 0), m."""
     limit = checked(limit_m_s, "limit", "m/s")
     if (limit == 0.0).any():
@@ -87,7 +89,7 @@ def distance_for_velocity(
     return np.sqrt(checked(charge_kg, "charge", "kg")) * power(ground.velocity_m_s / limit, 1.0 / ground.exponent)
 
 
-def _distances(distance_m: np.ndarray) -> np.ndarray:
+def _distances(distance_m: ArrayLike) -> FloatArray:
     distance = checked(distance_m, "distance", "m")
     if (distance == 0.0).any():
         raise BlastError("distance is 0: expected a number above 0 (m)")

@@ -10,9 +10,11 @@ from enum import StrEnum
 from typing import NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import BlastError
 from ..arithmetic import cube_root
+from ..arrays import FloatArray
 
 AMBIENT_PRESSURE_PA = 101_325.0
 """Standard atmosphere at sea level."""
@@ -60,14 +62,14 @@ class Wave:
         From the detonation to the front, and from the front to the end of the positive phase, s.
     """
 
-    peak_overpressure_pa: np.ndarray
-    reflected_overpressure_pa: np.ndarray
-    incident_impulse_pa_s: np.ndarray
-    reflected_impulse_pa_s: np.ndarray
-    arrival_time_s: np.ndarray
-    positive_phase_duration_s: np.ndarray
+    peak_overpressure_pa: FloatArray
+    reflected_overpressure_pa: FloatArray
+    incident_impulse_pa_s: FloatArray
+    reflected_impulse_pa_s: FloatArray
+    arrival_time_s: FloatArray
+    positive_phase_duration_s: FloatArray
 
-    def scaled(self, size: np.ndarray) -> "Wave":
+    def scaled(self, size: FloatArray) -> "Wave":
         """Return the wave at the same scaled distances from charges whose cube root is so many times as large.
 
         Pressures stay, times and impulses grow with the cube root (Hopkinson 1915, Cranz 1926). Without any charge
@@ -84,12 +86,12 @@ class Wave:
         )
 
 
-def shock_speed(overpressure_pa: np.ndarray) -> np.ndarray:
+def shock_speed(overpressure_pa: FloatArray) -> FloatArray:
     """Return the speed of a shock front, m/s: c₀ √(1 + 6 p₀ / 7 Pₐ)."""
     return SOUND_SPEED_M_S * np.sqrt(1.0 + 6.0 * np.asarray(overpressure_pa) / (7.0 * AMBIENT_PRESSURE_PA))
 
 
-def reflected_overpressure(overpressure_pa: np.ndarray) -> np.ndarray:
+def reflected_overpressure(overpressure_pa: FloatArray) -> FloatArray:
     """Return the overpressure on a wall that a front meets head-on, Pa: 2 p₀ (7 Pₐ + 4 p₀) / (7 Pₐ + p₀).
 
     Between 2 p₀ for a weak front and 8 p₀ for a strong one. Air in front of a charge is hot enough to be no perfect
@@ -99,7 +101,7 @@ def reflected_overpressure(overpressure_pa: np.ndarray) -> np.ndarray:
     return 2.0 * peak * (7.0 * AMBIENT_PRESSURE_PA + 4.0 * peak) / (7.0 * AMBIENT_PRESSURE_PA + peak)
 
 
-def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
+def scaled_distance(stand_off_m: ArrayLike, tnt_kg: ArrayLike) -> FloatArray:
     """Return the scaled distance Z = R / W^(1/3), m/kg^(1/3), the report's equation 5 with a transmission factor of 1.
 
     Parameters
@@ -117,10 +119,11 @@ def scaled_distance(stand_off_m: np.ndarray, tnt_kg: np.ndarray) -> np.ndarray:
     stand_off = checked(stand_off_m, "stand-off", "m")
     size = cube_root(checked(tnt_kg, "charge", "kg of TNT"))
     shape = np.broadcast_shapes(stand_off.shape, np.shape(size))
-    return np.divide(stand_off, size, out=np.full(shape, np.inf), where=size > 0.0)
+    scaled: FloatArray = np.divide(stand_off, size, out=np.full(shape, np.inf), where=size > 0.0)
+    return scaled
 
 
-def checked(values: np.ndarray, name: str, unit: str) -> np.ndarray:
+def checked(values: ArrayLike, name: str, unit: str) -> FloatArray:
     """Return values as floats.
 
     Raises
@@ -128,8 +131,8 @@ def checked(values: np.ndarray, name: str, unit: str) -> np.ndarray:
     BlastError
         One of them is negative or not finite; the text names the first.
     """
-    values = np.asarray(values, float)
-    wrong = values[~((values >= 0.0) & np.isfinite(values))]
+    numbers = np.asarray(values, float)
+    wrong = numbers[~((numbers >= 0.0) & np.isfinite(numbers))]
     if wrong.size:
         raise BlastError(f"{name} is {wrong.flat[0]:g}: expected a finite number of at least 0 ({unit})")
-    return values
+    return numbers

@@ -15,12 +15,16 @@ All arrays have their components first. Places are numbered corner by corner, in
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from .gaps import Gaps, SolvedTangents, motion_of_points
 from .joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
 from .steel_bars import Bars, Steel, bar_response
+
+Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 
 CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
@@ -71,15 +75,16 @@ class Cracks:
         self,
         steel: Steel,
         elongation_m: float,
-        yield_n: np.ndarray,
-        shares: np.ndarray,
-        pressed_n_m: np.ndarray,
+        yield_n: FloatArray,
+        shares: FloatArray,
+        pressed_n_m: FloatArray,
     ):
         self._steel, self._elongation_m, self._yield_n, self._shares = steel, elongation_m, yield_n, shares
         self.have_bars = (yield_n > 0.0).any(axis=0)
         self._pressed_n_m = pressed_n_m / _COUNT
-        self.rows = np.zeros(0, int)
-        self._first, self._second = np.zeros(0, int), np.zeros(0, int)
+        self.rows: IntArray = np.zeros(0, int)
+        self._first: IntArray = np.zeros(0, int)
+        self._second: IntArray = np.zeros(0, int)
         self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
         self._normals = np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
@@ -90,13 +95,13 @@ class Cracks:
 
     def add(
         self,
-        rows: np.ndarray,
-        first: np.ndarray,
-        second: np.ndarray,
-        places_m: np.ndarray,
-        normals: np.ndarray,
-        positions_m: np.ndarray,
-        rotations: np.ndarray,
+        rows: IntArray,
+        first: IntArray,
+        second: IntArray,
+        places_m: FloatArray,
+        normals: FloatArray,
+        positions_m: FloatArray,
+        rotations: FloatArray,
     ) -> None:
         """Let bars hold in place of connections.
 
@@ -115,7 +120,7 @@ class Cracks:
         anchors = [turned_back(rotations[..., each], places_m.reshape(3, -1) - positions_m[:, each]) for each in ends]
         count = len(ends[0])
         self.rows = np.concatenate((self.rows, rows))
-        self._first, self._second = (_joined(*each) for each in zip((self._first, self._second), ends, strict=True))
+        self._first, self._second = _joined(self._first, ends[0]), _joined(self._second, ends[1])
         self._first_anchors = _joined(self._first_anchors, anchors[0])
         self._second_anchors = _joined(self._second_anchors, anchors[1])
         normals = turned_back(rotations[..., ends[0]], np.tile(normals, _COUNT))
@@ -124,7 +129,7 @@ class Cracks:
         self._holds = _joined(self._holds, np.ones(count, bool))
         self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
 
-    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over how far bars have yielded by now; return the connections (d,) in whose place none holds any more.
 
         Parameters
@@ -144,7 +149,7 @@ class Cracks:
             self._keep(holds)
         return gone
 
-    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (t,) that bars and pressed sides would give back."""
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
@@ -157,7 +162,7 @@ class Cracks:
         return 0.5 * _summed(doubled + self._stiffness_pressed() * closing * closing)
 
     def in_substep(
-        self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
+        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
     ) -> CrackStep:
         """Return what some cracks (c,) do in a sub-step of a length in s."""
         which = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
@@ -180,17 +185,17 @@ class Cracks:
         whole = self._yield_n[:, self.rows] * self._shares[self.rows]
         return Bars.of(whole.ravel(), self._steel, self._elongation_m)
 
-    def _gaps(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def _gaps(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         first, second = (
             positions_m[:, ends] + turned(rotations[..., ends], anchors)
             for ends, anchors in ((self._first, self._first_anchors), (self._second, self._second_anchors))
         )
         return second - first
 
-    def _stiffness_pressed(self) -> np.ndarray:
+    def _stiffness_pressed(self) -> FloatArray:
         return np.tile(self._pressed_n_m[self.rows], _COUNT)
 
-    def _keep(self, chosen: np.ndarray) -> None:
+    def _keep(self, chosen: BoolArray) -> None:
         """Forget all cracks but those chosen (t,)."""
         bars = np.tile(chosen, _COUNT)
         self.rows = self.rows[chosen]
@@ -224,12 +229,12 @@ class CrackLaw:
     """
 
     bars: Bars
-    slips_m: np.ndarray
-    flows_m: np.ndarray
-    normals: np.ndarray
-    pressed_n_m: np.ndarray
+    slips_m: FloatArray
+    flows_m: FloatArray
+    normals: FloatArray
+    pressed_n_m: FloatArray
 
-    def resisted(self, gaps_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return forces (3, b) across gaps (3, b), and how they change with these, (3, 3, b)."""
         response = bar_response(self.bars, _as_bars(gaps_m, self.normals), self.slips_m, self.flows_m)
         across = self.normals[:, None] * self.normals
@@ -259,18 +264,18 @@ class CrackStep:
         As given.
     """
 
-    def __init__(self, rows: np.ndarray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
+    def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
         self.rows = rows
         self._gaps, self._law, self._solved, self._substep_s = gaps, law, solved, substep_s
         self._mean_n = np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT)
-        self._guess: tuple[np.ndarray, np.ndarray] | None = None
+        self._guess: tuple[FloatArray, FloatArray] | None = None
         self._begin_at(np.zeros_like(gaps.widths_m))
 
-    def changed(self) -> np.ndarray:
+    def changed(self) -> BoolArray:
         """Which cracks (c,) have other tangents than their equations."""
         return self._solved.differ(self._tangents).reshape(_COUNT, -1).any(axis=0)
 
-    def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return what cracks (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
         bars = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
         tangents = self._tangents[..., bars]
@@ -285,7 +290,7 @@ class CrackStep:
             -_summed(matrix_products(transposed(first), by_second)),
         )
 
-    def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
         opening = self._substep_s * self._gaps.rates(velocities)
         pull = self._substep_s * (self._forces + turned(self._tangents, opening))
@@ -293,7 +298,7 @@ class CrackStep:
         second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
         return _summed(first), _summed(second)
 
-    def agrees(self, velocities: np.ndarray) -> bool:
+    def agrees(self, velocities: FloatArray) -> bool:
         """Whether the forces are those of the opening that follows from velocities (6, n); if not, guess again."""
         opening = self._substep_s * self._gaps.rates(velocities)
         balance = self._forces + turned(self._tangents, opening)
@@ -305,13 +310,13 @@ class CrackStep:
         self._begin_at(opening)
         return False
 
-    def _out_of_balance(self, opening: np.ndarray, balance: np.ndarray) -> np.ndarray:
+    def _out_of_balance(self, opening: FloatArray, balance: FloatArray) -> FloatArray:
         """What cracks that opened so far would resist (3, 4 c) beyond what is in balance with all else."""
         return self._law.resisted(self._gaps.widths_m + opening)[0] - balance
 
     def _least(
-        self, opening: np.ndarray, balance: np.ndarray, coming: np.ndarray, coming_balance: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+        self, opening: FloatArray, balance: FloatArray, coming: FloatArray, coming_balance: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Go from one guess towards the next as long as that takes energy off; what balances changes evenly."""
         step, change = coming - opening, coming_balance - balance
         low, high = 0.0, 1.0
@@ -323,19 +328,19 @@ class CrackStep:
             low, high = (low, share) if rises else (share, high)
         return opening + high * step, balance + high * change
 
-    def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
         cracks = len(self.rows)
         bodies = np.concatenate((self._gaps.first[:cracks], self._gaps.second[:cracks]))
         return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
 
-    def _begin_at(self, opening: np.ndarray) -> None:
+    def _begin_at(self, opening: FloatArray) -> None:
         """Take forces for linear about cracks that have opened further (3, 4 c)."""
         forces, self._tangents = self._law.resisted(self._gaps.widths_m + opening)
         self._forces = forces - turned(self._tangents, opening)
 
 
-def corner_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
+def corner_places(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:
     """Return the corners (3, 4, r) of cracks.
 
     Parameters
@@ -351,28 +356,30 @@ def corner_places(points_m: np.ndarray, axes: np.ndarray, sides_m: np.ndarray) -
     return points_m[:, None] + axes[:, 0, None] * halves[:, 0] + axes[:, 1, None] * halves[:, 1]
 
 
-def corner_shares(places_m: np.ndarray, sides_m: np.ndarray) -> np.ndarray:
+def corner_shares(places_m: FloatArray, sides_m: FloatArray) -> FloatArray:
     """Return the parts (4, m) of a force at places (2, m) that the corners of rectangles with sides (2, m) resist.
 
     Together they have the same moments about all edges.
     """
     beside = np.clip(2.0 * places_m / sides_m, -1.0, 1.0)
-    return 0.25 * (1.0 + CORNERS[:, :1] * beside[0]) * (1.0 + CORNERS[:, 1:] * beside[1])
+    shares: FloatArray = 0.25 * (1.0 + CORNERS[:, :1] * beside[0]) * (1.0 + CORNERS[:, 1:] * beside[1])
+    return shares
 
 
-def _as_bars(gaps_m: np.ndarray, normals: np.ndarray) -> np.ndarray:
+def _as_bars(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
     """How far bars are stretched (3, b) by gaps (3, b) of cracks with normals (3, b): along these less, as dowels."""
-    return DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * dot_products(gaps_m, normals) * normals
+    stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * dot_products(gaps_m, normals) * normals
+    return stretches
 
 
-def _joined(before: np.ndarray, added: np.ndarray) -> np.ndarray:
+def _joined(before: Numbers, added: Numbers) -> Numbers:
     """Numbers of bars (…, b), with those of more."""
     shape = before.shape[:-1]
     parts = (before.reshape(*shape, _COUNT, -1), added.reshape(*shape, _COUNT, -1))
     return np.concatenate(parts, axis=-1).reshape(*shape, -1)
 
 
-def _summed(values: np.ndarray) -> np.ndarray:
+def _summed(values: FloatArray) -> FloatArray:
     """Sums (…, c) over the bars (…, 4 c) of each crack."""
     corners = values.reshape(*values.shape[:-1], _COUNT, -1)
     total = corners[..., 0, :]

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from .joint_rows import JointFrames, JointRows, matrix_products, transposed
 
 
@@ -28,20 +29,20 @@ class RigidBodies:
         Centres of mass, and axes of the bodies.
     """
 
-    masses_kg: np.ndarray
-    inertias_kg_m2: np.ndarray
-    positions_m: np.ndarray
-    rotations: np.ndarray
+    masses_kg: FloatArray
+    inertias_kg_m2: FloatArray
+    positions_m: FloatArray
+    rotations: FloatArray
 
     def __len__(self) -> int:
         return len(self.masses_kg)
 
     @property
-    def moves(self) -> np.ndarray:
+    def moves(self) -> BoolArray:
         """Whether each body (n,) can move."""
         return self.masses_kg > 0.0
 
-    def mass_matrices(self, rotations: np.ndarray, bodies: np.ndarray) -> np.ndarray:
+    def mass_matrices(self, rotations: FloatArray, bodies: IntArray) -> FloatArray:
         """Return mass and inertia (6, 6, b) in the axes of the world, of some bodies (b,) in rotations (3, 3, n)."""
         turned = rotations[..., bodies]
         matrices = np.zeros((6, 6, len(bodies)))
@@ -51,20 +52,20 @@ class RigidBodies:
         return matrices
 
 
-def summed_on_bodies(frames: JointFrames, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+def summed_on_bodies(frames: JointFrames, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
     """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
     bodies = np.concatenate((frames.first, frames.second))
     return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
 
 
-def without(stiffness: np.ndarray, rows: np.ndarray) -> np.ndarray:
+def without(stiffness: FloatArray, rows: IntArray) -> FloatArray:
     """Return stiffness (2, 3, 3, m) with nothing of connections (r,)."""
     left = stiffness.copy()
     left[..., rows] = 0.0
     return left
 
 
-def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def connected_parts(moves: BoolArray, first: IntArray, second: IntArray) -> IntArray:
     """Return the part (n,) to which each body belongs, -1 for those that do not move.
 
     Parameters
@@ -79,7 +80,7 @@ def connected_parts(moves: np.ndarray, first: np.ndarray, second: np.ndarray) ->
     return np.where(moves, connected_components(links, directed=False)[1], -1)
 
 
-def stressed(stiffness: np.ndarray, strains: np.ndarray) -> np.ndarray:
+def stressed(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
     """Return the amounts (6, m) in rows, by stiffness (2, 3, 3, m), of deformations (6, m)."""
     shifts, turns = stiffness
     return np.concatenate(
@@ -90,7 +91,7 @@ def stressed(stiffness: np.ndarray, strains: np.ndarray) -> np.ndarray:
     )
 
 
-def stiffness_blocks(rows: JointRows, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def stiffness_blocks(rows: JointRows, stiffness: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return what connections add to the equations of their first and second bodies, and between: (6, 6, m) each."""
     first, second = rows.matrices()
     first_stressed, second_stressed = (

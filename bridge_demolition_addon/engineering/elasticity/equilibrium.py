@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
 from .joint_rows import JointFrames, joint_places
@@ -44,19 +45,19 @@ class Equilibrium:
         nothing holds them.
     """
 
-    positions_m: np.ndarray
-    rotations: np.ndarray
-    held: np.ndarray
+    positions_m: FloatArray
+    rotations: FloatArray
+    held: BoolArray
     frequency_hz: float
-    loads: np.ndarray
+    loads: FloatArray
 
 
 def equilibrium(
     frames: JointFrames,
-    stiffness: np.ndarray,
+    stiffness: FloatArray,
     bodies: RigidBodies,
-    gravity_m_s2: np.ndarray,
-    loads: np.ndarray | None = None,
+    gravity_m_s2: FloatArray,
+    loads: FloatArray | None = None,
 ) -> Equilibrium:
     """Return where bodies rest that hang together by elastic connections, which carry no load where they are now.
 
@@ -94,13 +95,13 @@ def equilibrium(
 
 
 def _part_at_rest(
-    members: np.ndarray,
+    members: IntArray,
     frames: JointFrames,
-    stiffness: np.ndarray,
+    stiffness: FloatArray,
     bodies: RigidBodies,
-    gravity_m_s2: np.ndarray,
-    loads: np.ndarray | None,
-) -> tuple[np.ndarray, np.ndarray, float] | None:
+    gravity_m_s2: FloatArray,
+    loads: FloatArray | None,
+) -> tuple[FloatArray, FloatArray, float] | None:
     """Where bodies (b,) that hang together by connections rest, and their first frequency; None for a mechanism."""
     count, positions_m, rotations = len(bodies), bodies.positions_m, bodies.rotations
     unknown = np.full(count, -1)
@@ -130,7 +131,7 @@ def _part_at_rest(
     return positions_m, rotations, _first_frequency(system, own, slack)
 
 
-def _first_frequency(system: BlockSystem, own: np.ndarray, slack: float) -> float:
+def _first_frequency(system: BlockSystem, own: FloatArray, slack: float) -> float:
     """First frequency in Hz; of what is free to slide, that of its swinging up and down."""
     lowest = _lowest_square(system, own) - slack
     if lowest <= slack:  # it slides, or sways like a pendulum
@@ -138,7 +139,7 @@ def _first_frequency(system: BlockSystem, own: np.ndarray, slack: float) -> floa
     return float(np.sqrt(max(lowest, 0.0)) / (2.0 * np.pi))
 
 
-def _square_by_weight(system: BlockSystem, own: np.ndarray) -> float:
+def _square_by_weight(system: BlockSystem, own: FloatArray) -> float:
     """Square of the angular frequency of the shape (z alone) that the weight bends it to: Lord Rayleigh (1877)."""
     masses = own[2, 2]
     weights = np.zeros((6, len(masses)))
@@ -147,7 +148,7 @@ def _square_by_weight(system: BlockSystem, own: np.ndarray) -> float:
     return float((masses * down).sum() / (masses * down * down).sum())
 
 
-def _lowest_square(system: BlockSystem, own: np.ndarray) -> float:
+def _lowest_square(system: BlockSystem, own: FloatArray) -> float:
     """Square of the lowest angular frequency, by inverse iteration from an even motion in all directions."""
     shape = np.zeros((6, own.shape[2]))
     shape[:3] = 1.0

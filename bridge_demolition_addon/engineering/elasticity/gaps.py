@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from .joint_rows import cross_products
 
 
@@ -26,13 +27,13 @@ class Gaps:
         From the first points to the second.
     """
 
-    first: np.ndarray
-    second: np.ndarray
-    first_arms_m: np.ndarray
-    second_arms_m: np.ndarray
-    widths_m: np.ndarray
+    first: IntArray
+    second: IntArray
+    first_arms_m: FloatArray
+    second_arms_m: FloatArray
+    widths_m: FloatArray
 
-    def rates(self, velocities: np.ndarray) -> np.ndarray:
+    def rates(self, velocities: FloatArray) -> FloatArray:
         """Return how fast the gaps (3, q) open, with velocities and angular velocities (6, n) of the bodies."""
         first, second = velocities[:, self.first], velocities[:, self.second]
         moving = second[:3] + cross_products(second[3:], self.second_arms_m)
@@ -51,19 +52,20 @@ class SolvedTangents:
         Which of these the gaps are.
     """
 
-    tangents_n_m: np.ndarray
-    rows: np.ndarray
+    tangents_n_m: FloatArray
+    rows: IntArray
 
-    def differ(self, tangents_n_m: np.ndarray) -> np.ndarray:
+    def differ(self, tangents_n_m: FloatArray) -> BoolArray:
         """Return whether each gap (q,) now has other tangents."""
-        return (tangents_n_m != self.tangents_n_m[..., self.rows]).any(axis=(0, 1))
+        differ: BoolArray = (tangents_n_m != self.tangents_n_m[..., self.rows]).any(axis=(0, 1))
+        return differ
 
-    def take_over(self, gaps: np.ndarray, tangents_n_m: np.ndarray) -> None:
+    def take_over(self, gaps: IntArray, tangents_n_m: FloatArray) -> None:
         """Note the tangents (3, 3, k) of some of the gaps (k,)."""
         self.tangents_n_m[..., self.rows[gaps]] = tangents_n_m
 
 
-def motion_of_points(arms_m: np.ndarray) -> np.ndarray:
+def motion_of_points(arms_m: FloatArray) -> FloatArray:
     """Return matrices (3, 6, q) that give the velocities of points at arms (3, q) from those of their bodies."""
     x, y, z = arms_m
     matrices = np.zeros((3, 6, len(x)))

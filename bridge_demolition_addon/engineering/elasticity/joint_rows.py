@@ -14,6 +14,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..arithmetic import arctangent
+from ..arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,17 +31,17 @@ class JointFrames:
         Where the frames are, from the centre of the body, in its axes.
     """
 
-    first: np.ndarray
-    second: np.ndarray
-    first_axes: np.ndarray
-    second_axes: np.ndarray
-    first_points_m: np.ndarray
-    second_points_m: np.ndarray
+    first: IntArray
+    second: IntArray
+    first_axes: FloatArray
+    second_axes: FloatArray
+    first_points_m: FloatArray
+    second_points_m: FloatArray
 
     def __len__(self) -> int:
         return len(self.first)
 
-    def only(self, rows: np.ndarray) -> JointFrames:
+    def only(self, rows: IntArray) -> JointFrames:
         """Return the frames of some connections (r,)."""
         return JointFrames(*(getattr(self, item.name)[..., rows] for item in fields(self)))
 
@@ -59,17 +60,17 @@ class JointPlaces:
         From the first frame to the second.
     """
 
-    first_axes: np.ndarray
-    second_axes: np.ndarray
-    first_levers_m: np.ndarray
-    second_levers_m: np.ndarray
-    shifts_m: np.ndarray
+    first_axes: FloatArray
+    second_axes: FloatArray
+    first_levers_m: FloatArray
+    second_levers_m: FloatArray
+    shifts_m: FloatArray
 
-    def only(self, rows: np.ndarray) -> JointPlaces:
+    def only(self, rows: IntArray) -> JointPlaces:
         """Return the places of some connections (r,)."""
         return JointPlaces(*(getattr(self, item.name)[..., rows] for item in fields(self)))
 
-    def deformations(self) -> np.ndarray:
+    def deformations(self) -> FloatArray:
         """Return the shifts in m and turns in rad (6, m) of the second frames against the first."""
         one, other = self.first_axes, self.second_axes
         sines = np.stack(
@@ -111,26 +112,26 @@ class JointRows:
         Unit vectors about which relative angular velocities count.
     """
 
-    along: np.ndarray
-    first_turning: np.ndarray
-    second_turning: np.ndarray
-    turning: np.ndarray
+    along: FloatArray
+    first_turning: FloatArray
+    second_turning: FloatArray
+    turning: FloatArray
 
     @classmethod
     def empty(cls, count: int) -> JointRows:
         """Return rows of so many connections, all 0."""
         return cls(*(np.zeros((3, 3, count)) for _ in fields(cls)))
 
-    def set(self, connections: np.ndarray, rows: JointRows) -> None:
+    def set(self, connections: IntArray, rows: JointRows) -> None:
         """Write the rows of some connections (r,)."""
         for item in fields(self):
             getattr(self, item.name)[..., connections] = getattr(rows, item.name)
 
-    def only(self, connections: np.ndarray) -> JointRows:
+    def only(self, connections: IntArray) -> JointRows:
         """Return the rows of some connections (r,)."""
         return JointRows(*(getattr(self, item.name)[..., connections] for item in fields(self)))
 
-    def rates(self, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    def rates(self, first: FloatArray, second: FloatArray) -> FloatArray:
         """Return how fast deformations shrink (6, m).
 
         Parameters
@@ -144,7 +145,7 @@ class JointRows:
         shifting += turned(self.second_turning, second[3:])
         return np.concatenate((shifting, turned(self.turning, spin)))
 
-    def loads(self, amounts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def loads(self, amounts: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what amounts (6, m) in the rows do to the first and to the second bodies.
 
         Returns
@@ -158,7 +159,7 @@ class JointRows:
         second = turned_back(self.second_turning, amounts[:3]) - torque
         return np.concatenate((force, first)), np.concatenate((-force, second))
 
-    def matrices(self) -> tuple[np.ndarray, np.ndarray]:
+    def matrices(self) -> tuple[FloatArray, FloatArray]:
         """Return the rows as matrices (6, 6, m) for the first and for the second bodies; the first index is the row."""
         zeros = np.zeros_like(self.along)
         first = np.concatenate((_beside(self.along, self.first_turning), _beside(zeros, self.turning)))
@@ -166,7 +167,7 @@ class JointRows:
         return first, second
 
 
-def joint_places(frames: JointFrames, positions_m: np.ndarray, rotations: np.ndarray) -> JointPlaces:
+def joint_places(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> JointPlaces:
     """Return where the frames of m connections are.
 
     Parameters
@@ -189,44 +190,47 @@ def joint_places(frames: JointFrames, positions_m: np.ndarray, rotations: np.nda
     )
 
 
-def matrix_products(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def matrix_products(first: FloatArray, second: FloatArray) -> FloatArray:
     """Return the products (i, k, m) of matrices (i, j, m) and (j, k, m), summed in a fixed order."""
-    total = first[:, 0, None] * second[0]
+    total: FloatArray = first[:, 0, None] * second[0]
     for index in range(1, first.shape[1]):
         total += first[:, index, None] * second[index]
     return total
 
 
-def transposed(matrices: np.ndarray) -> np.ndarray:
+def transposed(matrices: FloatArray) -> FloatArray:
     """Return the transposes (j, i, m) of matrices (i, j, m)."""
     return np.swapaxes(matrices, 0, 1)
 
 
-def turned(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def turned(matrices: FloatArray, vectors: FloatArray) -> FloatArray:
     """Return the products (3, m) of matrices (3, 3, m) with vectors (3, m)."""
-    return matrices[:, 0] * vectors[0] + matrices[:, 1] * vectors[1] + matrices[:, 2] * vectors[2]
+    products: FloatArray = matrices[:, 0] * vectors[0] + matrices[:, 1] * vectors[1] + matrices[:, 2] * vectors[2]
+    return products
 
 
-def turned_back(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def turned_back(matrices: FloatArray, vectors: FloatArray) -> FloatArray:
     """Return the products (3, m) of transposed matrices (3, 3, m) with vectors (3, m)."""
-    return matrices[0] * vectors[0] + matrices[1] * vectors[1] + matrices[2] * vectors[2]
+    products: FloatArray = matrices[0] * vectors[0] + matrices[1] * vectors[1] + matrices[2] * vectors[2]
+    return products
 
 
-def dot_products(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def dot_products(first: FloatArray, second: FloatArray) -> FloatArray:
     """Return the products (m,) of vectors (3, m)."""
-    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
+    products: FloatArray = first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
+    return products
 
 
-def cross_products(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def cross_products(first: FloatArray, second: FloatArray) -> FloatArray:
     """Return the cross products (3, m) of vectors (3, m)."""
     (x, y, z), (a, b, c) = first, second
     return np.stack((y * c - z * b, z * a - x * c, x * b - y * a))
 
 
-def _beside(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+def _beside(left: FloatArray, right: FloatArray) -> FloatArray:
     return np.concatenate((left, right), axis=1)
 
 
-def _unit(vectors: np.ndarray) -> np.ndarray:
+def _unit(vectors: FloatArray) -> FloatArray:
     lengths = np.sqrt(dot_products(vectors, vectors))
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ScenarioError
+from ..arrays import BoolArray, FloatArray
 from .joint_rows import matrix_products, transposed
 
 SHEAR_FACTOR = 5.0 / 6.0
@@ -99,18 +100,18 @@ class SectionStiffness:
         Against turns about y and z.
     """
 
-    axial_n_m: np.ndarray
-    shear_n_m: np.ndarray
-    torsion_nm: np.ndarray
-    bending_nm: np.ndarray
+    axial_n_m: FloatArray
+    shear_n_m: FloatArray
+    torsion_nm: FloatArray
+    bending_nm: FloatArray
 
-    def against_shifts(self) -> np.ndarray:
+    def against_shifts(self) -> FloatArray:
         """Return the matrices (3, 3, m) that make forces of shifts."""
         matrices = np.zeros((3, 3, len(self.axial_n_m)))
         matrices[0, 0], matrices[1, 1], matrices[2, 2] = self.axial_n_m, *self.shear_n_m.T
         return matrices
 
-    def against_turns(self) -> np.ndarray:
+    def against_turns(self) -> FloatArray:
         """Return the matrices (3, 3, m) that make moments of turns."""
         matrices = np.zeros((3, 3, len(self.axial_n_m)))
         matrices[0, 0] = self.torsion_nm
@@ -119,12 +120,12 @@ class SectionStiffness:
 
 
 def section_stiffness(
-    young_pa: np.ndarray,
-    shear_pa: np.ndarray,
-    areas_m2: np.ndarray,
-    second_moments_m4: np.ndarray,
-    lengths_m: np.ndarray,
-    is_deep: np.ndarray,
+    young_pa: FloatArray,
+    shear_pa: FloatArray,
+    areas_m2: FloatArray,
+    second_moments_m4: FloatArray,
+    lengths_m: FloatArray,
+    is_deep: BoolArray,
 ) -> SectionStiffness:
     """Return the stiffness of connections by faces.
 
@@ -155,7 +156,7 @@ def section_stiffness(
     )
 
 
-def torsion_constants(areas_m2: np.ndarray, second_moments_m4: np.ndarray) -> np.ndarray:
+def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> FloatArray:
     """Return the torsion constants (m,) of the rectangles with these areas and second moments, m⁴.
 
     W. C. Young and R. G. Budynas (2002), Roark's Formulas for Stress and Strain, 7th edition, table 10.1, case 4, which
@@ -167,10 +168,13 @@ def torsion_constants(areas_m2: np.ndarray, second_moments_m4: np.ndarray) -> np
     shorter, longer = (np.sqrt(12.0 * np.maximum(each, 0.0) / area) for each in (mean - spread, mean + spread))
     slender = np.divide(shorter, longer, out=np.zeros_like(shorter), where=longer > 0.0)
     square = slender * slender
-    return longer * shorter * shorter * shorter * (1.0 / 3.0 - 0.21 * slender * (1.0 - square * square / 12.0))
+    constants: FloatArray = (
+        longer * shorter * shorter * shorter * (1.0 / 3.0 - 0.21 * slender * (1.0 - square * square / 12.0))
+    )
+    return constants
 
 
-def in_frames(stiffness: SectionStiffness, sections: np.ndarray, held: np.ndarray) -> np.ndarray:
+def in_frames(stiffness: SectionStiffness, sections: FloatArray, held: BoolArray) -> FloatArray:
     """Return stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
 
     Rows that are not held (6, m) bear nothing: what they would, the others do not bear in their place.
@@ -183,7 +187,7 @@ def in_frames(stiffness: SectionStiffness, sections: np.ndarray, held: np.ndarra
     return np.stack(turned)
 
 
-def _let_go(matrix: np.ndarray, row: int, free: np.ndarray) -> None:
+def _let_go(matrix: FloatArray, row: int, free: BoolArray) -> None:
     """Take the stiffness of one row out of matrices (3, 3, m), where it is free (m,): a static condensation."""
     column = matrix[:, row].copy()
     pivot = np.where(column[row] > 0.0, column[row], 1.0)

@@ -10,6 +10,8 @@ import numpy as np
 import qdldl
 from scipy.sparse import csc_matrix
 
+from ..arrays import FloatArray, IntArray
+
 _BLOCK = 6
 
 
@@ -24,7 +26,7 @@ class BlockSystem:
         The bodies of each connection; -1 for one whose motion is known.
     """
 
-    def __init__(self, body_count: int, first: np.ndarray, second: np.ndarray):
+    def __init__(self, body_count: int, first: IntArray, second: IntArray):
         self._count = body_count
         self._has_first, self._has_second = first >= 0, second >= 0
         self._has_both = self._has_first & self._has_second
@@ -41,7 +43,7 @@ class BlockSystem:
         self._solver: qdldl.Solver | None = None
         self._find_places(blocks)
 
-    def factor(self, of_bodies: np.ndarray, first: np.ndarray, second: np.ndarray, between: np.ndarray) -> None:
+    def factor(self, of_bodies: FloatArray, first: FloatArray, second: FloatArray, between: FloatArray) -> None:
         """Take over the numbers.
 
         Parameters
@@ -58,18 +60,20 @@ class BlockSystem:
         parts = (of_bodies, first[..., self._has_first], second[..., self._has_second], both)
         values = np.concatenate(parts, axis=2).reshape(-1)
         data = np.bincount(self._places, values, self._size + 1)[: self._size]
-        if self._solver is None:
+        if self._matrix is None or self._solver is None:
             self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
             self._solver = qdldl.Solver(self._matrix, upper=True)
         else:
             self._matrix.data = data  # scipy takes longer to make a matrix than QDLDL to factor a small one
             self._solver.update(self._matrix, upper=True)
 
-    def solve(self, right: np.ndarray) -> np.ndarray:
+    def solve(self, right: FloatArray) -> FloatArray:
         """Return the unknowns (6, b) for a right-hand side (6, b)."""
-        return self._solver.solve(np.ascontiguousarray(right.T).reshape(-1)).reshape(-1, _BLOCK).T
+        assert self._solver is not None, "numbers come first, by `factor`"
+        unknowns: FloatArray = self._solver.solve(np.ascontiguousarray(right.T).reshape(-1))
+        return unknowns.reshape(-1, _BLOCK).T
 
-    def _find_places(self, blocks: np.ndarray) -> None:
+    def _find_places(self, blocks: FloatArray) -> None:
         """Find where each number of blocks (k, 2) belongs in the upper triangle, column by column."""
         keys = blocks[:, 1] * self._count + blocks[:, 0]
         kept, which = np.unique(keys, return_inverse=True)

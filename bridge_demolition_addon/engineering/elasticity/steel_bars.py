@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ScenarioError
+from ..arrays import FloatArray, IntArray
 from .joint_rows import dot_products
 
 MODULUS_PA = 200e9
@@ -82,22 +83,22 @@ class Bars:
         By how much the yield force grows with the part of the opening that stays.
     """
 
-    yield_n: np.ndarray
-    stiffness_n_m: np.ndarray
-    modulus_n_m: np.ndarray
+    yield_n: FloatArray
+    stiffness_n_m: FloatArray
+    modulus_n_m: FloatArray
 
     @classmethod
-    def of(cls, yield_n: np.ndarray, steel: Steel, elongation_m: float) -> Bars:
+    def of(cls, yield_n: FloatArray, steel: Steel, elongation_m: float) -> Bars:
         """Return bars (b,) that rupture when a crack has opened so far."""
         at_yield_m = elongation_m * steel.yield_strain / steel.rupture_strain
         stiffness = yield_n / at_yield_m
         slope = (steel.hardening - 1.0) * yield_n / (elongation_m - at_yield_m)
         return cls(yield_n, stiffness, stiffness * slope / np.where(stiffness > 0.0, stiffness - slope, 1.0))
 
-    def __getitem__(self, which: np.ndarray) -> Bars:
+    def __getitem__(self, which: IntArray) -> Bars:
         return Bars(self.yield_n[which], self.stiffness_n_m[which], self.modulus_n_m[which])
 
-    def times(self, shares: np.ndarray) -> Bars:
+    def times(self, shares: FloatArray) -> Bars:
         """Return the bars with shares (b,) of their area."""
         return Bars(shares * self.yield_n, shares * self.stiffness_n_m, shares * self.modulus_n_m)
 
@@ -116,13 +117,13 @@ class BarResponse:
         By how much the forces change with the stretch.
     """
 
-    forces_n: np.ndarray
-    slips_m: np.ndarray
-    flows_m: np.ndarray
-    tangents_n_m: np.ndarray
+    forces_n: FloatArray
+    slips_m: FloatArray
+    flows_m: FloatArray
+    tangents_n_m: FloatArray
 
 
-def bar_response(bars: Bars, stretches_m: np.ndarray, slips_m: np.ndarray, flows_m: np.ndarray) -> BarResponse:
+def bar_response(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> BarResponse:
     """Return what bars do under stretches (3, b), after slips (3, b) that came on ways of a length (b,)."""
     trial = bars.stiffness_n_m * (stretches_m - slips_m)
     size = np.sqrt(dot_products(trial, trial))

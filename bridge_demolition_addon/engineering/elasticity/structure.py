@@ -18,6 +18,7 @@ from typing import Protocol
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places
@@ -44,10 +45,10 @@ class StepInput:
         Whether each is at rest and not simulated.
     """
 
-    positions_m: np.ndarray
-    rotations: np.ndarray
-    velocities: np.ndarray
-    asleep: np.ndarray
+    positions_m: FloatArray
+    rotations: FloatArray
+    velocities: FloatArray
+    asleep: BoolArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,64 +73,64 @@ class ElasticStep:
         The sum on every body.
     """
 
-    acting: np.ndarray
-    deformations: np.ndarray
-    rates: np.ndarray
-    of_first: np.ndarray
-    of_second: np.ndarray
-    cracks: np.ndarray
-    of_cracks_on_first: np.ndarray
-    of_cracks_on_second: np.ndarray
-    of_bodies: np.ndarray
+    acting: IntArray
+    deformations: FloatArray
+    rates: FloatArray
+    of_first: FloatArray
+    of_second: FloatArray
+    cracks: IntArray
+    of_cracks_on_first: FloatArray
+    of_cracks_on_second: FloatArray
+    of_bodies: FloatArray
 
 
 class NonlinearTerms(Protocol):
     """Forces in a sub-step that are not proportional to deformation: of cracks, and of footings on soil."""
 
-    rows: np.ndarray
+    rows: IntArray
 
-    def changed(self) -> np.ndarray:
+    def changed(self) -> BoolArray:
         """Which of `rows` (c,) have other tangents than their equations."""
 
-    def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return what some (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
 
-    def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) on the first and second bodies, with velocities (6, n) then."""
 
-    def agrees(self, velocities: np.ndarray) -> bool:
+    def agrees(self, velocities: FloatArray) -> bool:
         """Whether the forces are those that follow from velocities (6, n); if not, guess again."""
 
-    def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
 
 
 class SoilSpringLaw(Protocol):
     """Footings on springs in place of some connections, whose own stiffness does not count."""
 
-    rows: np.ndarray
+    rows: IntArray
 
-    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
 
     def in_substep(
-        self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
+        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
     ) -> NonlinearTerms:
         """Return what some of them (c,) do in a sub-step of a length in s."""
 
-    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (f,) that they would give back."""
 
 
 class _Part:
     """Bodies that hang together by connections, and their equations."""
 
-    def __init__(self, bodies: np.ndarray, connections: np.ndarray, first: np.ndarray, second: np.ndarray):
+    def __init__(self, bodies: IntArray, connections: IntArray, first: IntArray, second: IntArray):
         self.bodies, self.connections = bodies, connections
         self.first, self.second = first, second
         self._system: BlockSystem | None = None
 
-    def is_of(self, bodies: np.ndarray, connections: np.ndarray) -> bool:
+    def is_of(self, bodies: IntArray, connections: IntArray) -> bool:
         """Whether these are its bodies and connections."""
         return np.array_equal(bodies, self.bodies) and np.array_equal(connections, self.connections)
 
@@ -145,13 +146,13 @@ class _Part:
 class _RowCache:
     """Where connections (r,), in order, were when bodies were there last."""
 
-    positions_m: np.ndarray
-    rotations: np.ndarray
-    rows: np.ndarray
+    positions_m: FloatArray
+    rotations: FloatArray
+    rows: IntArray
     places: JointPlaces
-    deformations: np.ndarray
+    deformations: FloatArray
 
-    def has(self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> bool:
+    def has(self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
         """Whether these connections were among them, with bodies at these places."""
         return (
             np.array_equal(positions_m, self.positions_m)
@@ -187,7 +188,7 @@ class ElasticStructure:
     def __init__(
         self,
         frames: JointFrames,
-        stiffness: np.ndarray,
+        stiffness: FloatArray,
         bodies: RigidBodies,
         damping_s: float,
         cracks: Cracks | None = None,
@@ -207,7 +208,7 @@ class ElasticStructure:
         self._part_of_body = np.full(self._count, -1)
         self._partition()
 
-    def step(self, start: StepInput, intact: np.ndarray, substep_s: float) -> ElasticStep:
+    def step(self, start: StepInput, intact: BoolArray, substep_s: float) -> ElasticStep:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
         self._follow_breaks(intact)
         if substep_s != self._substep_s:
@@ -238,16 +239,16 @@ class ElasticStructure:
         amounts -= stressed(stiffness, implicit * slowing)
         of_first, of_second = rows.loads(amounts)
         of_bodies = summed_on_bodies(frames, (of_first, of_second), self._count)
-        of_cracks = np.zeros((2, 6, 0))
+        of_cracks = np.zeros((6, 0)), np.zeros((6, 0))
         if cracks is not None:
             of_cracks = cracks.loads(start.velocities + changes)
             of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
         if soil is not None:
             of_soil = soil.loads(start.velocities + changes)
             of_bodies = of_bodies + soil.of_bodies(of_soil, self._count)
-            rows = np.searchsorted(acting, soil.rows)
-            of_first[:, rows] += of_soil[0]
-            of_second[:, rows] += of_soil[1]
+            of_acting = np.searchsorted(acting, soil.rows)
+            of_first[:, of_acting] += of_soil[0]
+            of_second[:, of_acting] += of_soil[1]
         return ElasticStep(
             acting=acting,
             deformations=deformations,
@@ -260,7 +261,7 @@ class ElasticStructure:
             of_bodies=of_bodies,
         )
 
-    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (m,) in connections with bodies at positions (3, n) in rotations (3, 3, n)."""
         rows = np.flatnonzero(self._intact)
         deformations = self._deformed(rows, positions_m, rotations)[1] - self._offsets[:, rows]
@@ -274,7 +275,7 @@ class ElasticStructure:
             stored[self._soil.rows] = self._soil.stored_j(positions_m, rotations) * self._intact[self._soil.rows]
         return stored
 
-    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far soil and reinforcement have yielded, and let go what has ruptured."""
         if self._soil is not None:
             self._soil.settle(positions_m, rotations)
@@ -292,8 +293,8 @@ class ElasticStructure:
             self._partition()
 
     def _deformed(
-        self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray
-    ) -> tuple[JointPlaces, np.ndarray]:
+        self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray
+    ) -> tuple[JointPlaces, FloatArray]:
         """Places and deformations (6, r) of connections (r,), in order; again only where bodies have moved."""
         cached = self._cache
         if cached is None or not cached.has(rows, positions_m, rotations):
@@ -337,7 +338,7 @@ class ElasticStructure:
         self._rotations = np.full((3, 3, self._count), np.inf)
         self._has_broken = False
 
-    def _follow_breaks(self, intact: np.ndarray) -> None:
+    def _follow_breaks(self, intact: BoolArray) -> None:
         broken = self._intact & ~intact
         if broken.any():
             self._intact = intact.copy()
@@ -345,18 +346,18 @@ class ElasticStructure:
             self._stale[-1] = False
             self._has_broken = True
 
-    def _awake_parts(self, start: StepInput) -> np.ndarray:
+    def _awake_parts(self, start: StepInput) -> BoolArray:
         """Parts (p + 1,) of which a body is awake."""
         mine = self._part_of_body >= 0
         awake = np.zeros(len(self._stale), bool)
         awake[self._part_of_body[mine & ~start.asleep]] = True
         return awake
 
-    def _acting(self, awake: np.ndarray) -> np.ndarray:
+    def _acting(self, awake: BoolArray) -> IntArray:
         """Connections (k,) that are intact, and in awake parts (p + 1,)."""
         return np.flatnonzero(self._intact & awake[self.part_of_connection])
 
-    def _acting_soil(self, start: StepInput, awake: np.ndarray) -> NonlinearTerms | None:
+    def _acting_soil(self, start: StepInput, awake: BoolArray) -> NonlinearTerms | None:
         """Footings in awake parts (p + 1,) that stand on soil; None where there is none."""
         if self._soil is None:
             return None
@@ -366,7 +367,7 @@ class ElasticStructure:
             return None
         return self._soil.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
-    def _acting_cracks(self, start: StepInput, awake: np.ndarray) -> NonlinearTerms | None:
+    def _acting_cracks(self, start: StepInput, awake: BoolArray) -> NonlinearTerms | None:
         """Cracks in awake parts (p + 1,) that reinforcement holds; None where there is none."""
         if self._cracks is None:
             return None
@@ -376,8 +377,8 @@ class ElasticStructure:
         return self._cracks.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
     def _with_nonlinear(
-        self, loads: np.ndarray, nonlinear: Sequence[NonlinearTerms], velocities: np.ndarray
-    ) -> np.ndarray:
+        self, loads: FloatArray, nonlinear: Sequence[NonlinearTerms], velocities: FloatArray
+    ) -> FloatArray:
         """Impulses (6, n) with those of nonlinear terms, on bodies that have velocities (6, n) at the end."""
         for each in nonlinear:
             loads = loads + each.of_bodies(each.loads(velocities), self._count)
@@ -386,8 +387,8 @@ class ElasticStructure:
     def _refresh(
         self,
         start: StepInput,
-        awake: np.ndarray,
-        acting: np.ndarray,
+        awake: BoolArray,
+        acting: IntArray,
         places: JointPlaces,
         nonlinear: Sequence[NonlinearTerms],
     ) -> None:
@@ -407,7 +408,7 @@ class ElasticStructure:
         rows = places.only(chosen).rows()
         self._rows.set(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s)
-        blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
+        blocks: Sequence[FloatArray] = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body = np.cumsum(bodies) - 1
         for each in nonlinear:
@@ -423,7 +424,7 @@ class ElasticStructure:
             part.system.factor(own[..., row_of_body[part.bodies]], *(each[..., which] for each in blocks))
         self._stale[stale] = False
 
-    def _solved(self, awake: np.ndarray, right: np.ndarray) -> np.ndarray:
+    def _solved(self, awake: BoolArray, right: FloatArray) -> FloatArray:
         """Changes of velocities (6, n) by impulses (6, n), with the connections of awake parts (p + 1,)."""
         changes = np.zeros((6, self._count))
         for number in np.flatnonzero(awake).tolist():
@@ -432,7 +433,7 @@ class ElasticStructure:
         return changes
 
 
-def _grouped(labels: np.ndarray, numbers: np.ndarray) -> list[np.ndarray]:
+def _grouped(labels: IntArray, numbers: IntArray) -> list[IntArray]:
     """Where labels (n,) have each of some ascending numbers."""
     order = np.argsort(labels, kind="stable")
     starts, ends = (np.searchsorted(labels[order], numbers, side) for side in ("left", "right"))

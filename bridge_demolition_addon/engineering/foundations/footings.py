@@ -17,6 +17,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
 from ..elasticity.joint_rows import cross_products, matrix_products, transposed, turned, turned_back
 
@@ -50,14 +51,14 @@ class SoilSprings:
         Largest pressure, which may be infinite, and largest shear by pressure.
     """
 
-    rows: np.ndarray
-    footings: np.ndarray
-    places_m: np.ndarray
-    areas_m2: np.ndarray
-    stiffness_n_m3: np.ndarray
-    horizontal_n_m3: np.ndarray
-    capacity_pa: np.ndarray
-    friction: np.ndarray
+    rows: IntArray
+    footings: IntArray
+    places_m: FloatArray
+    areas_m2: FloatArray
+    stiffness_n_m3: FloatArray
+    horizontal_n_m3: FloatArray
+    capacity_pa: FloatArray
+    friction: FloatArray
 
 
 class Footings:
@@ -82,11 +83,11 @@ class Footings:
     def __init__(
         self,
         springs: SoilSprings,
-        first: np.ndarray,
-        second: np.ndarray,
-        moves: np.ndarray,
-        positions_m: np.ndarray,
-        rotations: np.ndarray,
+        first: IntArray,
+        second: IntArray,
+        moves: BoolArray,
+        positions_m: FloatArray,
+        rotations: FloatArray,
     ):
         self.rows = springs.rows
         one, other, of = first[self.rows], second[self.rows], springs.footings
@@ -108,7 +109,7 @@ class Footings:
         self._unloaded = np.zeros((3, len(of)))
         self._solved_for = np.full((3, 3, len(of)), np.nan)
 
-    def settle(self, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far places have settled or slid for good.
 
         Parameters
@@ -132,12 +133,12 @@ class Footings:
         self._unloaded[:2, lifted] = gaps[:2, lifted]
 
     @property
-    def touching(self) -> np.ndarray:
+    def touching(self) -> FloatArray:
         """Part (f,) of the stiffness of each footing that is pressed, from 0 to 1, as it settled last."""
         pressed = np.where(self._soil.pressed_n > 0.0, self._soil.vertical_n_m, 0.0)
         return self._summed(pressed) / self._summed(self._soil.vertical_n_m)
 
-    def stored_j(self, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (f,) that the springs would give back."""
         forces = self._soil.resisted(self._gaps(positions_m, rotations)[0] - self._unloaded)[0]
         along = forces[0] * forces[0] + forces[1] * forces[1]
@@ -145,7 +146,7 @@ class Footings:
         return self._summed(0.5 * doubled)
 
     def in_substep(
-        self, chosen: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray, substep_s: float
+        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
     ) -> FootingStep:
         """Return what some footings (c,) do in a sub-step of a length in s."""
         number = np.full(len(self.rows), -1)
@@ -163,7 +164,7 @@ class Footings:
             substep_s,
         )
 
-    def _gaps(self, positions_m: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _gaps(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Where places are: from where they were built on the ground, and from the bodies that stand and the ground."""
         arms = turned(rotations[..., self._standing], self._anchors)
         on_ground = turned(rotations[..., self._ground], self._ground_anchors)
@@ -171,7 +172,7 @@ class Footings:
         gaps = between + arms - on_ground
         return gaps, arms, on_ground + gaps
 
-    def _summed(self, values: np.ndarray) -> np.ndarray:
+    def _summed(self, values: FloatArray) -> FloatArray:
         return np.bincount(self._of, values, len(self.rows))
 
 
@@ -200,9 +201,9 @@ class FootingStep:
 
     def __init__(
         self,
-        rows: np.ndarray,
-        stands_first: np.ndarray,
-        footings: np.ndarray,
+        rows: IntArray,
+        stands_first: BoolArray,
+        footings: IntArray,
         gaps: Gaps,
         soil: PressedSprings,
         solved: SolvedTangents,
@@ -216,11 +217,11 @@ class FootingStep:
         self._slack += _EVEN_M * soil.vertical_n_m
         self._begin_at(np.zeros_like(gaps.widths_m))
 
-    def changed(self) -> np.ndarray:
+    def changed(self) -> BoolArray:
         """Which footings (c,) have other tangents than their equations."""
         return np.bincount(self._of, self._solved.differ(self._tangents), len(self.rows)) > 0
 
-    def blocks(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return what footings (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
         is_chosen = np.zeros(len(self.rows), bool)
         is_chosen[chosen] = True
@@ -235,7 +236,7 @@ class FootingStep:
         first = self._stands_first[chosen]
         return np.where(first, sums, 0.0), np.where(first, 0.0, sums), np.zeros_like(sums)
 
-    def loads(self, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) on the first and second bodies of footings, which have velocities (6, n) then."""
         push = self._substep_s * self._linear(self._substep_s * self._gaps.rates(velocities))
         standing, ground = (
@@ -244,7 +245,7 @@ class FootingStep:
         )
         return np.where(self._stands_first, standing, ground), np.where(self._stands_first, ground, standing)
 
-    def agrees(self, velocities: np.ndarray) -> bool:
+    def agrees(self, velocities: FloatArray) -> bool:
         """Whether the forces are those of the settlement that follows from velocities (6, n); if not, guess again."""
         moved = self._substep_s * self._gaps.rates(velocities)
         off = abs(self._soil.resisted(self._gaps.widths_m + moved)[0] - self._linear(moved)).max(axis=0)
@@ -253,22 +254,22 @@ class FootingStep:
         self._begin_at(moved)
         return False
 
-    def of_bodies(self, loads: tuple[np.ndarray, np.ndarray], count: int) -> np.ndarray:
+    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the bodies that stand, for n bodies; the ground does not move."""
         standing = np.where(self._stands_first, *loads)
         bodies = np.zeros(len(self.rows), int)
         bodies[self._of] = self._gaps.second
         return np.stack([np.bincount(bodies, each, count) for each in standing])
 
-    def _begin_at(self, moved: np.ndarray) -> None:
+    def _begin_at(self, moved: FloatArray) -> None:
         """Take forces for linear about places that have moved further (3, q)."""
         forces, self._tangents = self._soil.resisted(self._gaps.widths_m + moved)
         self._forces = forces + turned(self._tangents, moved)
 
-    def _linear(self, moved: np.ndarray) -> np.ndarray:
+    def _linear(self, moved: FloatArray) -> FloatArray:
         return self._forces - turned(self._tangents, moved)
 
-    def _summed(self, values: np.ndarray) -> np.ndarray:
+    def _summed(self, values: FloatArray) -> FloatArray:
         return np.stack([np.bincount(self._of, each, len(self.rows)) for each in values])
 
 
@@ -288,17 +289,17 @@ class PressedSprings:
         Pressing force by which friction counts.
     """
 
-    vertical_n_m: np.ndarray
-    horizontal_n_m: np.ndarray
-    capacity_n: np.ndarray
-    friction: np.ndarray
-    pressed_n: np.ndarray
+    vertical_n_m: FloatArray
+    horizontal_n_m: FloatArray
+    capacity_n: FloatArray
+    friction: FloatArray
+    pressed_n: FloatArray
 
-    def only(self, which: np.ndarray) -> PressedSprings:
+    def only(self, which: IntArray) -> PressedSprings:
         """Return some of the springs."""
         return PressedSprings(*(getattr(self, item.name)[which] for item in fields(self)))
 
-    def resisted(self, gaps_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return forces (3, q) on what stands on gaps (3, q), and by how much these fall with them, (3, 3, q)."""
         wanted = -self.vertical_n_m * gaps_m[2]
         forces, tangents = np.zeros_like(gaps_m), np.zeros((3, *gaps_m.shape))
@@ -317,6 +318,7 @@ class PressedSprings:
         return forces, tangents
 
 
-def _squares(vectors: np.ndarray) -> np.ndarray:
+def _squares(vectors: FloatArray) -> FloatArray:
     """Return the squares (q,) of vectors (2, q)."""
-    return vectors[0] * vectors[0] + vectors[1] * vectors[1]
+    squares: FloatArray = vectors[0] * vectors[0] + vectors[1] * vectors[1]
+    return squares

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import GeometryError
+from ..arrays import FloatArray
 from ..geometry.vectors import distance
 
 _PAIRS_PER_BLOCK = 2_000_000
@@ -18,11 +19,11 @@ _PAIRS_PER_BLOCK = 2_000_000
 class PointDensity:
     """Relative density of points: `at` gives it (n,) for places (n, 3) in m; it is above 0 and at most `largest`."""
 
-    at: Callable[[np.ndarray], np.ndarray]
+    at: Callable[[FloatArray], FloatArray]
     largest: float
 
 
-def density_around(places_m: np.ndarray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
+def density_around(places_m: FloatArray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
     """Density `factor` in each place, that falls evenly to 1 at its radius; where several reach, the largest counts.
 
     Parameters
@@ -34,9 +35,10 @@ def density_around(places_m: np.ndarray, radii_m: Sequence[float], factors: Sequ
     places = np.asarray(places_m, dtype=float).reshape(-1, 3)
     radii, surplus = np.asarray(radii_m, dtype=float), np.asarray(factors, dtype=float) - 1.0
 
-    def at(points: np.ndarray) -> np.ndarray:
+    def at(points: FloatArray) -> FloatArray:
         distances = distance(points[:, None], places)
-        return 1.0 + (surplus * np.maximum(0.0, 1.0 - distances / radii)).max(axis=1, initial=0.0)
+        densities: FloatArray = 1.0 + (surplus * np.maximum(0.0, 1.0 - distances / radii)).max(axis=1, initial=0.0)
+        return densities
 
     return PointDensity(at, 1.0 + float(surplus.max(initial=0.0)))
 
@@ -44,12 +46,12 @@ def density_around(places_m: np.ndarray, radii_m: Sequence[float], factors: Sequ
 def densest(densities: Sequence[PointDensity]) -> PointDensity:
     """The largest of one or more densities, everywhere."""
     return PointDensity(
-        lambda points: np.max([each.at(points) for each in densities], axis=0),
+        lambda points: np.array([density.at(points) for density in densities]).max(axis=0),
         max(each.largest for each in densities),
     )
 
 
-def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) -> PointDensity:
+def painted_density(points_m: FloatArray, weights: FloatArray, factor: float) -> PointDensity:
     """Density between 1, where nothing is painted, and `factor`, where the paint is full.
 
     Between the painted points the weights are interpolated by inverse squared distances.
@@ -79,7 +81,7 @@ def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) ->
     if not ((weights >= 0.0) & (weights <= 1.0)).all() or not factor >= 1.0:
         raise GeometryError("Painted weights go from 0 to 1, and the factor of the density is at least 1.")
 
-    def at(points: np.ndarray) -> np.ndarray:
+    def at(points: FloatArray) -> FloatArray:
         rows = max(1, _PAIRS_PER_BLOCK // len(known))
         blocks = [_shepard(points[first : first + rows], known, weights) for first in range(0, len(points), rows)]
         return 1.0 + (factor - 1.0) * np.concatenate([np.zeros(0), *blocks])
@@ -87,7 +89,7 @@ def painted_density(points_m: np.ndarray, weights: np.ndarray, factor: float) ->
     return PointDensity(at, factor)
 
 
-def _shepard(points: np.ndarray, known: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _shepard(points: FloatArray, known: FloatArray, weights: FloatArray) -> FloatArray:
     # A place on a painted point takes its weight: the least distance keeps the division finite.
     pull = 1.0 / np.square(np.maximum(distance(points[:, None], known), 1e-9))
     return np.clip((pull * weights).sum(axis=1) / pull.sum(axis=1), 0.0, 1.0)

@@ -8,6 +8,7 @@ import numpy as np
 from manifold3d import Manifold, OpType
 
 from ...errors import GeometryError
+from ..arrays import BoolArray, FloatArray
 from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.solids import from_manifold, to_manifold
 from ..geometry.vectors import dot, unit
@@ -47,7 +48,7 @@ def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float)
     )
 
 
-def is_cut(shard: TriangleMesh, solid: TriangleMesh) -> np.ndarray:
+def is_cut(shard: TriangleMesh, solid: TriangleMesh) -> BoolArray:
     """Which triangles (t,) of a shard do not lie in the surface of the solid it was cut from; none without an area."""
     surface, tolerance = solid.corners, _SAME_PLACE * solid.longest_extent
     corners = shard.corners
@@ -63,8 +64,8 @@ def is_cut(shard: TriangleMesh, solid: TriangleMesh) -> np.ndarray:
 
 
 def _lie_in(
-    places: np.ndarray, normals: np.ndarray, surface: np.ndarray, of_surface: np.ndarray, tolerance: float
-) -> np.ndarray:
+    places: FloatArray, normals: FloatArray, surface: FloatArray, of_surface: FloatArray, tolerance: float
+) -> BoolArray:
     """Whether each place lies in one of the triangles and looks the same way (n,)."""
     close = np.abs(dot(places[:, None] - surface[:, 0], of_surface)) <= tolerance
     close &= dot(normals[:, None], of_surface) > 1.0 - 1e-6
@@ -75,7 +76,7 @@ def _lie_in(
     return close.any(axis=1)
 
 
-def _taken_back(shard: TriangleMesh, is_cut: np.ndarray, depth: float, tolerance: float, number: int) -> TriangleMesh:
+def _taken_back(shard: TriangleMesh, is_cut: BoolArray, depth: float, tolerance: float, number: int) -> TriangleMesh:
     corners = shard.vertices[shard.triangles[is_cut]]
     _, normals = triangle_areas_and_normals(corners)
     heights = dot(normals, corners[:, 0])
@@ -95,7 +96,7 @@ def _taken_back(shard: TriangleMesh, is_cut: np.ndarray, depth: float, tolerance
 _PRISM_TRIANGLES = np.array([[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]])
 
 
-def _prism(corners: np.ndarray, normal: np.ndarray, depth: float) -> Manifold:
+def _prism(corners: FloatArray, normal: FloatArray, depth: float) -> Manifold:
     """What lies within a depth on either side of a triangle (3, 3)."""
     vertices = np.concatenate([corners - depth * normal, corners + depth * normal])
     return to_manifold(TriangleMesh(vertices, _PRISM_TRIANGLES), "A cut")

@@ -8,6 +8,7 @@ from manifold3d import Manifold
 
 from ...errors import GeometryError
 from ..arithmetic import cube_root
+from ..arrays import FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
 from ..geometry.vectors import dot
@@ -22,7 +23,7 @@ _FILLED_ENOUGH = 0.3
 
 def random_points(
     solid: TriangleMesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
-) -> np.ndarray:
+) -> FloatArray:
     """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first.
 
     Raises
@@ -45,7 +46,7 @@ def random_points(
     return np.concatenate([*firsts, drawn(whole, count - len(firsts), generator)])
 
 
-def moved_points(solid: TriangleMesh, points: np.ndarray, reach_m: float, generator: np.random.Generator) -> np.ndarray:
+def moved_points(solid: TriangleMesh, points: FloatArray, reach_m: float, generator: np.random.Generator) -> FloatArray:
     """Points (n, 3) moved at random by up to `reach_m`, each as soon as a move does not lead out of the solid."""
     moved, waiting = points.copy(), np.arange(len(points))
     for _ in range(_MOST_MOVES):
@@ -59,7 +60,7 @@ def moved_points(solid: TriangleMesh, points: np.ndarray, reach_m: float, genera
     return moved
 
 
-def _directions(count: int, generator: np.random.Generator) -> np.ndarray:
+def _directions(count: int, generator: np.random.Generator) -> FloatArray:
     """Unit vectors (count, 3), all directions alike, from uniform numbers alone, which are exact on every processor.
 
     References
@@ -74,7 +75,7 @@ def _directions(count: int, generator: np.random.Generator) -> np.ndarray:
     return np.column_stack((found * (2.0 * np.sqrt(1.0 - squares))[:, None], 1.0 - 2.0 * squares))
 
 
-def _by_density(solid: Manifold, count: int, generator: np.random.Generator, density: PointDensity) -> np.ndarray:
+def _by_density(solid: Manifold, count: int, generator: np.random.Generator, density: PointDensity) -> FloatArray:
     """Points (count, 3) by rejection: of evenly drawn ones as many stay as the density says."""
     points = np.zeros((0, 3))
     while len(points) < count:
@@ -84,7 +85,7 @@ def _by_density(solid: Manifold, count: int, generator: np.random.Generator, den
     return points
 
 
-def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
+def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> FloatArray:
     """Points (count, 3) in the solid, which is diced first, so that few of the points tried fall beside it."""
     # Halved so often at most, there are not many more dice than points.
     dice = _diced(solid, int(count).bit_length())
@@ -92,7 +93,7 @@ def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> np.
     return np.concatenate([_uniform_by_trial(part, some, generator) for part, some in zip(dice, counts, strict=True)])
 
 
-def _shared_out(count: int, volumes: Sequence[float], generator: np.random.Generator) -> np.ndarray:
+def _shared_out(count: int, volumes: Sequence[float], generator: np.random.Generator) -> IntArray:
     """How many of some points (k,) fall into each part, at random by volume.
 
     The generator's own multinomial numbers come from logarithms that differ by processor.
@@ -111,7 +112,7 @@ def _diced(solid: Manifold, depth: int) -> list[Manifold]:
     return [part for half in halves if half.volume() > 0 for part in _diced(half, depth - 1)]
 
 
-def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generator) -> np.ndarray:
+def _uniform_by_trial(solid: Manifold, count: int, generator: np.random.Generator) -> FloatArray:
     lower, upper = np.reshape(solid.bounding_box(), (2, 3))
     mesh = from_manifold(solid)
     points = np.zeros((0, 3))

@@ -15,11 +15,12 @@ from manifold3d import Manifold
 
 from ...errors import GeometryError
 from ..arithmetic import cube_root, power
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh, joined_meshes, triangle_areas_and_normals, volumes_and_centres
 from ..geometry.proximity import ranges
 from ..geometry.seams import sewn
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
-from .options import PLAIN, FractureOptions
+from .options import PLAIN, FractureOptions, Recursion
 from .seeds import moved_points, random_points
 from .shared_faces import NO_FACES, SharedFaces, joined_faces, overlaps, shared_faces, touching_faces
 from .voronoi import convex_cells
@@ -62,9 +63,9 @@ class Fracture:
     """
 
     shards: tuple[TriangleMesh, ...]
-    volumes: np.ndarray
-    centres: np.ndarray
-    points: np.ndarray
+    volumes: FloatArray
+    centres: FloatArray
+    points: FloatArray
     faces: SharedFaces
 
     def __len__(self) -> int:
@@ -77,7 +78,7 @@ class _Piece:
 
     cell: int
     mesh: TriangleMesh
-    facing: np.ndarray
+    facing: BoolArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -85,12 +86,12 @@ class _Triangles:
     """All triangles of some pieces: the piece and cell each is of and the cell it faces (t,), its corners (t, 3, 3),
     its area (t,) and normal (t, 3)."""
 
-    piece: np.ndarray
-    cell: np.ndarray
-    facing: np.ndarray
-    corners: np.ndarray
-    areas: np.ndarray
-    normals: np.ndarray
+    piece: IntArray
+    cell: IntArray
+    facing: IntArray
+    corners: FloatArray
+    areas: FloatArray
+    normals: FloatArray
 
     @classmethod
     def of(cls, pieces: Sequence[_Piece]) -> "_Triangles":
@@ -134,7 +135,7 @@ def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: Frac
     return _fracture_around(solid, points, generator, options)
 
 
-def voronoi_cells(solid: TriangleMesh, points: np.ndarray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
+def voronoi_cells(solid: TriangleMesh, points: FloatArray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
     """The solid in one shard per point: its part nearest to that point.
 
     Parameters
@@ -180,20 +181,23 @@ def joined_fractures(parts: Sequence[Fracture]) -> Fracture:
 
 
 def _fracture_around(
-    solid: TriangleMesh, points: np.ndarray, generator: np.random.Generator, options: FractureOptions
+    solid: TriangleMesh, points: FloatArray, generator: np.random.Generator, options: FractureOptions
 ) -> Fracture:
     stretch = None if options.stretch == PLAIN.stretch else np.array(options.stretch, dtype=float)
     if options.noise > 0.0:
-        points = moved_points(solid, points, options.noise * cube_root(solid.volume / len(points)), generator)
+        points = moved_points(solid, points, options.noise * float(cube_root(solid.volume / len(points))), generator)
     result = _fractured(solid, points, stretch)
-    return _with_recursion(result, generator, options, stretch) if options.recursion else result
+    return _with_recursion(result, generator, options, options.recursion, stretch) if options.recursion else result
 
 
 def _with_recursion(
-    first: Fracture, generator: np.random.Generator, options: FractureOptions, stretch: np.ndarray | None
+    first: Fracture,
+    generator: np.random.Generator,
+    options: FractureOptions,
+    recursion: Recursion,
+    stretch: FloatArray | None,
 ) -> Fracture:
     """A fracture of which some shards are cut once more; faces between their shards are found by where they touch."""
-    recursion = options.recursion
     large = np.flatnonzero(first.volumes >= recursion.smallest_m3)
     chosen = set(generator.permutation(large)[: round(recursion.share * len(large))].tolist())
     if not chosen or recursion.shards < 2:
@@ -208,7 +212,7 @@ def _with_recursion(
     return joined_fractures(parts)
 
 
-def _fractured(solid: TriangleMesh, points: np.ndarray, stretch: np.ndarray | None = None) -> Fracture:
+def _fractured(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | None = None) -> Fracture:
     pieces = _pieces(solid, points, stretch)
     faces = _faces_between(pieces, len(points))
     shard_of_piece = _joined_to_neighbours(pieces, points, faces)
@@ -220,12 +224,12 @@ def _fractured(solid: TriangleMesh, points: np.ndarray, stretch: np.ndarray | No
             f"The {len(shards)} shards hold {volumes.sum():.12g} m³ of the solid's {volume:.12g} m³; it crosses "
             "itself or is too fine to be cut so often."
         )
-    smallest = SMALLEST_FACE * power(volume / len(points), 2 / 3)
+    smallest = SMALLEST_FACE * float(power(volume / len(points), 2 / 3))
     between_shards = shared_faces(shard_of_piece[faces.pairs], faces.areas, faces.centres, faces.normals, smallest)
     return Fracture(shards, volumes, centres, points, between_shards)
 
 
-def _pieces(solid: TriangleMesh, points: np.ndarray, stretch: np.ndarray | None) -> list[_Piece]:
+def _pieces(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | None) -> list[_Piece]:
     """The connected parts of every cell within the solid, cell by cell.
 
     Stretched cells are those of a space that is squeezed by as much, in which all directions count the same.
@@ -252,7 +256,7 @@ def _piece(cell: int, shells: Sequence[Manifold], cut: int) -> _Piece:
     return _Piece(cell, from_manifold(*shells), np.concatenate([_facing(shell, cut) for shell in shells]))
 
 
-def _facing(shell: Manifold, cut: int) -> np.ndarray:
+def _facing(shell: Manifold, cut: int) -> FloatArray:
     """The point (t,) beyond each triangle that the original `cut` made, -1 for those of the solid's own surface."""
     mesh = shell.to_mesh64()
     triangles_of_run = np.diff(np.asarray(mesh.run_index, dtype=np.int64)) // 3
@@ -283,7 +287,7 @@ def _faces_between(pieces: Sequence[_Piece], cell_count: int) -> SharedFaces:
     )
 
 
-def _laid_over(triangles: _Triangles, candidates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _laid_over(triangles: _Triangles, candidates: IntArray) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
     """Which two of the candidates lie on either side of one cut, and area and centre of what they have in common."""
     candidates = candidates[triangles.areas[candidates] > 0]
     near = candidates[triangles.facing[candidates] > triangles.cell[candidates]]
@@ -296,7 +300,7 @@ def _laid_over(triangles: _Triangles, candidates: np.ndarray) -> tuple[np.ndarra
     return first, second, *overlaps(triangles.corners[first], triangles.corners[second])
 
 
-def _matching(keys: np.ndarray, others: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _matching(keys: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
     """Indices into both of all pairs of equal keys."""
     order = np.argsort(others, kind="stable")
     starts = np.searchsorted(others[order], keys, side="left")
@@ -305,7 +309,7 @@ def _matching(keys: np.ndarray, others: np.ndarray) -> tuple[np.ndarray, np.ndar
     return row, order[position]
 
 
-def _joined_to_neighbours(pieces: Sequence[_Piece], points: np.ndarray, faces: SharedFaces) -> np.ndarray:
+def _joined_to_neighbours(pieces: Sequence[_Piece], points: FloatArray, faces: SharedFaces) -> IntArray:
     """The shard (p,) that each piece belongs to."""
     shard_of_piece = np.full(len(pieces), -1)
     cell = np.array([piece.cell for piece in pieces])
@@ -329,11 +333,11 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: np.ndarray, faces: S
     return shard_of_piece
 
 
-def _holds(piece: _Piece, point: np.ndarray) -> bool:
+def _holds(piece: _Piece, point: FloatArray) -> bool:
     return bool(contains(piece.mesh, point)[0])
 
 
-def _grouped(pieces: Sequence[_Piece], shard_of_piece: np.ndarray, count: int) -> list[list[_Piece]]:
+def _grouped(pieces: Sequence[_Piece], shard_of_piece: IntArray, count: int) -> list[list[_Piece]]:
     members: list[list[_Piece]] = [[] for _ in range(count)]
     for piece, shard in zip(pieces, shard_of_piece, strict=True):
         members[shard].append(piece)

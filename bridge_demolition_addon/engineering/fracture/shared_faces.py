@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.proximity import boxes_that_meet, ranges
 from ..geometry.vectors import cross_2d, dot, length, transformed, transformed_back, unit
@@ -36,10 +37,10 @@ class SharedFaces:
         of its area vectors.
     """
 
-    pairs: np.ndarray
-    areas: np.ndarray
-    centres: np.ndarray
-    normals: np.ndarray
+    pairs: IntArray
+    areas: FloatArray
+    centres: FloatArray
+    normals: FloatArray
 
     def __len__(self) -> int:
         return len(self.areas)
@@ -50,7 +51,7 @@ NO_FACES = SharedFaces(np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((
 
 
 def shared_faces(
-    pairs: np.ndarray, areas: np.ndarray, centres: np.ndarray, normals: np.ndarray, smallest_area: float = 0.0
+    pairs: IntArray, areas: FloatArray, centres: FloatArray, normals: FloatArray, smallest_area: float = 0.0
 ) -> SharedFaces:
     """Patches (m,) between two shards each, put together to one face per pair of shards.
 
@@ -90,7 +91,7 @@ def joined_faces(parts: Sequence[SharedFaces]) -> SharedFaces:
 
 
 def touching_faces(
-    meshes: Sequence[TriangleMesh], tolerance_m: float = 1e-4, member: np.ndarray | None = None
+    meshes: Sequence[TriangleMesh], tolerance_m: float = 1e-4, member: IntArray | None = None
 ) -> SharedFaces:
     """Where meshes stand on or against each other with plane faces that look at each other.
 
@@ -119,10 +120,11 @@ def touching_faces(
     surface = _Surface.of(meshes)
     for first in range(0, len(pairs), _PAIRS_PER_BLOCK):
         patches.append(_touching_patches(surface, pairs[first : first + _PAIRS_PER_BLOCK], lower, upper, tolerance_m))
-    return shared_faces(*(np.concatenate(column) for column in zip(*patches, strict=True)))
+    pairs, areas, centres, normals = (np.concatenate(column) for column in zip(*patches, strict=True))
+    return shared_faces(pairs, areas, centres, normals)
 
 
-def overlaps(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def overlaps(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArray]:
     """What pairs of triangles that look at each other have in common, seen along the normal of the first.
 
     Parameters
@@ -160,12 +162,12 @@ def overlaps(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndar
 class _Surface:
     """All triangles of all meshes with their boxes, and where those of each mesh begin: `bounds` (n + 1,)."""
 
-    corners: np.ndarray
-    areas: np.ndarray
-    normals: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-    bounds: np.ndarray
+    corners: FloatArray
+    areas: FloatArray
+    normals: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    bounds: IntArray
 
     @classmethod
     def of(cls, meshes: Sequence[TriangleMesh]) -> "_Surface":
@@ -177,8 +179,8 @@ class _Surface:
 
 
 def _touching_patches(
-    surface: _Surface, pairs: np.ndarray, lower: np.ndarray, upper: np.ndarray, tolerance: float
-) -> tuple[np.ndarray, ...]:
+    surface: _Surface, pairs: IntArray, lower: FloatArray, upper: FloatArray, tolerance: float
+) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
     """Pairs, areas, centres and normals of all common patches, triangle by triangle, of these pairs of meshes."""
     row, first, second = _facing_triangles(surface, pairs, lower, upper, tolerance)
     areas, centres = overlaps(surface.corners[first], surface.corners[second])
@@ -189,8 +191,8 @@ def _touching_patches(
 
 
 def _facing_triangles(
-    surface: _Surface, pairs: np.ndarray, lower: np.ndarray, upper: np.ndarray, tolerance: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    surface: _Surface, pairs: IntArray, lower: FloatArray, upper: FloatArray, tolerance: float
+) -> tuple[IntArray, IntArray, IntArray]:
     """Row of the pair, triangle of its first and triangle of its second mesh, wherever the two may touch."""
     reach = np.full(3, tolerance)
     row, first = _triangles_in_box(surface, pairs[:, 0], lower[pairs[:, 1]] - reach, upper[pairs[:, 1]] + reach)
@@ -209,15 +211,15 @@ def _facing_triangles(
 
 
 def _triangles_in_box(
-    surface: _Surface, meshes: np.ndarray, lower: np.ndarray, upper: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+    surface: _Surface, meshes: IntArray, lower: FloatArray, upper: FloatArray
+) -> tuple[IntArray, IntArray]:
     """Row k and triangle of meshes[k], for all triangles of it whose box meets the box k."""
     row, triangle = ranges(surface.bounds[meshes], surface.bounds[meshes + 1] - surface.bounds[meshes])
     meets = ((surface.lower[triangle] <= upper[row]) & (surface.upper[triangle] >= lower[row])).all(axis=1)
     return row[meets], triangle[meets]
 
 
-def _left_of_line(polygons: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
+def _left_of_line(polygons: FloatArray, point: FloatArray, direction: FloatArray) -> FloatArray:
     """Polygons (m, k, 2) cut to the left of a line each, with twice the corners, some of them doubled."""
     leftwards = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
     heights = dot(polygons - point[:, None], leftwards[:, None])
@@ -230,7 +232,7 @@ def _left_of_line(polygons: np.ndarray, point: np.ndarray, direction: np.ndarray
     return np.stack([onto_line, between], axis=2).reshape(len(polygons), 2 * polygons.shape[1], 2)
 
 
-def _polygon_areas_and_centres(polygons: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _polygon_areas_and_centres(polygons: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Areas (m,) and centres (m, 2) of polygons (m, k, 2); the first corner where there is no area."""
     base = polygons[:, :1]
     here = polygons - base
@@ -242,7 +244,7 @@ def _polygon_areas_and_centres(polygons: np.ndarray) -> tuple[np.ndarray, np.nda
     return np.maximum(areas, 0), base[:, 0] + offsets
 
 
-def _summed(rows: np.ndarray, group: np.ndarray, count: int) -> np.ndarray:
+def _summed(rows: FloatArray, group: IntArray, count: int) -> FloatArray:
     """Sums (count, 3) of the rows (m, 3) of each group."""
     columns = [np.bincount(group, weights=column, minlength=count) for column in rows.T]
     return np.column_stack(columns)

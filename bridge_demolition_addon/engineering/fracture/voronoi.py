@@ -13,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...errors import GeometryError
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.vectors import distance, dot, length, unit
 
@@ -46,7 +47,7 @@ class ConvexCell:
     """
 
     mesh: TriangleMesh
-    neighbours: np.ndarray
+    neighbours: IntArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,14 +55,14 @@ class _Polyhedra:
     """Many convex polyhedra: `corners` (v, 3) and the polyhedron that is the `owner` (v,) of each; half-edges from
     corner `start` (h,) to corner `end` (h,) around the face with that `label` (h,)."""
 
-    corners: np.ndarray
-    owner: np.ndarray
-    start: np.ndarray
-    end: np.ndarray
-    label: np.ndarray
+    corners: FloatArray
+    owner: IntArray
+    start: IntArray
+    end: IntArray
+    label: IntArray
 
 
-def convex_cells(points: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> Iterator[ConvexCell]:
+def convex_cells(points: FloatArray, lower: FloatArray, upper: FloatArray) -> Iterator[ConvexCell]:
     """Voronoi cells of points in an axis-parallel box, in the order of the points.
 
     A cell is clipped by its neighbours, nearest first, until no point is left whose plane would cut off a corner.
@@ -86,7 +87,7 @@ def convex_cells(points: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> It
         yield from _triangulated(cells, len(members))
 
 
-def _clipped_by_nearest(cells: _Polyhedra, points: np.ndarray, members: np.ndarray, scale: float) -> _Polyhedra:
+def _clipped_by_nearest(cells: _Polyhedra, points: FloatArray, members: IntArray, scale: float) -> _Polyhedra:
     """Cells clipped by all points that can reach them; cell k is that of point members[k]."""
     own = points[members]
     tolerance = PLANE_TOLERANCE * scale
@@ -106,7 +107,7 @@ def _clipped_by_nearest(cells: _Polyhedra, points: np.ndarray, members: np.ndarr
 
 
 def _drop_what_cannot_cut(
-    distances: np.ndarray, cells: _Polyhedra, own: np.ndarray, points: np.ndarray, tolerance: float
+    distances: FloatArray, cells: _Polyhedra, own: FloatArray, points: FloatArray, tolerance: float
 ) -> None:
     """Set to infinity the distance of every point whose plane lies beyond all corners of a cell."""
     corners = _sorted_by_owner(cells)
@@ -123,14 +124,14 @@ def _drop_what_cannot_cut(
         distances[cell, cutting] = still
 
 
-def _check_apart(distances: np.ndarray, members: np.ndarray, tolerance: float) -> None:
+def _check_apart(distances: FloatArray, members: IntArray, tolerance: float) -> None:
     close = np.argwhere(distances <= tolerance)
     if len(close):
         first, second = members[close[0, 0]], close[0, 1]
         raise GeometryError(f"Points {first} and {second} coincide; a cell needs a point of its own.")
 
 
-def _nearest(distances: np.ndarray, count: int) -> np.ndarray:
+def _nearest(distances: FloatArray, count: int) -> IntArray:
     """Columns of the `count` smallest distances of each row, nearest first; ties in the order of the columns."""
     count = min(count, distances.shape[1])
     farthest = np.partition(distances, count - 1, axis=1)[:, count - 1, None]
@@ -141,7 +142,7 @@ def _nearest(distances: np.ndarray, count: int) -> np.ndarray:
     return np.take_along_axis(columns, order, axis=1)
 
 
-def _boxes(lower: np.ndarray, upper: np.ndarray, count: int, first_label: int) -> _Polyhedra:
+def _boxes(lower: FloatArray, upper: FloatArray, count: int, first_label: int) -> _Polyhedra:
     """The same box `count` times; its sides are labelled from `first_label` upwards."""
     corners = np.tile(np.where(_CORNERS, upper, lower), (count, 1))
     owner = np.repeat(np.arange(count), len(_CORNERS))
@@ -152,7 +153,7 @@ def _boxes(lower: np.ndarray, upper: np.ndarray, count: int, first_label: int) -
     return _Polyhedra(corners, owner, start, end, label)
 
 
-def _bisectors(points: np.ndarray, others: np.ndarray, usable: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _bisectors(points: FloatArray, others: IntArray, usable: BoolArray) -> tuple[FloatArray, FloatArray]:
     """Normals (n, 3) and offsets (n,) of the planes halfway to the others; infinitely far where not usable (n,)."""
     towards = np.where(usable[:, None], others - points, [1.0, 0.0, 0.0])
     normals = unit(towards)
@@ -160,7 +161,7 @@ def _bisectors(points: np.ndarray, others: np.ndarray, usable: np.ndarray) -> tu
 
 
 def _clipped(
-    cells: _Polyhedra, normals: np.ndarray, offsets: np.ndarray, labels: np.ndarray, tolerance: float
+    cells: _Polyhedra, normals: FloatArray, offsets: FloatArray, labels: IntArray, tolerance: float
 ) -> _Polyhedra:
     """Each cell without what is beyond its plane of normal (n, 3) and offset (n,); the cut is labelled (n,)."""
     heights = dot(cells.corners, normals[cells.owner]) - offsets[cells.owner]
@@ -199,7 +200,7 @@ def _clipped(
     )
 
 
-def _compacted(cells: _Polyhedra, used: np.ndarray) -> _Polyhedra:
+def _compacted(cells: _Polyhedra, used: BoolArray) -> _Polyhedra:
     """The cells without the corners that are not used (v,)."""
     renumbered = np.cumsum(used) - 1
     return _Polyhedra(

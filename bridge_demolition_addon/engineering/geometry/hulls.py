@@ -1,12 +1,13 @@
 """Convex hulls of bodies as flat arrays: what a blast wave sees of them, and what they hide from it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ...errors import GeometryError
+from ..arrays import FloatArray, IntArray
 from .mesh import TriangleMesh
 from .solids import from_manifold, hull
 from .vectors import dot, length
@@ -40,30 +41,30 @@ class ConvexHulls:
         Where the vertices of each body begin, and the number of all.
     """
 
-    normals: np.ndarray
-    areas: np.ndarray
-    face_vectors: np.ndarray
-    offsets: np.ndarray
-    starts: np.ndarray
-    vertices: np.ndarray
-    vertex_starts: np.ndarray
+    normals: FloatArray
+    areas: FloatArray
+    face_vectors: FloatArray
+    offsets: FloatArray
+    starts: IntArray
+    vertices: FloatArray
+    vertex_starts: IntArray
 
     def __len__(self) -> int:
         return len(self.starts) - 1
 
     @cached_property
-    def bodies(self) -> np.ndarray:
+    def bodies(self) -> IntArray:
         """(f,) the body of every face."""
         return np.repeat(np.arange(len(self)), np.diff(self.starts))
 
     @property
-    def radii(self) -> np.ndarray:
+    def radii(self) -> FloatArray:
         """(n,) distances of the farthest vertices from the centres of mass, m."""
         distances = length(self.vertices)
         return np.maximum.reduceat(distances, self.vertex_starts[:-1]) if len(self) else np.zeros(0)
 
 
-def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = None) -> ConvexHulls:
+def convex_hulls(bodies: Sequence[FloatArray], names: Sequence[str] | None = None) -> ConvexHulls:
     """Convex hulls of bodies.
 
     Parameters
@@ -78,7 +79,7 @@ def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = Non
     GeometryError
         A body has no volume.
     """
-    called = range(len(bodies)) if names is None else map(repr, names)
+    called: Iterable[int | str] = range(len(bodies)) if names is None else map(repr, names)
     meshes = [_hull(np.asarray(vertices, float), name) for name, vertices in zip(called, bodies, strict=True)]
     faces = [_faces(mesh.corners) for mesh in meshes]
     planes = np.concatenate([np.zeros((0, 4)), *(planes for planes, _ in faces)])
@@ -94,7 +95,7 @@ def convex_hulls(bodies: Sequence[np.ndarray], names: Sequence[str] | None = Non
     )
 
 
-def _hull(points: np.ndarray, name: int | str) -> TriangleMesh:
+def _hull(points: FloatArray, name: int | str) -> TriangleMesh:
     """Convex hull of points (v, 3) that do not lie in one plane."""
     if len(points) >= 4 and np.isfinite(points).all():
         around = hull(points)
@@ -105,7 +106,7 @@ def _hull(points: np.ndarray, name: int | str) -> TriangleMesh:
     raise GeometryError(f"body {name} has no volume: expected finite vertices that do not lie in one plane")
 
 
-def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _faces(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Planes (f, 4), normal and offset, and areas (f,) of triangles (t, 3, 3), those in one plane as one face."""
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = length(doubled)

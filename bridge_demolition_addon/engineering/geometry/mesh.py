@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from .vectors import dot, length, unit
 
 
@@ -22,16 +23,16 @@ class TriangleMesh:
         Vertices of each triangle, counter-clockwise seen from outside.
     """
 
-    vertices: np.ndarray
-    triangles: np.ndarray
+    vertices: FloatArray
+    triangles: IntArray
 
     @property
-    def corners(self) -> np.ndarray:
+    def corners(self) -> FloatArray:
         """(t, 3, 3) corners of every triangle, m."""
         return self.vertices[self.triangles]
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> FloatArray:
         """(2, 3) lowest and highest corner of the box around the surface, m."""
         corners = self.corners.reshape(-1, 3)
         return np.array((corners.min(axis=0), corners.max(axis=0)))
@@ -64,13 +65,13 @@ def joined_meshes(meshes: Sequence[TriangleMesh]) -> TriangleMesh:
     return TriangleMesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(triangles))
 
 
-def triangle_areas_and_normals(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def triangle_areas_and_normals(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Areas (t,) and unit normals (t, 3) of triangles (t, 3, 3); a zero normal where there is no area."""
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return length(doubled) / 2.0, unit(doubled)
 
 
-def volumes_and_centres(meshes: Sequence[TriangleMesh]) -> tuple[np.ndarray, np.ndarray]:
+def volumes_and_centres(meshes: Sequence[TriangleMesh]) -> tuple[FloatArray, FloatArray]:
     """Volumes and centres of mass of closed meshes of uniform density, by Gauss's theorem.
 
     Returns

@@ -9,6 +9,7 @@ import numpy as np
 from manifold3d import Manifold, OpType
 
 from ...errors import GeometryError
+from ..arrays import FloatArray, IntArray
 from .mesh import TriangleMesh
 from .proximity import boxes_that_meet
 from .solids import OVERLAP_TOLERANCE, bodies, from_manifold, hull, is_film, to_manifold
@@ -24,8 +25,8 @@ _ROUNDING = 1e-9
 class Overlaps:
     """Pairs of meshes that overlap, the largest volume first: indices (k, 2), and common volumes (k,) in m³."""
 
-    pairs: np.ndarray
-    volumes: np.ndarray
+    pairs: IntArray
+    volumes: FloatArray
 
     def __len__(self) -> int:
         return len(self.volumes)
@@ -61,7 +62,7 @@ def hulls(shards: Sequence[TriangleMesh]) -> list[TriangleMesh]:
     return [from_manifold(hull(shard.vertices)) for shard in shards]
 
 
-def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], np.ndarray]:
+def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], FloatArray]:
     """Solids without what they have in common with those before them.
 
     Parameters

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 from manifold3d import CrossSection, OpType
 
+from ..arrays import FloatArray, IntArray
 from .vectors import cross_2d, distance, dot
 
 FEWEST_CORNERS = 3
@@ -17,7 +18,7 @@ _PAIRS_PER_BLOCK = 200_000
 """Pairs of point and side that `distances_outside` looks at in one go; bounds its memory to some tens of megabytes."""
 
 
-def signed_area(corners: np.ndarray) -> np.ndarray:
+def signed_area(corners: FloatArray) -> FloatArray:
     """Areas (...) within polygons (..., k, 2), negative where the corners run clockwise (Gauss's shoelace formula)."""
     # From the first corner, because a small polygon far from the origin would lose its area in rounding.
     arms = corners - corners[..., :1, :]
@@ -34,12 +35,12 @@ def united(areas: Iterable[CrossSection]) -> CrossSection:
     return areas[0] if areas else CrossSection()
 
 
-def outlines(area: CrossSection) -> list[np.ndarray]:
+def outlines(area: CrossSection) -> list[FloatArray]:
     """Closed outlines of an area, each (k, 2) in m: outer ones run anticlockwise, those of holes clockwise."""
     return [np.asarray(each, float) for each in area.to_polygons()]
 
 
-def distances_outside(area: CrossSection, points: np.ndarray) -> np.ndarray:
+def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:
     """How far points (p, 2) are outside an area, m (p,); 0 within it.
 
     Raises
@@ -62,7 +63,7 @@ def distances_outside(area: CrossSection, points: np.ndarray) -> np.ndarray:
     return distances
 
 
-def _distances_to_sides(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+def _distances_to_sides(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
     """Distances (p, s) of points from sides."""
     sides = ends - starts
     lengths_squared = np.maximum(dot(sides, sides), np.finfo(float).tiny)
@@ -71,7 +72,7 @@ def _distances_to_sides(points: np.ndarray, starts: np.ndarray, ends: np.ndarray
     return distance(points[:, None], nearest)
 
 
-def _windings(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+def _windings(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IntArray:
     """How often an outline winds around each of the points (p,), from the sides that a ray to the right meets.
 
     References
@@ -85,7 +86,7 @@ def _windings(points: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> np.nd
     return rises.sum(axis=1) - falls.sum(axis=1)
 
 
-def sides_cross(corners: np.ndarray) -> bool:
+def sides_cross(corners: FloatArray) -> bool:
     """Whether two sides of a polygon (k, 2) that are not neighbours meet, or it has no area."""
     ends = np.roll(corners, -1, axis=0)
     if abs(signed_area(corners)) <= 1e-12 * max(1.0, float(np.square(np.ptp(corners, axis=0).max()))):
@@ -99,13 +100,13 @@ def sides_cross(corners: np.ndarray) -> bool:
     )
 
 
-def _meet(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> bool:
+def _meet(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> bool:
     """Return whether the segments from a to b and from c to d have a point in common; all (2,) float."""
 
-    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> float:
+    def side(p: FloatArray, q: FloatArray, r: FloatArray) -> float:
         return float(np.sign(cross_2d(q - p, r - p)))
 
-    def within(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> bool:
+    def within(p: FloatArray, q: FloatArray, r: FloatArray) -> bool:
         return bool(((np.minimum(p, q) <= r) & (r <= np.maximum(p, q))).all())
 
     first, second, third, fourth = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from .plan_areas import united
 
 _SIZES_M = tuple(step * decade for decade in (0.1, 1.0, 10.0, 100.0, 1000.0) for step in (1.0, 2.0, 5.0))
@@ -36,7 +37,7 @@ class PlanCells:
     rows: int
 
     @classmethod
-    def over(cls, low_m: np.ndarray, high_m: np.ndarray, most: int) -> PlanCells:
+    def over(cls, low_m: FloatArray, high_m: FloatArray, most: int) -> PlanCells:
         """Return cells that cover a rectangle (2,) to (2,), as small as `most` along its longer side allow.
 
         Raises
@@ -54,16 +55,16 @@ class PlanCells:
         return cls(side_m, int(first[0]), int(first[1]), int(counts[0]), int(counts[1]))
 
     @property
-    def xs_m(self) -> np.ndarray:
+    def xs_m(self) -> FloatArray:
         """Lines between columns, (columns + 1,), m."""
-        return (self.first_column + np.arange(self.columns + 1)) * self.side_m
+        return self.side_m * np.arange(self.first_column, self.first_column + self.columns + 1, dtype=float)
 
     @property
-    def ys_m(self) -> np.ndarray:
+    def ys_m(self) -> FloatArray:
         """Lines between rows, (rows + 1,), m."""
-        return (self.first_row + np.arange(self.rows + 1)) * self.side_m
+        return self.side_m * np.arange(self.first_row, self.first_row + self.rows + 1, dtype=float)
 
-    def touched(self, rings: Sequence[np.ndarray]) -> np.ndarray:
+    def touched(self, rings: Sequence[FloatArray]) -> BoolArray:
         """Return of which cells (rows, columns) an area covers a part, even the smallest.
 
         Parameters
@@ -82,7 +83,7 @@ class PlanCells:
         ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in in_cells])
         return self._crossed(starts, ends) | self._centres_within(starts, ends)
 
-    def area_of(self, chosen: np.ndarray) -> CrossSection:
+    def area_of(self, chosen: BoolArray) -> CrossSection:
         """Return what the chosen ones (rows, columns) of the cells cover."""
         steps = np.diff(np.pad(chosen.astype(int), ((0, 0), (1, 1))), axis=1)
         rows, firsts = np.nonzero(steps == 1)
@@ -93,7 +94,7 @@ class PlanCells:
             CrossSection([[(left, low), (right, low), (right, high), (left, high)]]) for left, right, low, high in bars
         )
 
-    def _crossed(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    def _crossed(self, starts: FloatArray, ends: FloatArray) -> BoolArray:
         """Which cells sides of an area run through, not only along."""
         lowest, highest = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
         sides, rows = _spread(np.floor(lowest), np.ceil(highest))
@@ -108,7 +109,7 @@ class PlanCells:
         firsts, lasts = np.floor(xs.min(axis=1)), np.ceil(xs.max(axis=1))
         return self._filled(rows, firsts, 1) + self._filled(rows, lasts, -1) > 0
 
-    def _centres_within(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    def _centres_within(self, starts: FloatArray, ends: FloatArray) -> BoolArray:
         """Which middles of cells an area covers: outlines wind around them."""
         lowest, highest = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
         sides, rows = _spread(np.ceil(lowest - 0.5), np.ceil(highest - 0.5))
@@ -116,9 +117,10 @@ class PlanCells:
         slopes = (end[:, 0] - start[:, 0]) / (end[:, 1] - start[:, 1])
         xs = start[:, 0] + slopes * (rows + 0.5 - start[:, 1])
         upwards = np.where(end[:, 1] > start[:, 1], -1, 1)
-        return self._filled(rows, np.ceil(xs - 0.5), upwards) != 0
+        covered: BoolArray = self._filled(rows, np.ceil(xs - 0.5), upwards) != 0
+        return covered
 
-    def _filled(self, rows: np.ndarray, columns: np.ndarray, values: np.ndarray | int) -> np.ndarray:
+    def _filled(self, rows: IntArray, columns: IntArray, values: IntArray | int) -> IntArray:
         """Sums (rows, columns) of values that count from their column on to the right."""
         sums = np.zeros((self.rows, self.columns + 1), int)
         inside = np.clip(columns, 0, self.columns).astype(int)
@@ -126,7 +128,7 @@ class PlanCells:
         return np.cumsum(sums, axis=1)[:, :-1]
 
 
-def _spread(firsts: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _spread(firsts: IntArray, ends: IntArray) -> tuple[IntArray, IntArray]:
     """Numbers of ranges, each as often as it has members, and the members; ranges begin before their ends."""
     counts = np.maximum(ends - firsts, 0.0).astype(int)
     of = np.repeat(np.arange(len(counts)), counts)

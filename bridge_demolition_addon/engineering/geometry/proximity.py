@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from .vectors import distance
 
 _MOST_CELLS = 2**20
@@ -29,14 +30,14 @@ _GROWTH = 1.5
 """Growth of a radius in which too few neighbours were found."""
 
 
-def ranges(starts: np.ndarray, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def ranges(starts: IntArray, counts: IntArray) -> tuple[IntArray, IntArray]:
     """For every row k the numbers starts[k] ... starts[k] + counts[k] - 1, one after the other, and each one's row."""
     rows = np.repeat(np.arange(len(counts)), counts)
     firsts = np.cumsum(counts) - counts
     return rows, np.arange(len(rows)) - firsts[rows] + starts[rows]
 
 
-def blocks(counts: np.ndarray) -> Iterator[slice]:
+def blocks(counts: IntArray) -> Iterator[slice]:
     """Slices of rows (k,), in order, each with as many as can be worked on at once by their counts, or one row."""
     sums = np.cumsum(counts)
     start, before = 0, 0
@@ -46,7 +47,7 @@ def blocks(counts: np.ndarray) -> Iterator[slice]:
         start, before = end, int(sums[end - 1])
 
 
-def boxes_that_meet(lower: np.ndarray, upper: np.ndarray, distance: float = 0.0) -> np.ndarray:
+def boxes_that_meet(lower: FloatArray, upper: FloatArray, distance: float = 0.0) -> IntArray:
     """Pairs of boxes, by corners (n, 3), that are no further apart than a distance in every direction.
 
     Every box is noted in all cells that it reaches into, and boxes noted in the same cell are compared. A pair is taken
@@ -57,7 +58,7 @@ def boxes_that_meet(lower: np.ndarray, upper: np.ndarray, distance: float = 0.0)
     (k, 2) int
         The smaller index first, in ascending order.
     """
-    found = [np.zeros((0, 2), np.int64)]
+    found: list[IntArray] = [np.zeros((0, 2), np.int64)]
     if len(lower) > 1:
         upper = upper + distance  # to one side is enough: half of the distance on either side comes to the same
         low, key_of, boxes, keys = _boxes_in_cells(lower, upper)
@@ -74,9 +75,10 @@ def boxes_that_meet(lower: np.ndarray, upper: np.ndarray, distance: float = 0.0)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
 
 
-def points_within(points: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+def points_within(points: FloatArray, radius: float) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of points (n, 3) no further apart than a radius, in ascending order, and their distances (k,)."""
-    found_pairs, found_distances = [np.zeros((0, 2), np.int64)], [np.zeros(0)]
+    found_pairs: list[IntArray] = [np.zeros((0, 2), np.int64)]
+    found_distances = [np.zeros(0)]
     if len(points) > 1:
         for query, other, distances in _Grid.of(points, radius).near(np.arange(len(points))):
             once = (query < other) & (distances <= radius)
@@ -87,7 +89,7 @@ def points_within(points: np.ndarray, radius: float) -> tuple[np.ndarray, np.nda
     return pairs[order], distances[order]
 
 
-def nearest_points(points: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def nearest_points(points: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
     """The points nearest to each point, nearest first and, at the same distance, the smaller index first.
 
     Parameters
@@ -108,7 +110,7 @@ def nearest_points(points: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarr
     waiting = np.arange(len(points)) if count else np.zeros(0, np.int64)
     radius = _likely_radius(points, count) if count else 0.0
     while len(waiting):
-        served = [np.zeros(0, np.int64)]
+        served: list[IntArray] = [np.zeros(0, np.int64)]
         for query, other, apart in _Grid.of(points, radius).near(waiting):
             near = (query != other) & (apart <= radius)
             served.append(_keep_nearest(query[near], other[near], apart[near], indices, distances))
@@ -124,14 +126,14 @@ class _Grid:
     The steps (9,) lead from the number of a cell to those of the rows of cells beside and around it.
     """
 
-    points: np.ndarray
-    keys: np.ndarray
-    steps: np.ndarray
-    order: np.ndarray
-    sorted_keys: np.ndarray
+    points: FloatArray
+    keys: IntArray
+    steps: FloatArray
+    order: IntArray
+    sorted_keys: IntArray
 
     @classmethod
-    def of(cls, points: np.ndarray, radius: float) -> _Grid:
+    def of(cls, points: FloatArray, radius: float) -> _Grid:
         """Grid whose cells are as large as a radius."""
         low = points.min(axis=0)
         extent = float((points.max(axis=0) - low).max())
@@ -143,7 +145,7 @@ class _Grid:
         order = np.argsort(keys, kind="stable")
         return cls(points, keys, ((beside[:, None] * across + beside) * along).ravel(), order, keys[order])
 
-    def near(self, queries: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def near(self, queries: IntArray) -> Iterator[tuple[IntArray, IntArray, FloatArray]]:
         """Points (k,) among some queries, others (k,) in the cells around them, and distances (k,), block by block.
 
         All others of a query are in the same block. The query itself is among them.
@@ -157,7 +159,9 @@ class _Grid:
             yield query, other, distance(self.points[query], self.points[other])
 
 
-def _boxes_in_cells(lower: np.ndarray, upper: np.ndarray) -> tuple:
+def _boxes_in_cells(
+    lower: FloatArray, upper: FloatArray
+) -> tuple[IntArray, Callable[[IntArray], IntArray], IntArray, IntArray]:
     """Lowest cells (n, 3) of boxes, how to number a cell, and boxes (e,) with the numbers (e,) of cells, by number."""
     origin, extent = lower.min(axis=0), float((upper.max(axis=0) - lower.min(axis=0)).max())
     size = max(float(np.median((upper - lower).max(axis=1))), extent / _MOST_CELLS) or 1.0
@@ -167,8 +171,9 @@ def _boxes_in_cells(lower: np.ndarray, upper: np.ndarray) -> tuple:
     high = np.floor((upper - origin) / size).astype(np.int64)
     _, across, along = high.max(axis=0) + 1
 
-    def key_of(cells: np.ndarray) -> np.ndarray:
-        return (cells[:, 0] * across + cells[:, 1]) * along + cells[:, 2]
+    def key_of(cells: IntArray) -> IntArray:
+        numbers: IntArray = (cells[:, 0] * across + cells[:, 1]) * along + cells[:, 2]
+        return numbers
 
     counts = high - low + 1
     boxes, place = ranges(np.zeros(len(lower), np.int64), counts.prod(axis=1))
@@ -178,7 +183,7 @@ def _boxes_in_cells(lower: np.ndarray, upper: np.ndarray) -> tuple:
     return low, key_of, boxes[order], keys[order]
 
 
-def _likely_radius(points: np.ndarray, count: int) -> float:
+def _likely_radius(points: FloatArray, count: int) -> float:
     """A radius in which some points have that many others; more than 0 unless all points are in one place."""
     sample = points[:: max(1, len(points) // _SAMPLE)]
     distances = distance(sample[:, None], points)
@@ -187,14 +192,14 @@ def _likely_radius(points: np.ndarray, count: int) -> float:
 
 
 def _keep_nearest(
-    query: np.ndarray, other: np.ndarray, apart: np.ndarray, indices: np.ndarray, distances: np.ndarray
-) -> np.ndarray:
+    query: IntArray, other: IntArray, apart: FloatArray, indices: IntArray, distances: FloatArray
+) -> IntArray:
     """Enter the nearest others of all queries that have enough of them, and say which these are."""
     order = np.lexsort((other, apart, query))
     query, other, apart = query[order], other[order], apart[order]
-    served, starts, counts = np.unique(query, return_index=True, return_counts=True)
+    unique, starts, counts = np.unique(query, return_index=True, return_counts=True)
     enough = counts >= indices.shape[1]
-    served, starts = served[enough], starts[enough]
-    rows = starts[:, None] + np.arange(indices.shape[1])
+    served: IntArray = unique[enough]
+    rows = starts[enough, None] + np.arange(indices.shape[1])
     indices[served], distances[served] = other[rows], apart[rows]
     return served

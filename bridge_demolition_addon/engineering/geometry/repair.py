@@ -9,6 +9,7 @@ import numpy as np
 from manifold3d import triangulate
 
 from ...errors import GeometryError
+from ..arrays import BoolArray, FloatArray, IntArray
 from .mesh import TriangleMesh
 from .seams import loops_of_open_edges, welded, without_slivers
 from .self_intersection import first_crossing
@@ -82,13 +83,13 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     return Repaired(checked_solid(solid, name), tuple(repairs))
 
 
-def _merged(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
+def _merged(mesh: TriangleMesh) -> tuple[FloatArray, IntArray]:
     """Vertices at exactly the same place as one, which is no repair: STL has no shared vertices."""
     unique, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
     return unique, index.ravel()[mesh.triangles]
 
 
-def _without_doubles(triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
+def _without_doubles(triangles: IntArray, repairs: list[str]) -> IntArray:
     """Without triangles that have a corner twice, and with one of each set of equal ones; opposite ones cancel."""
     kept = without_slivers(triangles)
     _, first, group = np.unique(np.sort(kept, axis=1), axis=0, return_index=True, return_inverse=True)
@@ -96,16 +97,17 @@ def _without_doubles(triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
     chosen = np.sort(first[net != 0])
     if dropped := len(kept) - len(chosen):
         repairs.append(f"dropped {dropped} doubled faces")
-    return kept[chosen]
+    single: IntArray = kept[chosen]
+    return single
 
 
-def _parity(triangles: np.ndarray) -> np.ndarray:
+def _parity(triangles: IntArray) -> IntArray:
     """1 for triangles that walk their corners in rising order, -1 for the other way round, (t,)."""
     a, b, c = triangles.T
     return np.where((a < b).astype(int) + (b < c) + (c < a) == 2, 1, -1)
 
 
-def _welded(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
+def _welded(vertices: FloatArray, triangles: IntArray, repairs: list[str]) -> IntArray:
     rim = np.unique(_edges_of_one_face(triangles))
     if not len(rim):
         return triangles
@@ -116,13 +118,14 @@ def _welded(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]) -> 
     return without_slivers(one[triangles])
 
 
-def _edges_of_one_face(triangles: np.ndarray) -> np.ndarray:
+def _edges_of_one_face(triangles: IntArray) -> IntArray:
     edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     unique, counts = np.unique(edges, axis=0, return_counts=True)
-    return unique[counts == 1]
+    open_edges: IntArray = unique[counts == 1]
+    return open_edges
 
 
-def _wound_alike(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]) -> np.ndarray:
+def _wound_alike(vertices: FloatArray, triangles: IntArray, repairs: list[str]) -> IntArray:
     """Triangles turned so that neighbours agree; surfaces that had to be turned look outwards, cavities inwards."""
     part, flipped = _agreement(triangles)
     uneven = [index for index in range(part.max(initial=-1) + 1) if len(set(flipped[part == index].tolist())) > 1]
@@ -141,11 +144,11 @@ def _wound_alike(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str]
     return result
 
 
-def _encloses(surface: TriangleMesh, corner: np.ndarray) -> bool:
+def _encloses(surface: TriangleMesh, corner: FloatArray) -> bool:
     return bool(contains(surface, corner)[0] or contains(surface.flipped(), corner)[0])
 
 
-def _agreement(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _agreement(triangles: IntArray) -> tuple[IntArray, BoolArray]:
     """Part (t,) of each triangle, connected over edges of two faces, and whether it is turned against its first."""
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     forwards = edges[:, 0] < edges[:, 1]
@@ -172,7 +175,7 @@ def _agreement(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return part, flipped
 
 
-def _closed(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str], name: str) -> np.ndarray:
+def _closed(vertices: FloatArray, triangles: IntArray, repairs: list[str], name: str) -> IntArray:
     holes = loops_of_open_edges(vertices, triangles)
     if not holes:
         return triangles
@@ -181,7 +184,7 @@ def _closed(vertices: np.ndarray, triangles: np.ndarray, repairs: list[str], nam
     return np.concatenate([triangles, *lids])
 
 
-def _lid(vertices: np.ndarray, rim: np.ndarray, name: str) -> np.ndarray:
+def _lid(vertices: FloatArray, rim: IntArray, name: str) -> IntArray:
     """Triangles (t, 3) that close a hole with this rim (r,), which surrounding faces walk in this order."""
     if len(rim) < 3:
         raise GeometryError(f"{name}: not closed, an edge has faces that do not belong together; rebuild it there.")
@@ -201,7 +204,7 @@ def _lid(vertices: np.ndarray, rim: np.ndarray, name: str) -> np.ndarray:
     return rim[np.asarray(triangulate([flat]), dtype=np.int64).reshape(-1, 3)[:, ::-1]]
 
 
-def _normal(arms: np.ndarray, extent: float) -> np.ndarray:
+def _normal(arms: FloatArray, extent: float) -> FloatArray:
     """Unit normal (3,) of a closed loop of corners (r, 3), by Newell; 0 where it encloses no area."""
     areas = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
     return unit(areas) if length(areas) > _SLIT_TOLERANCE * extent * extent else np.zeros(3)

@@ -5,18 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from ..arithmetic import arctangent, cosine, sine
+from ..arrays import FloatArray, IntArray
 from .vectors import length, product, transformed
 
 _SMALLEST_SINE = 1e-9
 """Below it an angle and its sine are one."""
 
 
-def turn_in_plane(angle_rad: float) -> np.ndarray:
+def turn_in_plane(angle_rad: float) -> FloatArray:
     """Matrix (2, 2) that turns plane vectors by an angle, anticlockwise."""
     return np.array([[cosine(angle_rad), -sine(angle_rad)], [sine(angle_rad), cosine(angle_rad)]])
 
 
-def rotation_vectors(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+def rotation_vectors(before: FloatArray, after: FloatArray) -> FloatArray:
     """Rotation vectors (..., 3) in rad that turn rotations (..., 3, 3) into others, in the world's axes.
 
     The shorter way round: a body that turns by more than half a turn between the two seems to turn backwards. Of a turn
@@ -32,7 +33,7 @@ def rotation_vectors(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     return factors[..., None] * doubled
 
 
-def rotated(rotations: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def rotated(rotations: FloatArray, vectors: FloatArray) -> FloatArray:
     """Rotations (..., 3, 3) turned further by rotation vectors (..., 3) in rad, by Rodrigues' formula."""
     angles = length(vectors)[..., None, None]
     cross = np.zeros(rotations.shape)
@@ -42,7 +43,7 @@ def rotated(rotations: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     return rotations + product(by_sine * cross + by_cosine * product(cross, cross), rotations)
 
 
-def carried_points(local_points: np.ndarray, centres: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+def carried_points(local_points: FloatArray, centres: FloatArray, rotations: FloatArray) -> FloatArray:
     """Where points fixed to moving bodies are, (..., 3) in m.
 
     Parameters
@@ -55,7 +56,7 @@ def carried_points(local_points: np.ndarray, centres: np.ndarray, rotations: np.
     return centres + transformed(rotations, local_points)
 
 
-def axes_in_bodies(axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+def axes_in_bodies(axes: FloatArray, bodies: IntArray, rotations: FloatArray) -> FloatArray:
     """Axes (m, 3, 3) as seen from the bodies that they are fixed to, to be carried along with `carried_axes`.
 
     Parameters
@@ -70,7 +71,7 @@ def axes_in_bodies(axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) 
     return product(np.swapaxes(rotations[bodies], 1, 2), axes)
 
 
-def carried_axes(local_axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+def carried_axes(local_axes: FloatArray, bodies: IntArray, rotations: FloatArray) -> FloatArray:
     """Where axes (m, 3, 3) that are fixed to bodies point in the world.
 
     Parameters
@@ -85,5 +86,5 @@ def carried_axes(local_axes: np.ndarray, bodies: np.ndarray, rotations: np.ndarr
     return product(rotations[bodies], local_axes)
 
 
-def _sine_by_angle(angles: np.ndarray) -> np.ndarray:
+def _sine_by_angle(angles: FloatArray) -> FloatArray:
     return np.divide(sine(angles), angles, out=np.ones(angles.shape), where=angles != 0.0)

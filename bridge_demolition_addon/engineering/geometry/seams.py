@@ -9,11 +9,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from .mesh import TriangleMesh
 from .vectors import distance, dot, length
 
 
-def sewn(mesh: TriangleMesh, patch: np.ndarray, tolerance_m: float) -> TriangleMesh:
+def sewn(mesh: TriangleMesh, patch: BoolArray, tolerance_m: float) -> TriangleMesh:
     """Meshes without the patches they touch along, closed again across the rims.
 
     Parameters
@@ -37,17 +38,18 @@ def sewn(mesh: TriangleMesh, patch: np.ndarray, tolerance_m: float) -> TriangleM
     return TriangleMesh(mesh.vertices, np.concatenate([triangles, *(_fan(loop) for loop in loops)]))
 
 
-def without_slivers(triangles: np.ndarray) -> np.ndarray:
+def without_slivers(triangles: IntArray) -> IntArray:
     """Those of the triangles (t, 3) that have no vertex twice."""
-    return triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    proper: IntArray = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    return proper
 
 
-def loops_of_open_edges(vertices: np.ndarray, triangles: np.ndarray) -> list[list[int]]:
+def loops_of_open_edges(vertices: FloatArray, triangles: IntArray) -> list[list[int]]:
     """Rims of the holes between triangles (t, 3), each as its corners in the order that the triangles walk them."""
     return _loops(_open_edges(triangles), vertices)
 
 
-def _open_edges(triangles: np.ndarray) -> np.ndarray:
+def _open_edges(triangles: IntArray) -> IntArray:
     """Directed edges (e, 2) that no triangle walks the other way, as often as they are open."""
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     lower, upper = edges.min(axis=1), edges.max(axis=1)
@@ -58,7 +60,7 @@ def _open_edges(triangles: np.ndarray) -> np.ndarray:
     return np.repeat(directed, np.abs(surplus), axis=0)
 
 
-def welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.ndarray:
+def welded(vertices: FloatArray, corners: IntArray, tolerance: float) -> IntArray:
     """For every vertex (v,) the one that stands for it: of these corners that lie together the first, else itself."""
     representative = np.arange(len(vertices))
     apart = distance(vertices[corners, None], vertices[corners])
@@ -66,7 +68,7 @@ def welded(vertices: np.ndarray, corners: np.ndarray, tolerance: float) -> np.nd
     return representative
 
 
-def _loops(edges: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
+def _loops(edges: IntArray, vertices: FloatArray) -> list[list[int]]:
     """Closed walks along all edges (e, 2), each edge once, none through the same corner twice.
 
     Where there is a choice the walk turns back most sharply. What is open lies between an edge of one rim and shorter
@@ -89,7 +91,7 @@ def _loops(edges: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
     return loops
 
 
-def _sharpest_turn(walk: list[int], choices: list[int], vertices: np.ndarray) -> int:
+def _sharpest_turn(walk: list[int], choices: list[int], vertices: FloatArray) -> int:
     if len(walk) == 1 or len(choices) == 1:
         return choices[0]
     ahead = vertices[choices] - vertices[walk[-1]]
@@ -97,6 +99,6 @@ def _sharpest_turn(walk: list[int], choices: list[int], vertices: np.ndarray) ->
     return choices[int(np.argmin(cosines))]
 
 
-def _fan(loop: list[int]) -> np.ndarray:
+def _fan(loop: list[int]) -> IntArray:
     """Triangles that walk the edges of a loop backwards, so closing the hole in it."""
     return np.array([[loop[0], after, before] for before, after in pairwise(loop[1:])]).reshape(-1, 3)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray
 from .proximity import ranges
 from .vectors import dot, length
 
@@ -14,7 +15,7 @@ _CANDIDATES_PER_BLOCK = 2_000_000
 """Pairs of triangles whose boxes are compared in one go; bounds the memory."""
 
 
-def first_crossing(corners: np.ndarray) -> np.ndarray | None:
+def first_crossing(corners: FloatArray) -> FloatArray | None:
     """A place (3,) where an edge goes through the inside of a triangle, or none.
 
     Triangles that lie in one plane and overlap there are not found.
@@ -48,7 +49,7 @@ def first_crossing(corners: np.ndarray) -> np.ndarray | None:
     return None
 
 
-def _crossing(one: np.ndarray, other: np.ndarray) -> np.ndarray | None:
+def _crossing(one: FloatArray, other: FloatArray) -> FloatArray | None:
     """A place where an edge of one of the triangles (m, 3, 3) goes through the other of its pair."""
     for through, edged in ((one, other), (other, one)):
         for corner in range(3):
@@ -56,11 +57,12 @@ def _crossing(one: np.ndarray, other: np.ndarray) -> np.ndarray | None:
             crosses, along = _pierced(through, start, end - start)
             if crosses.any():
                 row = int(np.argmax(crosses))
-                return start[row] + along[row] * (end - start)[row]
+                crossing: FloatArray = start[row] + along[row] * (end - start)[row]
+                return crossing
     return None
 
 
-def _pierced(triangles: np.ndarray, starts: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _pierced(triangles: FloatArray, starts: FloatArray, edges: FloatArray) -> tuple[BoolArray, FloatArray]:
     """Whether each edge goes through the inside of its triangle (m,), and where along the edge (m,)."""
     first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     across = np.cross(edges, second)

@@ -7,6 +7,7 @@ from manifold3d import Error, Manifold, Mesh64, OpType
 
 from ...errors import GeometryError
 from ..arithmetic import arctangent
+from ..arrays import BoolArray, FloatArray, IntArray
 from .mesh import TriangleMesh, joined_meshes
 from .vectors import dot, length
 
@@ -126,7 +127,7 @@ def checked_solid(mesh: TriangleMesh, name: str) -> TriangleMesh:
 
 
 def to_manifold(
-    mesh: TriangleMesh, name: str = "The solid", original: int | None = None, face_ids: np.ndarray | None = None
+    mesh: TriangleMesh, name: str = "The solid", original: int | None = None, face_ids: IntArray | None = None
 ) -> Manifold:
     """The mesh in the boolean engine, in double precision.
 
@@ -147,7 +148,7 @@ def to_manifold(
         When the engine refuses it, which it does unless every edge has exactly two, oppositely wound, faces.
     """
     marks = {}
-    if original is not None:
+    if original is not None and face_ids is not None:
         marks = {
             "run_index": np.array([0, mesh.triangles.size], dtype=np.uint64),
             "run_original_id": np.array([original], dtype=np.uint32),
@@ -172,7 +173,7 @@ def from_manifold(*shells: Manifold) -> TriangleMesh:
     )
 
 
-def hull(points: np.ndarray) -> Manifold:
+def hull(points: FloatArray) -> Manifold:
     """Convex hull of points (n, 3); without volume where all lie in one plane."""
     return Manifold.hull_points(np.ascontiguousarray(points, dtype=float))
 
@@ -208,10 +209,10 @@ def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The so
 def is_film(shells: Sequence[Manifold]) -> bool:
     """Whether a body, given as its outer shell and cavities, is nowhere near as thick as anything that is built."""
     volume, area = sum(shell.volume() for shell in shells), sum(shell.surface_area() for shell in shells)
-    return 2.0 * volume < _THINNEST_M * area
+    return bool(2.0 * volume < _THINNEST_M * area)
 
 
-def contains(mesh: TriangleMesh, points: np.ndarray) -> np.ndarray:
+def contains(mesh: TriangleMesh, points: FloatArray) -> BoolArray:
     """Which points lie inside a closed mesh, by its winding number around each.
 
     Parameters
@@ -268,7 +269,7 @@ def _check_bodies(found: list[list[Manifold]], name: str) -> None:
         raise GeometryError(f"{name}: its {len(found)} separate bodies overlap; unite them into one first.")
 
 
-def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: np.ndarray, name: str) -> int:
+def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: FloatArray, name: str) -> int:
     """Index of the smallest of the meshes that the cavity lies in."""
     corner = cavity.to_mesh64().vert_properties[:1, :3]
     around = [index for index, mesh in enumerate(outer_meshes) if contains(mesh, corner)[0]]
@@ -277,7 +278,7 @@ def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: np.n
     return min(around, key=lambda index: volumes[index])
 
 
-def _winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _winding_numbers(corners: FloatArray, points: FloatArray) -> FloatArray:
     """How often triangles (t, 3, 3) wind around each of the points (n, 3): 1 inside, 0 outside."""
     a, b, c = (corners[None, :, index] - points[:, None] for index in range(3))
     length_a, length_b, length_c = length(a), length(b), length(c)

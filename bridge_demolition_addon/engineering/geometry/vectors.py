@@ -11,11 +11,13 @@ Arrays whose components lie together in memory, all x and then all y, are worked
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
+
 _SWEEPS = 8
 """Sweeps of Jacobi's method, which squares what is left beside the diagonal in each: double precision needs five."""
 
 
-def dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def dot(first: FloatArray, second: FloatArray) -> FloatArray:
     """Dot products (...) of vectors (..., k)."""
     total = first[..., 0] * second[..., 0]
     for axis in range(1, first.shape[-1]):
@@ -23,12 +25,12 @@ def dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return total
 
 
-def length(vectors: np.ndarray) -> np.ndarray:
+def length(vectors: FloatArray) -> FloatArray:
     """Lengths (...) of vectors (..., k)."""
     return np.sqrt(dot(vectors, vectors))
 
 
-def distance(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def distance(first: FloatArray, second: FloatArray) -> FloatArray:
     """Distances (...) between points (..., k), without an array of all their differences."""
     squares = np.square(first[..., 0] - second[..., 0])
     for axis in range(1, first.shape[-1]):
@@ -36,29 +38,29 @@ def distance(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return np.sqrt(squares)
 
 
-def unit(vectors: np.ndarray) -> np.ndarray:
+def unit(vectors: FloatArray) -> FloatArray:
     """Vectors (..., k) of length 1 in the same directions; 0 where there is no length."""
     lengths = length(vectors)[..., None]
     return np.divide(vectors, lengths, out=np.zeros(np.shape(vectors)), where=lengths > 0.0)
 
 
-def cross_2d(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def cross_2d(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products (...) of plane vectors (..., 2), positive where the second lies to the left of the first."""
     return first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
 
 
-def cross(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def cross(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products (k, 3) of vectors (k, 3), in a third of the time of `numpy.cross`."""
     (x, y, z), (a, b, c) = first.T, second.T
     return np.column_stack((y * c - z * b, z * a - x * c, x * b - y * a))
 
 
-def by_component(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+def by_component(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
     """Vectors (..., 3) with components (...), each of which lies together in memory."""
     return np.moveaxis(np.stack((x, y, z)), 0, -1)
 
 
-def cross_by_component(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def cross_by_component(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products (..., 3) of vectors (..., 3), each component of which lies together in memory."""
     product = np.empty((3, *np.broadcast_shapes(first.shape, second.shape)[:-1]))
     taken_off = np.empty(product.shape[1:])
@@ -69,12 +71,12 @@ def cross_by_component(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return np.moveaxis(product, 0, -1)
 
 
-def taken(vectors: np.ndarray, rows: np.ndarray) -> np.ndarray:
+def taken(vectors: FloatArray, rows: IntArray) -> FloatArray:
     """Some vectors (s, k, c), each component of which lies together in memory, of vectors (s, n, c) in rows (k,)."""
     return np.moveaxis(np.moveaxis(vectors, -1, 0).take(rows, axis=-1), 0, -1)
 
 
-def transformed(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def transformed(matrices: FloatArray, vectors: FloatArray) -> FloatArray:
     """Products (..., i) of matrices (..., i, j) with vectors (..., j)."""
     total = matrices[..., 0] * vectors[..., 0, None]
     for column in range(1, matrices.shape[-1]):
@@ -82,12 +84,12 @@ def transformed(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     return total
 
 
-def transformed_back(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def transformed_back(matrices: FloatArray, vectors: FloatArray) -> FloatArray:
     """Products (..., j) of transposed matrices (..., i, j) with vectors (..., i): rotations undone."""
     return transformed(np.swapaxes(matrices, -1, -2), vectors)
 
 
-def product(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def product(first: FloatArray, second: FloatArray) -> FloatArray:
     """Products (..., i, k) of matrices (..., i, j) and (..., j, k)."""
     total = first[..., :, 0, None] * second[..., None, 0, :]
     for middle in range(1, first.shape[-1]):
@@ -95,12 +97,12 @@ def product(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return total
 
 
-def outer(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def outer(first: FloatArray, second: FloatArray) -> FloatArray:
     """Matrices (..., i, j) of the products of components of vectors (..., i) and (..., j)."""
     return first[..., :, None] * second[..., None, :]
 
 
-def symmetric_eigenvalues(matrices: np.ndarray) -> np.ndarray:
+def symmetric_eigenvalues(matrices: FloatArray) -> FloatArray:
     """Eigenvalues (..., 3), in ascending order, of symmetric matrices (..., 3, 3), by Jacobi's method.
 
     References
@@ -117,7 +119,7 @@ def symmetric_eigenvalues(matrices: np.ndarray) -> np.ndarray:
     return np.sort(np.stack([rest[..., axis, axis] for axis in range(3)], axis=-1), axis=-1)
 
 
-def symmetric_eigenvectors_2d(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def symmetric_eigenvectors_2d(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Eigenvalues (..., 2), in ascending order, of symmetric matrices (..., 2, 2), and eigenvectors as columns."""
     first, second, beside = matrices[..., 0, 0], matrices[..., 1, 1], matrices[..., 0, 1]
     cosine, sine = _jacobi_rotation(first, second, beside)
@@ -131,7 +133,7 @@ def symmetric_eigenvectors_2d(matrices: np.ndarray) -> tuple[np.ndarray, np.ndar
     )
 
 
-def _jacobi_rotation(first: np.ndarray, second: np.ndarray, beside: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _jacobi_rotation(first: FloatArray, second: FloatArray, beside: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Cosine and sine of the smaller rotation that makes [[first, beside], [beside, second]] diagonal."""
     needed = beside != 0.0
     with np.errstate(over="ignore"):
@@ -142,7 +144,7 @@ def _jacobi_rotation(first: np.ndarray, second: np.ndarray, beside: np.ndarray) 
     return cosine, tangent * cosine
 
 
-def _turn(matrices: np.ndarray, p: int, q: int, cosine: np.ndarray, sine: np.ndarray) -> None:
+def _turn(matrices: FloatArray, p: int, q: int, cosine: FloatArray, sine: FloatArray) -> None:
     """Rotate rows p and q of matrices (..., 3, 3), in place."""
     first, second = matrices[..., p, :].copy(order="K"), matrices[..., q, :].copy(order="K")
     matrices[..., p, :] = cosine[..., None] * first - sine[..., None] * second

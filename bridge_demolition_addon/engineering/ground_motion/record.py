@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ScenarioError
+from ..arrays import FloatArray
 from ..units import STANDARD_GRAVITY_M_S2
 
 LARGEST_ACCELERATION_M_S2 = 5.0 * STANDARD_GRAVITY_M_S2
@@ -37,27 +38,30 @@ class GroundRecord:
         Along x, y and z, from where the ground rests before.
     """
 
-    times_s: np.ndarray
-    accelerations_m_s2: np.ndarray
-    velocities_m_s: np.ndarray
-    displacements_m: np.ndarray
+    times_s: FloatArray
+    accelerations_m_s2: FloatArray
+    velocities_m_s: FloatArray
+    displacements_m: FloatArray
 
     @property
     def duration_s(self) -> float:
         """How long it lasts."""
         return float(self.times_s[-1])
 
-    def displacement_at(self, time_s: float) -> np.ndarray:
+    def displacement_at(self, time_s: float) -> FloatArray:
         """Return the displacement (3,) at a time: 0 before the record, and what it ends with after it."""
         if time_s <= 0.0:
             return np.zeros(3)
         if time_s >= self.times_s[-1]:
-            return self.displacements_m[-1].copy()
+            return np.array(self.displacements_m[-1])
         row = int(np.searchsorted(self.times_s, time_s, side="right")) - 1
         step, passed = self.times_s[row + 1] - self.times_s[row], time_s - self.times_s[row]
         before, after = self.accelerations_m_s2[row], self.accelerations_m_s2[row + 1]
         now = before + (after - before) * (passed / step)
-        return self.displacements_m[row] + passed * (self.velocities_m_s[row] + passed * (2.0 * before + now) / 6.0)
+        displacement: FloatArray = self.displacements_m[row] + passed * (
+            self.velocities_m_s[row] + passed * (2.0 * before + now) / 6.0
+        )
+        return displacement
 
     def peaks(self) -> dict[str, list[float]]:
         """Return the largest acceleration, velocity and displacement along x, y and z, ready for JSON."""
@@ -67,7 +71,7 @@ class GroundRecord:
         }
 
 
-def integrated(times_s: np.ndarray, accelerations_m_s2: np.ndarray) -> GroundRecord:
+def integrated(times_s: FloatArray, accelerations_m_s2: FloatArray) -> GroundRecord:
     """Return the motion, from rest, by accelerations (k, 3) at times (k,)."""
     steps = np.diff(times_s)[:, None]
     before, after = accelerations_m_s2[:-1], accelerations_m_s2[1:]
@@ -79,7 +83,7 @@ def integrated(times_s: np.ndarray, accelerations_m_s2: np.ndarray) -> GroundRec
     )
 
 
-def corrected(times_s: np.ndarray, accelerations_m_s2: np.ndarray, baseline: str) -> GroundRecord:
+def corrected(times_s: FloatArray, accelerations_m_s2: FloatArray, baseline: str) -> GroundRecord:
     """Return the motion by accelerations (k, 3) at times (k,), with a baseline taken off them.
 
     Raises
@@ -87,7 +91,7 @@ def corrected(times_s: np.ndarray, accelerations_m_s2: np.ndarray, baseline: str
     ScenarioError
         The ground does not end at rest, or drifts away.
     """
-    taken_off: dict[str, Callable[[GroundRecord], np.ndarray]] = {"linear": _line, "parabola": _parabola}
+    taken_off: dict[str, Callable[[GroundRecord], FloatArray]] = {"linear": _line, "parabola": _parabola}
     found = integrated(times_s, accelerations_m_s2)
     if baseline in taken_off:
         found = integrated(times_s, accelerations_m_s2 - taken_off[baseline](found))
@@ -106,14 +110,14 @@ def corrected(times_s: np.ndarray, accelerations_m_s2: np.ndarray, baseline: str
     return found
 
 
-def _line(record: GroundRecord) -> np.ndarray:
+def _line(record: GroundRecord) -> FloatArray:
     """Accelerations (k, 3) of the line after which velocity and displacement end at 0."""
     even, rising = _powers(record.times_s, 0), _powers(record.times_s, 1)
     constant, slope = _ending_as(record, even, rising)
     return even.accelerations_m_s2 * constant + rising.accelerations_m_s2 * slope
 
 
-def _parabola(record: GroundRecord) -> np.ndarray:
+def _parabola(record: GroundRecord) -> FloatArray:
     """Accelerations (k, 3) of the parabola after which both end at 0, and the mean square velocity is least."""
     line = _line(record)
     bent = _powers(record.times_s, 2)
@@ -126,7 +130,7 @@ def _parabola(record: GroundRecord) -> np.ndarray:
     return line + amount * ends_at_rest
 
 
-def _powers(times_s: np.ndarray, exponent: int) -> GroundRecord:
+def _powers(times_s: FloatArray, exponent: int) -> GroundRecord:
     """Motion by the acceleration (k, 1) that is a power of the time, by the whole time."""
     share = (times_s - times_s[0]) / (times_s[-1] - times_s[0])
     values = np.ones(len(times_s))
@@ -135,7 +139,7 @@ def _powers(times_s: np.ndarray, exponent: int) -> GroundRecord:
     return integrated(times_s, values[:, None])
 
 
-def _ending_as(record: GroundRecord, one: GroundRecord, other: GroundRecord) -> tuple[np.ndarray, np.ndarray]:
+def _ending_as(record: GroundRecord, one: GroundRecord, other: GroundRecord) -> tuple[FloatArray, FloatArray]:
     """How much of two motions together ends with velocity and displacement of another, in each direction."""
     (a,), (b,) = one.velocities_m_s[-1], other.velocities_m_s[-1]
     (c,), (d,) = one.displacements_m[-1], other.displacements_m[-1]

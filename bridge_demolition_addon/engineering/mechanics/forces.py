@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..geometry.vectors import by_component, cross_by_component
 
 
-def moments_at(points: np.ndarray, forces: np.ndarray, torques: np.ndarray, centres: np.ndarray) -> np.ndarray:
+def moments_at(points: FloatArray, forces: FloatArray, torques: FloatArray, centres: FloatArray) -> FloatArray:
     """Return the moments of connections about their own points.
 
     Parameters
@@ -50,27 +51,27 @@ class PairSums:
         Rows of the bodies of the pairs among those (s n,) of all sub-steps.
     """
 
-    def __init__(self, pairs: np.ndarray, substeps: np.ndarray | None, shape: tuple[int, int]):
+    def __init__(self, pairs: IntArray, substeps: IntArray | None, shape: tuple[int, int]):
         self.shape = shape
         rows = np.arange(shape[0])[:, None] if substeps is None else substeps
         self.first, self.second = ((shape[1] * rows + bodies).ravel() for bodies in pairs.T)
 
-    def sums(self, values: np.ndarray) -> np.ndarray:
+    def sums(self, values: FloatArray) -> FloatArray:
         """Sums (s, n) of values over the pairs of every body."""
         return self._of(self.first, values) + self._of(self.second, values)
 
-    def differences(self, values: np.ndarray) -> np.ndarray:
+    def differences(self, values: FloatArray) -> FloatArray:
         """Sums (s, n) of values over pairs of which a body is the first, less those of which it is the second."""
         return self._of(self.first, values) - self._of(self.second, values)
 
-    def resultants(self, forces: np.ndarray) -> np.ndarray:
+    def resultants(self, forces: FloatArray) -> FloatArray:
         """Vector sums (s, n, 3) of forces (..., 3) on the first body of each pair; the second gets the opposite.
 
         That is Newton's third law.
         """
         return by_component(*(self.differences(forces[..., axis]) for axis in range(3)))
 
-    def _of(self, rows: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def _of(self, rows: IntArray, values: FloatArray) -> FloatArray:
         if not len(rows):
             return np.zeros(self.shape)
         substeps, bodies = self.shape

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..geometry.vectors import length
 from .forces import PairSums
 from .stress import average_stress, average_stress_of_moments, von_mises
@@ -40,25 +41,25 @@ class SubstepLoads:
         Centres of mass and rotations of all bodies.
     """
 
-    substeps_s: np.ndarray
-    connection_forces_n: np.ndarray
-    connection_moments_nm: np.ndarray
-    connection_points_m: np.ndarray
-    signed_2019_ns: np.ndarray
-    contact_substeps: np.ndarray
-    contact_pairs: np.ndarray
-    contact_impulses_ns: np.ndarray
-    contact_points_m: np.ndarray
-    centres_m: np.ndarray
-    rotations: np.ndarray
+    substeps_s: FloatArray
+    connection_forces_n: FloatArray
+    connection_moments_nm: FloatArray
+    connection_points_m: FloatArray
+    signed_2019_ns: FloatArray
+    contact_substeps: IntArray
+    contact_pairs: IntArray
+    contact_impulses_ns: FloatArray
+    contact_points_m: FloatArray
+    centres_m: FloatArray
+    rotations: FloatArray
 
     @cached_property
-    def connection_impulses_ns(self) -> np.ndarray:
+    def connection_impulses_ns(self) -> FloatArray:
         """Impulses (s, m, 3) of the connections in each sub-step."""
         return self.substeps_s[:, None, None] * self.connection_forces_n
 
     @cached_property
-    def connection_angular_impulses_nms(self) -> np.ndarray:
+    def connection_angular_impulses_nms(self) -> FloatArray:
         """Impulses (s, m, 3) of their moments in each sub-step."""
         return self.substeps_s[:, None, None] * self.connection_moments_nm
 
@@ -87,14 +88,14 @@ class Moment:
     """Loads of one of the sub-steps of `SubstepLoads`, without their axis of sub-steps."""
 
     substep_s: float
-    connection_forces_n: np.ndarray
-    connection_moments_nm: np.ndarray
-    connection_points_m: np.ndarray
-    contact_pairs: np.ndarray
-    contact_impulses_ns: np.ndarray
-    contact_points_m: np.ndarray
-    centres_m: np.ndarray
-    rotations: np.ndarray
+    connection_forces_n: FloatArray
+    connection_moments_nm: FloatArray
+    connection_points_m: FloatArray
+    contact_pairs: IntArray
+    contact_impulses_ns: FloatArray
+    contact_points_m: FloatArray
+    centres_m: FloatArray
+    rotations: FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,19 +127,19 @@ class FrameLoads:
         Force and moment in the sub-step that had it.
     """
 
-    body_forces_n: np.ndarray
-    body_peaks_n: np.ndarray
-    body_sums_n: np.ndarray
-    body_peak_sums_n: np.ndarray
-    body_contact_impulses_ns: np.ndarray
-    body_signed_2019_n: np.ndarray
-    stresses_pa: np.ndarray
-    von_mises_pa: np.ndarray
-    connection_forces_n: np.ndarray
-    connection_moments_nm: np.ndarray
-    connection_peaks_n: np.ndarray
-    connection_peak_forces_n: np.ndarray
-    connection_peak_moments_nm: np.ndarray
+    body_forces_n: FloatArray
+    body_peaks_n: FloatArray
+    body_sums_n: FloatArray
+    body_peak_sums_n: FloatArray
+    body_contact_impulses_ns: FloatArray
+    body_signed_2019_n: FloatArray
+    stresses_pa: FloatArray
+    von_mises_pa: FloatArray
+    connection_forces_n: FloatArray
+    connection_moments_nm: FloatArray
+    connection_peaks_n: FloatArray
+    connection_peak_forces_n: FloatArray
+    connection_peak_moments_nm: FloatArray
 
     def unknown(self) -> FrameLoads:
         """Return loads of the same shape of which nothing is known: nan throughout."""
@@ -161,7 +162,7 @@ class LoadAccumulator:
         Gives the unit normals (m, 3) of the connections under given rotations (n, 3, 3) of the bodies.
     """
 
-    def __init__(self, pairs: np.ndarray, volumes_m3: np.ndarray, normals_at: Callable[[np.ndarray], np.ndarray]):
+    def __init__(self, pairs: IntArray, volumes_m3: FloatArray, normals_at: Callable[[FloatArray], FloatArray]):
         self._pairs, self._volumes, self._normals_at = pairs, volumes_m3, normals_at
         self._of_connections = PairSums(pairs, None, (1, len(volumes_m3)))
         self.begin()
@@ -182,7 +183,7 @@ class LoadAccumulator:
         self._connection_peak_forces, self._connection_peak_moments = _vectors(2, connections)
         self._body_peaks, self._body_peak_sums = np.zeros((2, bodies))
 
-    def add(self, loads: SubstepLoads) -> np.ndarray:
+    def add(self, loads: SubstepLoads) -> FloatArray:
         """Add the loads of some sub-steps. Return the resultant force (s, n, 3) on every body in each."""
         shape, substeps_s = (len(loads.substeps_s), len(self._volumes)), loads.substeps_s
         of_connections = self._sums_of_connections(shape)
@@ -214,8 +215,8 @@ class LoadAccumulator:
         forces, moments = per_second * self._connection_impulses, per_second * self._connection_angular_impulses
         stresses, peak_stresses = per_second * self._contact_stress_impulses, np.zeros((len(self._volumes), 3, 3))
         if self._last:
+            largest = self._largest or self._last
             stresses += self._stresses_of_connections(self._last, forces, moments)
-            largest = self._largest
             peak_stresses = self._stress_impulses_of_contacts(largest) / largest.substep_s
             peak_stresses += self._stresses_of_connections(
                 largest, largest.connection_forces_n, largest.connection_moments_nm
@@ -242,7 +243,7 @@ class LoadAccumulator:
             self._of_connections = PairSums(self._pairs, None, shape)
         return self._of_connections
 
-    def _add_contacts(self, loads: SubstepLoads, by_contacts: np.ndarray) -> None:
+    def _add_contacts(self, loads: SubstepLoads, by_contacts: FloatArray) -> None:
         substeps, count = by_contacts.shape[:2]
         stresses = self._stresses(
             loads.contact_pairs + count * loads.contact_substeps[:, None],
@@ -256,7 +257,7 @@ class LoadAccumulator:
             self._contact_stress_impulses += stress
 
     def _note_peaks(
-        self, loads: SubstepLoads, magnitudes: np.ndarray, body_magnitudes: np.ndarray, sums: np.ndarray
+        self, loads: SubstepLoads, magnitudes: FloatArray, body_magnitudes: FloatArray, sums: FloatArray
     ) -> None:
         for substep in range(len(magnitudes)):
             higher = magnitudes[substep] > self._connection_peaks
@@ -274,12 +275,12 @@ class LoadAccumulator:
             if total > self._largest_sum_n:
                 self._largest, self._largest_sum_n = loads.moment(substep), total
 
-    def _stress_impulses_of_contacts(self, loads: Moment) -> np.ndarray:
+    def _stress_impulses_of_contacts(self, loads: Moment) -> FloatArray:
         """Stresses (n, 3, 3) under the contacts of a sub-step times its length, Pa·s."""
         pairs, impulses, points = loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m
         return self._stresses(pairs, impulses, points, loads.centres_m, self._volumes)
 
-    def _stresses_of_connections(self, loads: Moment, forces: np.ndarray, moments: np.ndarray) -> np.ndarray:
+    def _stresses_of_connections(self, loads: Moment, forces: FloatArray, moments: FloatArray) -> FloatArray:
         """Stresses (n, 3, 3) under forces and moments (m, 3) of the connections, where they are in a sub-step."""
         normals = self._normals_at(loads.rotations)
         of_moments = average_stress_of_moments(
@@ -293,18 +294,18 @@ class LoadAccumulator:
 
     @staticmethod
     def _stresses(
-        pairs: np.ndarray, forces: np.ndarray, points: np.ndarray, centres: np.ndarray, volumes: np.ndarray
-    ) -> np.ndarray:
+        pairs: IntArray, forces: FloatArray, points: FloatArray, centres: FloatArray, volumes: FloatArray
+    ) -> FloatArray:
         """Stresses under forces (k, 3) on the first bodies of pairs (k, 2), and their opposites on the second."""
         both, twice = np.concatenate((forces, -forces)), np.concatenate((points, points))
         return _of_solids(average_stress(pairs.T.ravel(), both, twice, centres, volumes), volumes)
 
 
-def _of_solids(stresses: np.ndarray, volumes: np.ndarray) -> np.ndarray:
+def _of_solids(stresses: FloatArray, volumes: FloatArray) -> FloatArray:
     """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
     return np.where(volumes[:, None, None] > 0.0, stresses, 0.0)
 
 
-def _vectors(*shape: int) -> np.ndarray:
+def _vectors(*shape: int) -> FloatArray:
     """Vectors (k, n, 3) that are 0, whose components lie together in memory."""
     return np.moveaxis(np.zeros((shape[0], 3, shape[1])), 1, -1)

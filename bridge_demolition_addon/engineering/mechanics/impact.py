@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arithmetic import power
+from ..arrays import FloatArray
 from ..geometry.vectors import length
 
 _HERTZ_TIME = 4.0 * math.sqrt(math.pi) / 5.0 * math.gamma(2.0 / 5.0) / math.gamma(9.0 / 10.0)
@@ -54,7 +55,7 @@ class Hit:
     last_step: int
     start_s: float
     end_s: float
-    impulse_ns: np.ndarray
+    impulse_ns: FloatArray
     raw_peak_force_n: float
     raw_step_s: float
 
@@ -64,7 +65,7 @@ class Hit:
         return float(length(self.impulse_ns))
 
 
-def hits(impulses_ns: np.ndarray, steps_s: np.ndarray, start_s: float = 0.0, resting_force_n: float = 0.0) -> list[Hit]:
+def hits(impulses_ns: FloatArray, steps_s: FloatArray, start_s: float = 0.0, resting_force_n: float = 0.0) -> list[Hit]:
     """Hits of a body, from the impulses of its contacts.
 
     Parameters

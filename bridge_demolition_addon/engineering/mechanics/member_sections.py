@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import dot
 from .section_cuts import ConnectedFaces, cut_loads
 from .section_forces import SectionForces
@@ -46,10 +47,10 @@ class MemberSections:
     def __init__(
         self,
         faces: ConnectedFaces,
-        centres_m: np.ndarray,
-        moves: np.ndarray,
-        kinds: np.ndarray,
-        thicknesses_m: np.ndarray,
+        centres_m: FloatArray,
+        moves: BoolArray,
+        kinds: IntArray,
+        thicknesses_m: FloatArray,
     ):
         self._points, self._normals, self._areas = faces.points_m, faces.normals, faces.areas_m2
         self._second_moments, self._kinds, self._thicknesses = faces.second_moments_m4, kinds, thicknesses_m
@@ -59,9 +60,9 @@ class MemberSections:
         self._before = np.where(moves[first, None], centres_m[first], self._points - beyond)
         self._behind = np.where(moves[second, None], centres_m[second], self._points + beyond)
         self._tree = cKDTree(self._points)
-        self._found: dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+        self._found: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
 
-    def are_whole(self, rows: np.ndarray) -> np.ndarray:
+    def are_whole(self, rows: IntArray) -> BoolArray:
         """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
         areas = np.array(
             [(self._areas[faces] * cosines).sum() for faces, _, cosines in map(self._faces, rows.tolist())]
@@ -70,13 +71,13 @@ class MemberSections:
 
     def sections(
         self,
-        rows: np.ndarray,
-        parts: np.ndarray,
-        forces: np.ndarray,
-        moments: np.ndarray,
-        points: np.ndarray,
-        axes: np.ndarray,
-    ) -> tuple[SectionForces, np.ndarray, np.ndarray]:
+        rows: IntArray,
+        parts: IntArray,
+        forces: FloatArray,
+        moments: FloatArray,
+        points: FloatArray,
+        axes: FloatArray,
+    ) -> tuple[SectionForces, FloatArray, FloatArray]:
         """Loads and sizes of the sections of some intact connections.
 
         Parameters
@@ -106,7 +107,7 @@ class MemberSections:
             owners, faces, signs, cosines, forces, moments, points, axes, self._areas, self._second_moments
         )
 
-    def _faces(self, row: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _faces(self, row: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Connections (e,) in the section of one, on which side of it their first bodies are, and their cosines.
 
         Where the section doubles back, a face bears a load, and has no area.
@@ -124,8 +125,9 @@ class MemberSections:
         return self._found[row]
 
 
-def kinds_of(members: np.ndarray) -> np.ndarray:
+def kinds_of(members: IntArray) -> IntArray:
     """Return a number (m,) for each pair of members that connections are between, of members (m, 2) of any type."""
     _, numbers = np.unique(members, return_inverse=True)
     low, high = np.sort(numbers.reshape(members.shape), axis=1).T
-    return low * (numbers.max(initial=0) + 1) + high
+    kinds: IntArray = low * (numbers.max(initial=0) + 1) + high
+    return kinds

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
 from .member_sections import MemberSections
 from .section_cuts import ConnectedFaces, SectionCuts, worst_around
@@ -32,11 +33,11 @@ class ConnectionLoads:
         On the first body of each connection, about its own point, which is also given.
     """
 
-    forces_n: np.ndarray
-    moments_nm: np.ndarray
-    points_m: np.ndarray
+    forces_n: FloatArray
+    moments_nm: FloatArray
+    points_m: FloatArray
 
-    def in_sections(self, rows: np.ndarray, axes: np.ndarray) -> SectionForces:
+    def in_sections(self, rows: IntArray, axes: FloatArray) -> SectionForces:
         """Loads of some connections (r,) in the axes (r, 3, 3) of their sections."""
         return section_forces(axes, self.forces_n[rows], self.moments_nm[rows])
 
@@ -59,7 +60,7 @@ class Overloads:
     def __init__(
         self,
         faces: ConnectedFaces,
-        moves: np.ndarray,
+        moves: BoolArray,
         strength: Strength,
         member_sections: MemberSections | None,
     ):
@@ -70,7 +71,7 @@ class Overloads:
         self._largest_utilisations = largest_utilisations(self._sections, strength)
         self._cuts = SectionCuts.between(faces.pairs, faces.normals, faces.areas_m2, moves)
 
-    def candidates(self, loads: np.ndarray, lever_arms_m: np.ndarray, left: np.ndarray) -> np.ndarray:
+    def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
         """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
 
         Parameters
@@ -89,13 +90,13 @@ class Overloads:
 
     def breaking(
         self,
-        rows: np.ndarray,
+        rows: IntArray,
         loads: ConnectionLoads,
-        axes: np.ndarray,
-        intact: np.ndarray,
-        left: np.ndarray,
-        parts: np.ndarray | None = None,
-    ) -> np.ndarray:
+        axes: FloatArray,
+        intact: BoolArray,
+        left: FloatArray,
+        parts: IntArray | None = None,
+    ) -> IntArray:
         """Return which connections (k,) break: overloaded alone and in their sections, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
@@ -118,13 +119,13 @@ class Overloads:
 
     def overloaded(
         self,
-        rows: np.ndarray,
+        rows: IntArray,
         loads: ConnectionLoads,
-        axes: np.ndarray,
-        intact: np.ndarray,
-        left: np.ndarray,
-        parts: np.ndarray | None = None,
-    ) -> tuple[np.ndarray, np.ndarray]:
+        axes: FloatArray,
+        intact: BoolArray,
+        left: FloatArray,
+        parts: IntArray | None = None,
+    ) -> tuple[IntArray, FloatArray]:
         """Return which connections (k,) are overloaded alone and in their sections, and their utilisations (k,).
 
         Parameters are those of `breaking`.
@@ -137,34 +138,34 @@ class Overloads:
         used = self.together(rows, alone, loads, axes, intact, left, parts)
         return rows[used > 1.0], used[used > 1.0]
 
-    def alone(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, left: np.ndarray) -> np.ndarray:
+    def alone(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, left: FloatArray) -> FloatArray:
         """Utilisations (r,) of some connections, each by itself; parameters are those of `breaking`."""
         return self.of_forces(rows, loads.in_sections(rows, axes)) / left[rows]
 
-    def of_forces(self, rows: np.ndarray, forces: SectionForces) -> np.ndarray:
+    def of_forces(self, rows: IntArray, forces: SectionForces) -> FloatArray:
         """Utilisations (r,), of whole strengths, of some connections by forces in their axes."""
         return utilisation(forces, sections_at(self._sections, rows), strength_at(self._strength, rows))
 
     def together(
         self,
-        rows: np.ndarray,
-        alone: np.ndarray,
+        rows: IntArray,
+        alone: FloatArray,
         loads: ConnectionLoads,
-        axes: np.ndarray,
-        intact: np.ndarray,
-        left: np.ndarray,
-        parts: np.ndarray | None,
-    ) -> np.ndarray:
+        axes: FloatArray,
+        intact: BoolArray,
+        left: FloatArray,
+        parts: IntArray | None,
+    ) -> FloatArray:
         """Utilisations (r,) of the sections of some connections, whose own (r,) are known.
 
         Parameters are those of `breaking`.
         """
-        if self._member_sections is None:
+        if self._member_sections is None or parts is None:
             return self._in_cuts(rows, loads, axes, intact) / left[rows]
-        used = self._in_members(rows, loads, axes, intact, parts) / left[rows]
+        used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
         return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
-    def _in_cuts(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, intact: np.ndarray) -> np.ndarray:
+    def _in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
         cut_loads, areas, second_moments = self._cuts.sections(
             rows, intact, loads.forces_n, loads.moments_nm, loads.points_m, axes, self._areas, self._second_moments
@@ -174,13 +175,19 @@ class Overloads:
         return used.reshape(2, -1).mean(axis=0)
 
     def _in_members(
-        self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, intact: np.ndarray, parts: np.ndarray
-    ) -> np.ndarray:
+        self,
+        members: MemberSections,
+        rows: IntArray,
+        loads: ConnectionLoads,
+        axes: FloatArray,
+        intact: BoolArray,
+        parts: IntArray,
+    ) -> FloatArray:
         """Utilisations (r,), of whole strengths, of the sections of some connections."""
-        whole = self._member_sections.are_whole(rows)
+        whole = members.are_whole(rows)
         used = np.empty(len(rows))
         if whole.any():
-            of_sections, areas, second_moments = self._member_sections.sections(
+            of_sections, areas, second_moments = members.sections(
                 rows[whole],
                 np.where(intact, parts, -1),
                 loads.forces_n,

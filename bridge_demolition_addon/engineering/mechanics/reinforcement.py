@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..geometry.vectors import dot, length, unit
 
 _ANSWER = 0.5
@@ -34,10 +35,10 @@ class FaceBars:
         Where that force acts, from the point of the connection along the section's y and z.
     """
 
-    yield_n: np.ndarray
-    offsets_m: np.ndarray
+    yield_n: FloatArray
+    offsets_m: FloatArray
 
-    def with_even(self, even_n: np.ndarray) -> FaceBars:
+    def with_even(self, even_n: FloatArray) -> FaceBars:
         """Return them together with bars (m,) that are spread evenly over the faces."""
         whole = self.yield_n + even_n
         share = np.divide(self.yield_n, whole, out=np.zeros_like(whole), where=whole > 0.0)
@@ -45,8 +46,8 @@ class FaceBars:
 
 
 def parting(
-    first_points: np.ndarray, second_points: np.ndarray, first_velocities: np.ndarray, second_velocities: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    first_points: FloatArray, second_points: FloatArray, first_velocities: FloatArray, second_velocities: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """How far, how fast and in which direction the two points of each tie part.
 
     Parameters
@@ -67,7 +68,7 @@ def parting(
     return distances, dot(speeds, directions), directions
 
 
-def effective_masses(masses_kg: np.ndarray, pairs: np.ndarray, turning_kg: np.ndarray | float = 0.0) -> np.ndarray:
+def effective_masses(masses_kg: FloatArray, pairs: IntArray, turning_kg: FloatArray | float = 0.0) -> FloatArray:
     """Mass (t,) that each tie between a pair (t, 2) of bodies (n,) may take to be its own, kg.
 
     1/m = 1/m₁ + 1/m₂, where a body of mass 0 does not move, and what is given, (t,) 1/kg, as a tie beside the middle of
@@ -81,8 +82,8 @@ def effective_masses(masses_kg: np.ndarray, pairs: np.ndarray, turning_kg: np.nd
 
 
 def tie_forces(
-    held_n: np.ndarray, speeds_m_s: np.ndarray, masses_kg: np.ndarray, yield_forces_n: np.ndarray, substep_s: float
-) -> tuple[np.ndarray, np.ndarray]:
+    held_n: FloatArray, speeds_m_s: FloatArray, masses_kg: FloatArray, yield_forces_n: FloatArray, substep_s: float
+) -> tuple[FloatArray, FloatArray]:
     """Tension of each tie in the coming sub-step, and the part of it that it holds on with.
 
     Parameters

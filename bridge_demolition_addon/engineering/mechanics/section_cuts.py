@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.proximity import ranges
 from ..geometry.vectors import dot, transformed_back
 from .section_forces import SectionForces, section_forces
@@ -35,11 +36,11 @@ class ConnectedFaces:
         Of each, the latter in its own axes.
     """
 
-    pairs: np.ndarray
-    points_m: np.ndarray
-    normals: np.ndarray
-    areas_m2: np.ndarray
-    second_moments_m4: np.ndarray
+    pairs: IntArray
+    points_m: FloatArray
+    normals: FloatArray
+    areas_m2: FloatArray
+    second_moments_m4: FloatArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -58,13 +59,13 @@ class SectionCuts:
         Between the normals of a face and of its cut.
     """
 
-    starts: np.ndarray
-    faces: np.ndarray
-    signs: np.ndarray
-    cosines: np.ndarray
+    starts: IntArray
+    faces: IntArray
+    signs: FloatArray
+    cosines: FloatArray
 
     @classmethod
-    def between(cls, pairs: np.ndarray, normals: np.ndarray, areas: np.ndarray, is_shard: np.ndarray) -> SectionCuts:
+    def between(cls, pairs: IntArray, normals: FloatArray, areas: FloatArray, is_shard: BoolArray) -> SectionCuts:
         """The cuts of connections.
 
         Parameters
@@ -97,15 +98,15 @@ class SectionCuts:
 
     def sections(
         self,
-        rows: np.ndarray,
-        intact: np.ndarray,
-        forces: np.ndarray,
-        moments: np.ndarray,
-        points: np.ndarray,
-        axes: np.ndarray,
-        areas: np.ndarray,
-        second_moments: np.ndarray,
-    ) -> tuple[SectionForces, np.ndarray, np.ndarray]:
+        rows: IntArray,
+        intact: BoolArray,
+        forces: FloatArray,
+        moments: FloatArray,
+        points: FloatArray,
+        axes: FloatArray,
+        areas: FloatArray,
+        second_moments: FloatArray,
+    ) -> tuple[SectionForces, FloatArray, FloatArray]:
         """Loads and sizes of the two cuts of some intact connections.
 
         Parameters
@@ -139,17 +140,17 @@ class SectionCuts:
 
 
 def cut_loads(
-    owners: np.ndarray,
-    faces: np.ndarray,
-    signs: np.ndarray,
-    cosines: np.ndarray,
-    forces: np.ndarray,
-    moments: np.ndarray,
-    points: np.ndarray,
-    axes: np.ndarray,
-    areas: np.ndarray,
-    second_moments: np.ndarray,
-) -> tuple[SectionForces, np.ndarray, np.ndarray]:
+    owners: IntArray,
+    faces: IntArray,
+    signs: FloatArray,
+    cosines: FloatArray,
+    forces: FloatArray,
+    moments: FloatArray,
+    points: FloatArray,
+    axes: FloatArray,
+    areas: FloatArray,
+    second_moments: FloatArray,
+) -> tuple[SectionForces, FloatArray, FloatArray]:
     """Loads and sizes of k cuts through faces that stay plane together.
 
     Parameters
@@ -182,7 +183,7 @@ def cut_loads(
     return section_forces(axes, total.of(pulls), total.of(turns)), cut_areas, cut_moments
 
 
-def worst_around(pairs: np.ndarray, used: np.ndarray, is_shard: np.ndarray) -> np.ndarray:
+def worst_around(pairs: IntArray, used: FloatArray, is_shard: BoolArray) -> BoolArray:
     """Which connections (k,) between pairs (k, 2) use more than any other that shares a shard with them.
 
     Parameters
@@ -203,14 +204,14 @@ def worst_around(pairs: np.ndarray, used: np.ndarray, is_shard: np.ndarray) -> n
 class _Totals:
     """Sums over the entries of each owner."""
 
-    def __init__(self, owners: np.ndarray, count: int):
+    def __init__(self, owners: IntArray, count: int):
         self._firsts = np.searchsorted(owners, np.arange(count))
 
-    def of(self, values: np.ndarray) -> np.ndarray:
+    def of(self, values: FloatArray) -> FloatArray:
         return np.add.reduceat(values, self._firsts, axis=0) if len(values) else values[:0]
 
 
-def _moved_axes(across: np.ndarray) -> np.ndarray:
+def _moved_axes(across: FloatArray) -> FloatArray:
     """What a unit of area adds to second moments (e, 2, 2) by its distance (e, 2), y and z, from the axes."""
     y, z = across.T
     return np.stack((np.stack((z * z, -y * z), axis=1), np.stack((-y * z, y * y), axis=1)), axis=1)

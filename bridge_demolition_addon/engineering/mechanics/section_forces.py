@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..geometry.vectors import length, transformed_back, unit
 
 _LEVEL_CUT = 1e-6
@@ -33,13 +34,13 @@ class SectionForces:
         About y and z, N·m. About y it pulls where z is positive, about z where y is negative.
     """
 
-    axial_n: np.ndarray
-    shear_n: np.ndarray
-    torsion_nm: np.ndarray
-    bending_nm: np.ndarray
+    axial_n: FloatArray
+    shear_n: FloatArray
+    torsion_nm: FloatArray
+    bending_nm: FloatArray
 
 
-def section_axes(normals: np.ndarray) -> np.ndarray:
+def section_axes(normals: FloatArray) -> FloatArray:
     """Axes of sections in the axes of the world.
 
     Where the cut is level, every direction in it is equally far from the vertical: z then points along the world's x,
@@ -62,7 +63,7 @@ def section_axes(normals: np.ndarray) -> np.ndarray:
     return np.stack((x, y, np.cross(x, y)), axis=2)
 
 
-def section_forces(axes: np.ndarray, forces: np.ndarray, moments: np.ndarray) -> SectionForces:
+def section_forces(axes: FloatArray, forces: FloatArray, moments: FloatArray) -> SectionForces:
     """Forces and moments of connections in the axes of their sections.
 
     Parameters

@@ -12,6 +12,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ...errors import ScenarioError
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length, symmetric_eigenvectors_2d, transformed_back
 from .section_forces import SectionForces
 
@@ -43,11 +44,11 @@ class Strength:
         A strength is not a positive number.
     """
 
-    compression_pa: float | np.ndarray
-    tension_pa: float | np.ndarray
-    shear_pa: float | np.ndarray
-    torsion_pa: float | np.ndarray
-    bending_pa: float | np.ndarray
+    compression_pa: float | FloatArray
+    tension_pa: float | FloatArray
+    shear_pa: float | FloatArray
+    torsion_pa: float | FloatArray
+    bending_pa: float | FloatArray
 
     def __post_init__(self) -> None:
         for each in fields(self):
@@ -109,10 +110,10 @@ class Sections:
         Elastic moduli about these axes, and for torsion: moment by stress at the edge.
     """
 
-    areas_m2: np.ndarray
-    directions: np.ndarray
-    bending_moduli_m3: np.ndarray
-    torsion_moduli_m3: np.ndarray
+    areas_m2: FloatArray
+    directions: FloatArray
+    bending_moduli_m3: FloatArray
+    torsion_moduli_m3: FloatArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -133,8 +134,8 @@ class Ductility:
         The share is not between 0 and 1, or the elongation is negative or not a number.
     """
 
-    strength_share: float | np.ndarray
-    elongation_m: float | np.ndarray
+    strength_share: float | FloatArray
+    elongation_m: float | FloatArray
 
     def __post_init__(self) -> None:
         share, elongation = np.asarray(self.strength_share), np.asarray(self.elongation_m)
@@ -144,7 +145,7 @@ class Ductility:
             raise ScenarioError(f"elongation_m of a ductility is {self.elongation_m}: expected 0 or more")
 
 
-def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Sections:
+def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Sections:
     """Sections with known second moments of area, as the rectangles that have the same.
 
     The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
@@ -173,7 +174,7 @@ def rectangular_sections(areas: np.ndarray, second_moments: np.ndarray) -> Secti
     return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
 
 
-def _are_square(moments: np.ndarray) -> np.ndarray:
+def _are_square(moments: FloatArray) -> BoolArray:
     """Whether principal second moments (m, 2) are equal but for rounding, which alone would then turn the section.
 
     Sections of upright columns and level beams lie along their y and z axes, and so squares are taken to.
@@ -181,18 +182,18 @@ def _are_square(moments: np.ndarray) -> np.ndarray:
     return moments[:, 1] - moments[:, 0] <= _ROUNDING * moments[:, 1]
 
 
-def sections_at(sections: Sections, rows: np.ndarray) -> Sections:
+def sections_at(sections: Sections, rows: IntArray) -> Sections:
     """Some of the sections (k,)."""
     return Sections(*(getattr(sections, item.name)[rows] for item in fields(Sections)))
 
 
-def strength_at(strength: Strength, rows: np.ndarray) -> Strength:
+def strength_at(strength: Strength, rows: IntArray) -> Strength:
     """The strength of some connections (k,), of a strength for all or for each of them."""
     values = (np.asarray(getattr(strength, item.name)) for item in fields(Strength))
     return Strength(*(value[rows] if value.ndim else value for value in values))
 
 
-def largest_utilisations(sections: Sections, strength: Strength) -> tuple[np.ndarray, np.ndarray]:
+def largest_utilisations(sections: Sections, strength: Strength) -> tuple[FloatArray, FloatArray]:
     """Bounds (m,) and (m,) of `utilisation` by a force of 1 N and by a moment of 1 N·m, however they are directed.
 
     A force F and a moment M together use no more than F times the first plus M times the second, as neither of the
@@ -205,7 +206,7 @@ def largest_utilisations(sections: Sections, strength: Strength) -> tuple[np.nda
     return length(by_force), length(np.stack((edge_by_moment, shear_by_moment), axis=-1))
 
 
-def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> np.ndarray:
+def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> FloatArray:
     """How much of its strength each connection uses, (m,); above 1 it breaks.
 
     - Stretched edge: axial tension by its strength plus bending by its own; compression relieves it.

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..geometry.vectors import cross_by_component, symmetric_eigenvalues
 
 
 def average_stress(
-    bodies: np.ndarray, forces: np.ndarray, points: np.ndarray, centres: np.ndarray, volumes: np.ndarray
-) -> np.ndarray:
+    bodies: IntArray, forces: FloatArray, points: FloatArray, centres: FloatArray, volumes: FloatArray
+) -> FloatArray:
     """Average stress tensor of every body under point loads: (1/V) Σ f ⊗ r, tension positive (Love-Weber).
 
     The lever arms r start at the centre of mass: gravity and any common acceleration of the whole body, such as that of
@@ -49,8 +50,8 @@ def average_stress(
 
 
 def average_stress_of_moments(
-    bodies: np.ndarray, moments: np.ndarray, normals: np.ndarray, volumes: np.ndarray
-) -> np.ndarray:
+    bodies: IntArray, moments: FloatArray, normals: FloatArray, volumes: FloatArray
+) -> FloatArray:
     """What the moments of connections add to the average stress of the bodies they act on.
 
     A couple by itself says nothing about a symmetric tensor; how it is spread over its face does. A bending moment is
@@ -84,21 +85,22 @@ def average_stress_of_moments(
     return _averaged(bodies, normals, cross_by_component(normals, moments), volumes)
 
 
-def von_mises(stresses: np.ndarray) -> np.ndarray:
+def von_mises(stresses: FloatArray) -> FloatArray:
     """Equivalent stress (n,) of tensors (n, 3, 3), Pa: √(3/2 s:s) with the deviator s (R. von Mises, 1913)."""
     mean = np.trace(stresses, axis1=-2, axis2=-1) / 3.0
     deviators = stresses - mean[..., None, None] * np.eye(3)
-    return np.sqrt(1.5 * np.square(deviators).sum(axis=(-2, -1)))
+    equivalent: FloatArray = np.sqrt(1.5 * np.square(deviators).sum(axis=(-2, -1)))
+    return equivalent
 
 
-def principal_stresses(stresses: np.ndarray) -> np.ndarray:
+def principal_stresses(stresses: FloatArray) -> FloatArray:
     """Largest and smallest principal stress (n, 2) of symmetric tensors (n, 3, 3), Pa; nan for tensors with a nan."""
     known = np.isfinite(stresses).all(axis=(-2, -1))
     values = symmetric_eigenvalues(np.where(known[..., None, None], stresses, 0.0))
     return np.where(known[..., None], values[..., [2, 0]], np.nan)
 
 
-def _averaged(bodies: np.ndarray, first: np.ndarray, second: np.ndarray, volumes: np.ndarray) -> np.ndarray:
+def _averaged(bodies: IntArray, first: FloatArray, second: FloatArray, volumes: FloatArray) -> FloatArray:
     """Symmetric part of Σ first ⊗ second (k, 3) over the loads of each body, divided by its volume, (n, 3, 3)."""
     count, bodies = len(volumes), np.asarray(bodies)
     sums = np.empty((count, 3, 3))

@@ -18,6 +18,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..arithmetic import power
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import cross_by_component, dot
 from .forces import PairSums
 
@@ -33,9 +34,9 @@ class Motion:
     velocities_m_s, angular_velocities_rad_s : (s, n, 3) float
     """
 
-    centres_m: np.ndarray
-    velocities_m_s: np.ndarray
-    angular_velocities_rad_s: np.ndarray
+    centres_m: FloatArray
+    velocities_m_s: FloatArray
+    angular_velocities_rad_s: FloatArray
 
     def rests(self) -> bool:
         """Return whether no body has a velocity at any of these times, and none is moved from one to the next."""
@@ -69,12 +70,12 @@ class PairImpulses:
         Energy that elastic connections can have stored at the end of each sub-step; None for what stores none.
     """
 
-    pairs: np.ndarray
-    impulses_ns: np.ndarray
-    points_m: np.ndarray
-    angular_impulses_nms: np.ndarray | None = None
-    substeps: np.ndarray | None = None
-    stored_j: np.ndarray | None = None
+    pairs: IntArray
+    impulses_ns: FloatArray
+    points_m: FloatArray
+    angular_impulses_nms: FloatArray | None = None
+    substeps: IntArray | None = None
+    stored_j: FloatArray | None = None
 
     def of_substeps(self, count: int) -> list[slice]:
         """Return which impulses are in each of so many sub-steps, all of them in a row."""
@@ -106,20 +107,22 @@ class FrameWork:
         The same energy by the body that got it.
     """
 
-    gravity_j: float | np.ndarray
-    loads_j: float | np.ndarray
-    tools_j: float | np.ndarray
-    damping_j: float | np.ndarray
-    dissipated_j: float | np.ndarray
-    made_by_connections_j: float | np.ndarray
-    made_by_contacts_j: float | np.ndarray
-    made_by_lifting_j: float | np.ndarray
-    made_j: np.ndarray
+    gravity_j: float | FloatArray
+    loads_j: float | FloatArray
+    tools_j: float | FloatArray
+    damping_j: float | FloatArray
+    dissipated_j: float | FloatArray
+    made_by_connections_j: float | FloatArray
+    made_by_contacts_j: float | FloatArray
+    made_by_lifting_j: float | FloatArray
+    made_j: FloatArray
 
     @classmethod
     def unknown(cls, *shape: int) -> FrameWork:
         """Return work of which nothing is known, nan throughout, on n bodies in one frame, or in frames (k, n)."""
-        return cls(*(np.full(shape[:-1], np.nan) for _ in fields(cls)[:-1]), np.full(shape, np.nan))
+        return cls(
+            **{item.name: np.full(shape if item.name == "made_j" else shape[:-1], np.nan) for item in fields(cls)}
+        )
 
 
 class WorkAccumulator:
@@ -139,17 +142,17 @@ class WorkAccumulator:
 
     def __init__(
         self,
-        masses_kg: np.ndarray,
-        linear_damping: np.ndarray,
-        angular_damping: np.ndarray,
-        gravity_m_s2: np.ndarray,
+        masses_kg: FloatArray,
+        linear_damping: FloatArray,
+        angular_damping: FloatArray,
+        gravity_m_s2: FloatArray,
         start: Motion,
     ):
         self._masses, self._gravity = masses_kg, gravity_m_s2
         self._left_per_second = 1.0 - np.stack((linear_damping, angular_damping))
-        self._left: dict[float, np.ndarray] = {}
+        self._left: dict[float, FloatArray] = {}
         self._before = start
-        self._stored_j: np.ndarray | None = None
+        self._stored_j: FloatArray | None = None
         self._begin()
 
     def _begin(self) -> None:
@@ -159,13 +162,16 @@ class WorkAccumulator:
 
     def finish(self) -> FrameWork:
         """Return the work of the frame; the next one begins."""
+        by_connections_j, by_contacts_j, by_lifting_j = self._made_by.tolist()
         work = FrameWork(
             self._gravity_j,
             self._loads_j,
             self._tools_j,
             self._damping_j,
             self._dissipated_j,
-            *self._made_by.tolist(),
+            by_connections_j,
+            by_contacts_j,
+            by_lifting_j,
             self._made_j,
         )
         self._begin()
@@ -178,11 +184,11 @@ class WorkAccumulator:
     def add(
         self,
         after: Motion,
-        free: np.ndarray,
+        free: BoolArray,
         of_connections: PairImpulses,
         of_contacts: PairImpulses,
-        resultants_ns: np.ndarray,
-        substeps_s: np.ndarray,
+        resultants_ns: FloatArray,
+        substeps_s: FloatArray,
     ) -> None:
         """Add some sub-steps.
 
@@ -233,14 +239,14 @@ class WorkAccumulator:
             self._made_by[2] += float(lifting[substep].sum())
             self._made_j += lifting[substep]
 
-    def _damping_leaves(self, substeps_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _damping_leaves(self, substeps_s: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the shares (s, n, 1) of velocities and of angular velocities that Bullet's damping leaves."""
         for substep_s in set(substeps_s.tolist()) - self._left.keys():
             self._left[substep_s] = power(self._left_per_second, substep_s)
         linear, angular = np.stack([self._left[substep_s] for substep_s in substeps_s.tolist()], axis=1)
         return linear[..., None], angular[..., None]
 
-    def _of_pairs(self, between: PairImpulses, mean: Motion, free: np.ndarray) -> PairWork:
+    def _of_pairs(self, between: PairImpulses, mean: Motion, free: BoolArray) -> PairWork:
         """Return what is taken away between bodies, what tools did, and what is made and by which body it is got."""
         substeps = between.of_substeps(len(free))
         if not len(between.pairs):
@@ -279,7 +285,7 @@ class WorkAccumulator:
             tools_j=_of_tools(sums, loads, motion, is_free, substeps),
         )
 
-    def _after_storing(self, work_j: np.ndarray, stored_j: np.ndarray) -> np.ndarray:
+    def _after_storing(self, work_j: FloatArray, stored_j: FloatArray) -> FloatArray:
         """Return what is left of the work (s k,) of elastic connections when they have stored and given back theirs.
 
         Each has an account: of what it takes from its bodies it keeps as much as it can have stored (s, k), and what it
@@ -294,7 +300,7 @@ class WorkAccumulator:
             left_over[substep] = self._stored_j - offered
         return left_over.ravel()
 
-    def _of_lifting(self, whole: Motion, masses: np.ndarray, steps: np.ndarray) -> np.ndarray:
+    def _of_lifting(self, whole: Motion, masses: FloatArray, steps: FloatArray) -> FloatArray:
         """Return the energy (s, n) of bodies that Bullet moved up without a velocity: so it parts overlapping hulls."""
         pushed = whole.centres_m[1:] - whole.centres_m[:-1] - steps * whole.velocities_m_s[1:]
         return np.maximum(-masses * dot(pushed, self._gravity), 0.0)
@@ -316,7 +322,7 @@ class PairWork:
 
     taken_j: list[float]
     made_j: list[float]
-    made_by_body_j: list[np.ndarray]
+    made_by_body_j: list[FloatArray]
     tools_j: list[list[float]]
 
     @classmethod
@@ -327,7 +333,7 @@ class PairWork:
 
 
 def _of_tools(
-    sums: PairSums, loads: Sequence[np.ndarray], motion: np.ndarray, free: np.ndarray, substeps: list[slice]
+    sums: PairSums, loads: Sequence[FloatArray], motion: FloatArray, free: BoolArray, substeps: list[slice]
 ) -> list[list[float]]:
     """Return the work of bodies that move as animation says on those that move freely, from both sides."""
     led = ~free & motion.any(axis=0)
@@ -345,17 +351,17 @@ def _of_tools(
     return works
 
 
-def _components(*vectors: np.ndarray) -> np.ndarray:
+def _components(*vectors: FloatArray) -> FloatArray:
     """Components (c, k) of vectors (..., 3), one after the other."""
     return np.concatenate([_rows(each) for each in vectors])
 
 
-def _rows(vectors: np.ndarray) -> np.ndarray:
+def _rows(vectors: FloatArray) -> FloatArray:
     """Components (3, k) of vectors (..., 3)."""
     return np.moveaxis(vectors, -1, 0).reshape(3, -1)
 
 
-def _dot(first: Sequence[np.ndarray], second: Sequence[np.ndarray]) -> np.ndarray:
+def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArray:
     """Products (k,) of vectors given by components (c, k)."""
     total = first[0] * second[0]
     added = np.empty_like(total)
@@ -365,7 +371,7 @@ def _dot(first: Sequence[np.ndarray], second: Sequence[np.ndarray]) -> np.ndarra
     return total
 
 
-def _joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
     """Vectors (s, n, 3) of earlier and later sub-steps, each component of which lies together in memory."""
     parts = [np.moveaxis(each, -1, 0) for each in (first, second)]
     return np.moveaxis(np.concatenate(parts, axis=1), 0, -1)

@@ -17,6 +17,7 @@ from itertools import islice
 import numpy as np
 from scipy.special import log_ndtr
 
+from ..arrays import FloatArray
 from .probit import Normal, Trials, fitted
 
 SHRINKS = 0.8
@@ -53,7 +54,7 @@ class NeyerTest:
         self.lowest, self.highest, self.spread = lowest, highest, spread
         self.rounded, self.pending = rounded, pending
 
-    def levels(self, outcomes: Sequence[bool], count: int) -> np.ndarray:
+    def levels(self, outcomes: Sequence[bool], count: int) -> FloatArray:
         """Return the levels (count,) of the first trials, of which the outcomes of the first n are known.
 
         Each was chosen when the outcomes of all trials but the last `pending` before it were known, so that count is at
@@ -75,19 +76,15 @@ class NeyerTest:
             levels.append(self.rounded(level))
             yield levels[-1]
 
-    def _next(self, trials: Trials, under_way: np.ndarray, guess: float) -> tuple[float, float]:
+    def _next(self, trials: Trials, under_way: FloatArray, guess: float) -> tuple[float, float]:
         """The next level, and the guess of the spread after it."""
-        if trials.overlap:
-            found = fitted(trials)
+        if trials.overlap and (found := fitted(trials)):
             low, high = trials.levels.min(), trials.levels.max()
             normal = Normal(float(np.clip(found.median, low, high)), min(found.spread, high - low))
             return most_informative(np.concatenate((trials.levels, under_way)), normal), guess
         place, width = self._search(trials, guess)
-        halves = place is not None
-        if halves and not len(under_way):
-            return place, guess
-        if halves:
-            return most_informative(under_way, Normal(place, width)), guess
+        if place is not None:
+            return most_informative(under_way, Normal(place, width)) if len(under_way) else place, guess
         low, high = trials.levels.min(), trials.levels.max()
         middle = float(np.clip((trials.lowest_success + trials.highest_failure) / 2.0, low, high))
         normal = Normal(middle, min(guess, high - low))
@@ -110,7 +107,7 @@ class NeyerTest:
         return None, guess
 
 
-def most_informative(levels: np.ndarray, normal: Normal) -> float:
+def most_informative(levels: FloatArray, normal: Normal) -> float:
     """Level that adds most to the determinant of the information that levels (n,) give on a distribution."""
     scores = (levels - normal.median) / normal.spread
     weights = information(scores)
@@ -128,6 +125,7 @@ def most_informative(levels: np.ndarray, normal: Normal) -> float:
     return normal.median + normal.spread * float(places[best])
 
 
-def information(scores: np.ndarray) -> np.ndarray:
+def information(scores: FloatArray) -> FloatArray:
     """Information (n,) that trials at scores (x - μ) / σ give on the median, φ² / (Φ (1 - Φ))."""
-    return np.exp(-scores * scores - np.log(2.0 * np.pi) - log_ndtr(scores) - log_ndtr(-scores))
+    gained: FloatArray = np.exp(-scores * scores - np.log(2.0 * np.pi) - log_ndtr(scores) - log_ndtr(-scores))
+    return gained

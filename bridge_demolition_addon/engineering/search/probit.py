@@ -15,6 +15,8 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import log_ndtr, ndtr, ndtri
 from scipy.stats import f as f_distribution
 
+from ..arrays import BoolArray, FloatArray
+
 _ITERATIONS = 100
 _SAME = 1e-12
 _STEEPEST = 1e6
@@ -51,8 +53,8 @@ class Trials:
         Whether each succeeded.
     """
 
-    levels: np.ndarray
-    successes: np.ndarray
+    levels: FloatArray
+    successes: BoolArray
 
     def __len__(self) -> int:
         return len(self.levels)
@@ -132,7 +134,7 @@ def profile_likelihood(trials: Trials, place: float, probability: float) -> floa
     unit = max(np.ptp(trials.levels), abs(offsets).max(), 1e-300)
 
     def loss(slope: float) -> float:
-        return -log_ndtr(signs * (base + slope * offsets / unit)).sum()
+        return -float(log_ndtr(signs * (base + slope * offsets / unit)).sum())
 
     # Concave in the slope, from 0, as good anywhere, to a jump.
     high = 1.0
@@ -165,7 +167,7 @@ def limit(trials: Trials, probability: float, confidence: float, side: int) -> f
     if normal is None or len(trials) < 4:
         return side * np.inf
     most = log_likelihood(trials, normal)
-    least = most - f_distribution.ppf(confidence, 2, len(trials) - 2)
+    least = most - float(f_distribution.ppf(confidence, 2, len(trials) - 2))
 
     def above(place: float) -> float:
         return profile_likelihood(trials, place, probability) - least
@@ -182,8 +184,9 @@ def limit(trials: Trials, probability: float, confidence: float, side: int) -> f
     return side * np.inf
 
 
-def chance(normal: Normal, places: np.ndarray) -> np.ndarray:
+def chance(normal: Normal, places: FloatArray) -> FloatArray:
     """Probability of success (k,) at places (k,)."""
     if normal.spread == 0.0:
         return np.where(places >= normal.median, 1.0, 0.0)
-    return ndtr((places - normal.median) / normal.spread)
+    chances: FloatArray = ndtr((places - normal.median) / normal.spread)
+    return chances

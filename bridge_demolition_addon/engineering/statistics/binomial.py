@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arithmetic import exponential, logarithm, power
+from ..arrays import FloatArray
 
 _HALVINGS = 64
 """Leave 5e-20 of the chances between 0 and 1, which is nine digits of one in ten billions."""
@@ -50,7 +51,7 @@ _SERIES_TERMS = 9
 """Of a deviance near its mean: 0.1 to the power of 19 is less than what rounding leaves."""
 
 
-def at_most(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> np.ndarray:
+def at_most(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> FloatArray:
     """Probability that something of a given chance happens at most so often in so many independent trials.
 
     Parameters
@@ -74,7 +75,7 @@ def at_most(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> np.nda
     return np.where(lower, end, 1.0 - end)[()]
 
 
-def chance_of_at_most(happened: ArrayLike, trials: ArrayLike, probability: ArrayLike) -> np.ndarray:
+def chance_of_at_most(happened: ArrayLike, trials: ArrayLike, probability: ArrayLike) -> FloatArray:
     """The chance at which `at_most` has this probability, which falls with the chance: 1 where all trials happened."""
     happened, trials, probability = np.broadcast_arrays(
         np.asarray(happened, float), np.asarray(trials, float), np.asarray(probability, float)
@@ -87,7 +88,7 @@ def chance_of_at_most(happened: ArrayLike, trials: ArrayLike, probability: Array
     return highest[()]
 
 
-def _end_sum(happened: np.ndarray, trials: np.ndarray, chance: np.ndarray) -> np.ndarray:
+def _end_sum(happened: FloatArray, trials: FloatArray, chance: FloatArray) -> FloatArray:
     """Probability of 0 to `happened`, where that is not above the mean; 0 below 0."""
     there = happened >= 0.0
     last = np.where(there, happened, 0.0)
@@ -102,7 +103,7 @@ def _end_sum(happened: np.ndarray, trials: np.ndarray, chance: np.ndarray) -> np
     return total
 
 
-def _probability_of(happened: np.ndarray, trials: np.ndarray, chance: np.ndarray) -> np.ndarray:
+def _probability_of(happened: FloatArray, trials: FloatArray, chance: FloatArray) -> FloatArray:
     """Probability of exactly so many."""
     missed, rest = trials - happened, 1.0 - chance
     inside = (happened > 0.0) & (missed > 0.0) & (chance > 0.0) & (rest > 0.0)
@@ -115,7 +116,7 @@ def _probability_of(happened: np.ndarray, trials: np.ndarray, chance: np.ndarray
     return np.where(inside, between, at_ends)
 
 
-def _stirling_error(n: np.ndarray) -> np.ndarray:
+def _stirling_error(n: FloatArray) -> FloatArray:
     """ln(n!) less Stirling's formula, (n + 1/2) ln n - n + ln(2π) / 2."""
     known = n < len(_STIRLING_ERRORS)
     inverse = 1.0 / np.where(known, 1.0, n)
@@ -125,7 +126,7 @@ def _stirling_error(n: np.ndarray) -> np.ndarray:
     return np.where(known, _STIRLING_ERRORS[np.where(known, n, 0.0).astype(int)], series * inverse)
 
 
-def _deviance(x: np.ndarray, mean: np.ndarray) -> np.ndarray:
+def _deviance(x: FloatArray, mean: FloatArray) -> FloatArray:
     """x ln(x / mean) + mean - x, without loss of digits near the mean."""
     difference = x - mean
     ratio = difference / (x + mean)

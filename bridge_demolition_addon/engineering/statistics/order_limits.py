@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from .binomial import at_most
 from .proportions import upper_limit
 
@@ -63,7 +64,7 @@ def most_touching(runs: int, quantile: float, confidence: float) -> int:
     return int(most_touching_by_runs(np.array([runs]), quantile, confidence)[0])
 
 
-def most_touching_by_runs(runs: np.ndarray, quantile: float, confidence: float) -> np.ndarray:
+def most_touching_by_runs(runs: IntArray, quantile: float, confidence: float) -> FloatArray:
     """Return `most_touching` of each number of runs (n,)."""
     allowed, refused = np.zeros(runs.shape, int), runs + 1
     while (refused - allowed > 1).any():
@@ -79,12 +80,12 @@ def share_within(touching: int, runs: int, confidence: float) -> float:
     return 1.0 - float(upper_limit(touching - 1, runs, confidence))
 
 
-def nth_largest(values: np.ndarray, rank: int) -> float:
+def nth_largest(values: FloatArray, rank: int) -> float:
     """Return the value (n,) of a rank from the largest, which is 1; infinite values count as largest."""
     return float(np.partition(values, len(values) - rank)[len(values) - rank])
 
 
-def limits_by_runs(values: np.ndarray, quantile: float, confidence: float, rank: int) -> tuple[np.ndarray, np.ndarray]:
+def limits_by_runs(values: FloatArray, quantile: float, confidence: float, rank: int) -> tuple[IntArray, FloatArray]:
     """Follow a limit while runs come in.
 
     Parameters

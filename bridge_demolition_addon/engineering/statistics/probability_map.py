@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from manifold3d import CrossSection
 
+from ..arrays import FloatArray, IntArray
 from ..geometry.plan_cells import PlanCells
 from .order_limits import least_runs
 from .proportions import upper_limit
@@ -41,18 +42,18 @@ class ProbabilityMap:
     """
 
     cells: PlanCells
-    hits: np.ndarray
+    hits: IntArray
     runs: int
     unfinished: int
     confidence: float
 
     @property
-    def shares(self) -> np.ndarray:
+    def shares(self) -> FloatArray:
         """Shares (rows, columns) of the runs that hit each cell."""
         return self.hits / self.runs
 
     @cached_property
-    def upper_limits(self) -> np.ndarray:
+    def upper_limits(self) -> FloatArray:
         """Upper limits (rows, columns) of the probability that a run hits each cell, after Clopper and Pearson."""
         counts, of = np.unique(self.hits, return_inverse=True)
         return upper_limit(counts, self.runs, self.confidence)[of.reshape(self.hits.shape)]
@@ -74,7 +75,7 @@ class ProbabilityMap:
 
 
 def probability_map(
-    swept: Iterable[Sequence[np.ndarray] | None], confidence: float, around: Sequence[np.ndarray] = ()
+    swept: Iterable[Sequence[FloatArray] | None], confidence: float, around: Sequence[FloatArray] = ()
 ) -> ProbabilityMap | None:
     """Return the map of a study; None where no run moved anything and there is nothing around which to draw it.
 
@@ -91,7 +92,7 @@ def probability_map(
     corners = [_box(rings) for rings in (*swept, around) if rings]
     if not corners:
         return None
-    low, high = np.min([box[0] for box in corners], axis=0), np.max([box[1] for box in corners], axis=0)
+    low, high = np.array([low for low, _ in corners]).min(axis=0), np.array([high for _, high in corners]).max(axis=0)
     cells = PlanCells.over(low, high, _MOST_CELLS)
     hits, runs, unfinished = np.zeros((cells.rows, cells.columns), int), 0, 0
     for rings in swept:
@@ -100,6 +101,6 @@ def probability_map(
     return ProbabilityMap(cells, hits, runs, unfinished, confidence)
 
 
-def _box(rings: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+def _box(rings: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
     corners = np.concatenate(rings)
     return corners.min(axis=0), corners.max(axis=0)

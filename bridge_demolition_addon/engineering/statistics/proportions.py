@@ -11,10 +11,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray
 from .binomial import chance_of_at_most
 
 
-def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> np.ndarray:
+def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArray:
     """Largest probability that so many of the trials leave possible, with a one-sided confidence.
 
     Parameters
@@ -29,6 +30,6 @@ def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> np.ndarr
     return chance_of_at_most(happened, trials, 1.0 - confidence)
 
 
-def lower_limit(happened: ArrayLike, trials: int, confidence: float) -> np.ndarray:
+def lower_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArray:
     """Smallest probability that so many of the trials leave possible; see `upper_limit`."""
     return 1.0 - upper_limit(trials - np.asarray(happened), trials, confidence)

@@ -12,15 +12,17 @@ import math
 
 import numpy as np
 
+from ..arrays import FloatArray
 
-def ranks_of(values: np.ndarray) -> np.ndarray:
+
+def ranks_of(values: FloatArray) -> FloatArray:
     """Ranks (n,) of values (n,) from 1, the smallest; equal ones share the mean of theirs. Infinity is a value."""
     _, places, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     return (last - (counts - 1) / 2.0)[places]
 
 
-def rank_correlation(first: np.ndarray, second: np.ndarray) -> float:
+def rank_correlation(first: FloatArray, second: FloatArray) -> float:
     """Rank correlation of pairs (n,): 1 where both rise together, -1 where one falls; nan where one never changes."""
     one, other = (ranks - ranks.mean() for ranks in (ranks_of(first), ranks_of(second)))
     size = np.sqrt(np.square(one).sum() * np.square(other).sum())

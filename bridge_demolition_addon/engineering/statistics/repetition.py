@@ -13,9 +13,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..arithmetic import exponential, logarithm
+from ..arrays import FloatArray
 
 
-def chances_above(rank: int, runs: int) -> np.ndarray:
+def chances_above(rank: int, runs: int) -> FloatArray:
     """Return how likely the value of a rank, in as many new runs, is above each of the values that are known.
 
     Parameters
@@ -40,7 +41,7 @@ def chances_above(rank: int, runs: int) -> np.ndarray:
     return np.minimum(np.cumsum(exponential(sizes)), 1.0)
 
 
-def repeated_limit(values: np.ndarray, rank: int, confidence: float) -> tuple[float, float, float]:
+def repeated_limit(values: FloatArray, rank: int, confidence: float) -> tuple[float, float, float]:
     """Return the range in which the limit by rank of as many new runs would lie.
 
     Parameters

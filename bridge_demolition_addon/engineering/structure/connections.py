@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..fracture.shared_faces import SharedFaces
 from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.proximity import blocks, boxes_that_meet, nearest_points, points_within, ranges
@@ -40,21 +41,21 @@ class Connections:
         between their centres of mass, and upwards where these coincide.
     """
 
-    pairs: np.ndarray
-    points: np.ndarray
-    areas: np.ndarray
-    normals: np.ndarray
+    pairs: IntArray
+    points: FloatArray
+    areas: FloatArray
+    normals: FloatArray
 
     def __len__(self) -> int:
         return len(self.pairs)
 
-    def only(self, kept: np.ndarray) -> Connections:
+    def only(self, kept: BoolArray) -> Connections:
         """Those connections (m,) that are kept."""
         return Connections(self.pairs[kept], self.points[kept], self.areas[kept], self.normals[kept])
 
 
 def connect(
-    centres: np.ndarray, faces: SharedFaces, pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int
+    centres: FloatArray, faces: SharedFaces, pairs: IntArray, distances: FloatArray, limit_per_shard: int
 ) -> Connections:
     """Connections of neighbouring shards, nearest first, until a shard has as many as allowed.
 
@@ -83,17 +84,17 @@ def connect(
     return Connections(pairs, points, areas, normals)
 
 
-def neighbours_by_face(faces: SharedFaces) -> tuple[np.ndarray, np.ndarray]:
+def neighbours_by_face(faces: SharedFaces) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of shards that share a face, and an order (k,) in which the largest face comes first."""
     return faces.pairs, -faces.areas
 
 
-def neighbours_by_centre(centres: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+def neighbours_by_centre(centres: FloatArray, radius_m: float) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of shards whose centres of mass (n, 3) lie within a radius, and their distances (k,) in m."""
     return points_within(centres, radius_m)
 
 
-def neighbours_by_count(centres: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def neighbours_by_count(centres: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of shards, one of them among those nearest to the other, and their distances (k,) in m.
 
     Parameters
@@ -109,7 +110,7 @@ def neighbours_by_count(centres: np.ndarray, count: int) -> tuple[np.ndarray, np
     return pairs, distances.ravel()[rows]
 
 
-def neighbours_by_vertex(shards: Sequence[TriangleMesh], radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+def neighbours_by_vertex(shards: Sequence[TriangleMesh], radius_m: float) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of shards whose nearest vertices lie within a radius, and their distances (k,) in m."""
     corners = _Corners.of(shards)
     candidates = boxes_that_meet(corners.lower, corners.upper, radius_m)
@@ -120,7 +121,7 @@ def neighbours_by_vertex(shards: Sequence[TriangleMesh], radius_m: float) -> tup
     return candidates[near], distances[near]
 
 
-def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shard_count: int) -> np.ndarray:
+def limited(pairs: IntArray, distances: FloatArray, limit_per_shard: int, shard_count: int) -> IntArray:
     """The pairs (k, 2) that remain when, nearest first, no shard may have more than its limit.
 
     Pairs at the same distance are taken in order of their shards, so that the result is reproducible.
@@ -140,7 +141,7 @@ def limited(pairs: np.ndarray, distances: np.ndarray, limit_per_shard: int, shar
 
 
 def foundations(
-    shards: Sequence[TriangleMesh], heights_at: Callable[[np.ndarray], np.ndarray] | None = None
+    shards: Sequence[TriangleMesh], heights_at: Callable[[FloatArray], FloatArray] | None = None
 ) -> Connections:
     """Connections to the ground of all shards that stand on it, in the middle of the face they stand on.
 
@@ -168,8 +169,8 @@ def joined(parts: Sequence[Connections]) -> Connections:
 
 
 def _standing_face(
-    shard: TriangleMesh, heights_at: Callable[[np.ndarray], np.ndarray] | None
-) -> tuple[float, np.ndarray]:
+    shard: TriangleMesh, heights_at: Callable[[FloatArray], FloatArray] | None
+) -> tuple[float, FloatArray]:
     """Area and centre of what of a shard lies flat on the ground."""
     corners = shard.corners
     if heights_at is None:
@@ -190,10 +191,10 @@ def _standing_face(
 class _Corners:
     """Vertices (v, 3) of all shards, where those of each begin: `bounds` (n + 1,), and the shards' boxes (n, 3)."""
 
-    vertices: np.ndarray
-    bounds: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    vertices: FloatArray
+    bounds: IntArray
+    lower: FloatArray
+    upper: FloatArray
 
     @classmethod
     def of(cls, shards: Sequence[TriangleMesh]) -> _Corners:
@@ -204,7 +205,7 @@ class _Corners:
             upper=np.array([shard.vertices.max(axis=0) for shard in shards]).reshape(-1, 3),
         )
 
-    def distances(self, pairs: np.ndarray, radius_m: float) -> np.ndarray:
+    def distances(self, pairs: IntArray, radius_m: float) -> FloatArray:
         """Distances (k,) between the nearest vertices of pairs (k, 2) of shards; inf where surely beyond a radius."""
         row, first = self._near_box(pairs[:, 0], pairs[:, 1], radius_m)
         other_row, second = self._near_box(pairs[:, 1], pairs[:, 0], radius_m)
@@ -216,7 +217,7 @@ class _Corners:
         np.minimum.at(squares, row, dot(difference, difference))
         return np.sqrt(squares)
 
-    def _near_box(self, shards: np.ndarray, others: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+    def _near_box(self, shards: IntArray, others: IntArray, radius_m: float) -> tuple[IntArray, IntArray]:
         """Row k and vertex of shards[k], for all its vertices within a radius of the box of others[k]."""
         row, vertex = ranges(self.bounds[shards], np.diff(self.bounds)[shards])
         reach = radius_m * (1.0 + _ROUNDING) + _ROUNDING
@@ -225,14 +226,14 @@ class _Corners:
         return row[near], vertex[near]
 
 
-def _matching_rows(pairs: np.ndarray, face_pairs: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _matching_rows(pairs: IntArray, face_pairs: IntArray, count: int) -> tuple[IntArray, IntArray]:
     """Rows of `pairs` (sorted) that also stand in `face_pairs`, and their rows there."""
     keys, face_keys = pairs[:, 0] * count + pairs[:, 1], face_pairs[:, 0] * count + face_pairs[:, 1]
     _, rows, face_rows = np.intersect1d(keys, face_keys, return_indices=True)
     return rows, face_rows
 
 
-def _directions(vectors: np.ndarray) -> np.ndarray:
+def _directions(vectors: FloatArray) -> FloatArray:
     """Unit vectors (k, 3) along vectors (k, 3); upwards where one has no length."""
     directions = unit(vectors)
     return np.where(directions.any(axis=1)[:, None], directions, (0.0, 0.0, 1.0))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.plan_areas import signed_area
 from ..geometry.proximity import blocks, ranges
@@ -20,8 +21,8 @@ _SAME_AREA = 1e-3
 
 
 def second_moments(
-    shards: Sequence[TriangleMesh], first: np.ndarray, areas: np.ndarray, centres: np.ndarray, normals: np.ndarray
-) -> np.ndarray:
+    shards: Sequence[TriangleMesh], first: IntArray, areas: FloatArray, centres: FloatArray, normals: FloatArray
+) -> FloatArray:
     """Second moments of area of faces about their own centres.
 
     The face is looked for in the mesh of its first shard: all triangles in its plane that look its way. Where these are
@@ -58,8 +59,8 @@ def second_moments(
 
 
 def triangles_in_faces(
-    shards: Sequence[TriangleMesh], centres: np.ndarray, normals: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+    shards: Sequence[TriangleMesh], centres: FloatArray, normals: FloatArray
+) -> tuple[IntArray, FloatArray]:
     """Face (t,), in ascending order, and corners (t, 3, 2) of all triangles in the planes of k faces.
 
     Corners are in the face's own y and z, about its centre.
@@ -83,7 +84,7 @@ def triangles_in_faces(
     return face[lies], transformed_back(in_plane[face[lies]][:, None], arms[triangles[lies]])
 
 
-def _about_own_centres(corners: np.ndarray, areas: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _about_own_centres(corners: FloatArray, areas: FloatArray) -> tuple[FloatArray, BoolArray]:
     """Second moments (k, 2, 2) of k faces of t triangles each, by corners (k, t, 3, 2), and whether each is alone (k,).
 
     It is not where the triangles' area is not the face's own (k,).

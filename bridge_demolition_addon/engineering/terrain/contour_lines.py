@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray
+
 _MOST_LINES = 15
 _DISTANCES_M = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
 
 
-def contour_lines(corners: np.ndarray) -> np.ndarray:
+def contour_lines(corners: FloatArray) -> FloatArray:
     """Return the lines (s, 2, 3) at round heights in triangles (t, 3, 3), m; none in ground that is level."""
     heights = corners[:, :, 2]
     if not len(corners):
@@ -19,7 +21,7 @@ def contour_lines(corners: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros((0, 2, 3)), *(_lines_at(corners, number * distance) for number in numbers)])
 
 
-def _lines_at(corners: np.ndarray, level_m: float) -> np.ndarray:
+def _lines_at(corners: FloatArray, level_m: float) -> FloatArray:
     """Where triangles (t, 3, 3) have a height, from one of their sides to another, (s, 2, 3)."""
     above = corners[:, :, 2] > level_m
     cut = above.any(axis=1) & ~above.all(axis=1)

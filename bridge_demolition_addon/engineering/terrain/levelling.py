@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...errors import GeometryError
+from ..arrays import BoolArray, FloatArray
 from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from .surface import Surface
 from .thinning import Grid
@@ -40,8 +41,8 @@ class Levelled:
 
 
 def levelled(
-    grid: Grid, members: Sequence[tuple[str, TriangleMesh]], heights_at: Callable[[np.ndarray], np.ndarray]
-) -> tuple[Grid, np.ndarray, tuple[Levelled, ...]]:
+    grid: Grid, members: Sequence[tuple[str, TriangleMesh]], heights_at: Callable[[FloatArray], FloatArray]
+) -> tuple[Grid, FloatArray, tuple[Levelled, ...]]:
     """Return a grid whose ground is level under feet and reaches into no member.
 
     A member stands on the ground where that reaches up to the middle of its lowest face. There the ground is filled up
@@ -100,7 +101,7 @@ def levelled(
     return replace(grid, heights=heights), kept | _grown(heights != before), tuple(done)
 
 
-def _foot(solid: TriangleMesh) -> np.ndarray | None:
+def _foot(solid: TriangleMesh) -> FloatArray | None:
     """Middle (3,) of the lowest face of a solid; None where that is no face but an edge or a corner."""
     corners = solid.corners
     level = float(corners[:, :, 2].min())
@@ -113,7 +114,7 @@ def _foot(solid: TriangleMesh) -> np.ndarray | None:
     return np.array([middle[0], middle[1], level])
 
 
-def _lower_side(solid: TriangleMesh, spacing_m: float) -> np.ndarray:
+def _lower_side(solid: TriangleMesh, spacing_m: float) -> FloatArray:
     """Places (n, 3) on the lower side of a solid, so close that none of its plan is farther from them than that."""
     low, high = solid.bounds[:, :2]
     counts = np.maximum(np.ceil((high - low) / spacing_m).astype(int), 1) + 1
@@ -124,7 +125,7 @@ def _lower_side(solid: TriangleMesh, spacing_m: float) -> np.ndarray:
     return np.concatenate([np.column_stack((places, heights))[inside], _on_edges(solid, spacing_m)])
 
 
-def _on_edges(solid: TriangleMesh, spacing_m: float) -> np.ndarray:
+def _on_edges(solid: TriangleMesh, spacing_m: float) -> FloatArray:
     """Places (n, 3) along all edges: of what is thinner than the spacing they are all there is."""
     edges = np.unique(np.sort(solid.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
     first, second = solid.vertices[edges[:, 0]], solid.vertices[edges[:, 1]]
@@ -132,10 +133,11 @@ def _on_edges(solid: TriangleMesh, spacing_m: float) -> np.ndarray:
     rows = np.repeat(np.arange(len(edges)), parts + 1)
     numbers = np.arange(len(rows)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
     shares = (numbers / parts[rows])[:, None]
-    return first[rows] + shares * (second[rows] - first[rows])
+    points: FloatArray = first[rows] + shares * (second[rows] - first[rows])
+    return points
 
 
-def _nodes_below(grid: Grid, samples: np.ndarray) -> np.ndarray:
+def _nodes_below(grid: Grid, samples: FloatArray) -> FloatArray:
     """Lowest of the samples (n, 3) in the cells around each node, (s, s); inf where there are none."""
     found = np.full(grid.heights.shape, np.inf)
     cells = np.clip(np.floor((samples[:, :2] - grid.low) / grid.step_m).astype(np.int64), 0, grid.size - 2)
@@ -145,7 +147,7 @@ def _nodes_below(grid: Grid, samples: np.ndarray) -> np.ndarray:
     return found
 
 
-def _beside(low: np.ndarray) -> np.ndarray:
+def _beside(low: FloatArray) -> FloatArray:
     """The least value (s, s) of each node and its eight neighbours."""
     for axis in (0, 1):
         padded = np.pad(low, [(1, 1) if each == axis else (0, 0) for each in (0, 1)], constant_values=np.inf)
@@ -154,11 +156,11 @@ def _beside(low: np.ndarray) -> np.ndarray:
     return low
 
 
-def _grown(chosen: np.ndarray) -> np.ndarray:
+def _grown(chosen: BoolArray) -> FloatArray:
     """Nodes (s, s) that are chosen, or beside one that is."""
     return np.isfinite(_beside(np.where(chosen, 0.0, np.inf)))
 
 
-def _at(grid: Grid, place: np.ndarray) -> float:
+def _at(grid: Grid, place: FloatArray) -> float:
     column, row = np.clip(np.rint((place - grid.low) / grid.step_m).astype(int), 0, grid.size - 1)
     return float(grid.heights[row, column])

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Raster:
@@ -21,18 +23,18 @@ class Raster:
         nan where there are no data.
     """
 
-    first: np.ndarray
-    steps: np.ndarray
-    heights: np.ndarray
+    first: FloatArray
+    steps: FloatArray
+    heights: FloatArray
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> FloatArray:
         """Lowest and highest easting and northing of the heights, (2, 2)."""
         rows, columns = self.heights.shape
         return np.array([self.first, self.first + self.steps * (columns - 1, rows - 1)])
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> FloatArray:
         """Places (n, 3) of all heights that are known."""
         rows, columns = np.nonzero(np.isfinite(self.heights))
         x, y = self.first[0] + self.steps[0] * columns, self.first[1] + self.steps[1] * rows
@@ -43,7 +45,7 @@ class Raster:
         """Distance of neighbouring heights."""
         return float(self.steps.min())
 
-    def heights_at(self, places: np.ndarray) -> np.ndarray:
+    def heights_at(self, places: FloatArray) -> FloatArray:
         """Heights (n,) at places (n, 2), even between the four around each; nan where one of these is not known."""
         rows, columns = self.heights.shape
         x, y = ((np.asarray(places, float) - self.first) / self.steps).T

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection, FillRule
 
+from ..arrays import FloatArray
 from ..geometry.plan_areas import signed_area
 from .surface import Surface
 
@@ -73,7 +74,7 @@ class RecordedGround:
             return plan
         return plan - _covered_above(self.terrain.mesh.corners, level, np.array(plan.bounds()).reshape(2, 2))
 
-    def heights_at(self, places_m: np.ndarray) -> np.ndarray:
+    def heights_at(self, places_m: FloatArray) -> FloatArray:
         """Heights (...) of ground and surfaces at places (..., 2), m; beyond its edge, that of its lowest place."""
         places = np.asarray(places_m, float)
         flat = places.reshape(-1, 2)
@@ -86,14 +87,14 @@ class RecordedGround:
         return heights.reshape(places.shape[:-1])
 
 
-def _covered(corners: np.ndarray) -> CrossSection:
+def _covered(corners: FloatArray) -> CrossSection:
     """What triangles (t, 3, 2) cover in plan, whichever side of them is up."""
     areas = signed_area(corners)
     corners = np.where((areas < 0.0)[:, None, None], corners[:, ::-1], corners)
     return CrossSection(list(corners[areas != 0.0]), FillRule.NonZero)
 
 
-def _covered_above(corners: np.ndarray, level_m: float, bounds_m: np.ndarray) -> CrossSection:
+def _covered_above(corners: FloatArray, level_m: float, bounds_m: FloatArray) -> CrossSection:
     """What the parts of triangles (t, 3, 3) above a level cover in plan, of those that meet a box (2, 2)."""
     plan = corners[:, :, :2]
     meets = (plan.max(axis=1) >= bounds_m[0]).all(axis=1) & (plan.min(axis=1) <= bounds_m[1]).all(axis=1)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.proximity import blocks, ranges
 from ..geometry.vectors import cross_2d
@@ -27,12 +28,12 @@ class Surface:
     """
 
     mesh: TriangleMesh
-    _corners: np.ndarray = field(init=False)
-    _low: np.ndarray = field(init=False)
+    _corners: FloatArray = field(init=False)
+    _low: BoolArray = field(init=False)
     _cell_m: float = field(init=False)
-    _counts: np.ndarray = field(init=False)
-    _triangles: np.ndarray = field(init=False)
-    _firsts: np.ndarray = field(init=False)
+    _counts: IntArray = field(init=False)
+    _triangles: IntArray = field(init=False)
+    _firsts: IntArray = field(init=False)
 
     def __post_init__(self) -> None:
         corners = self.mesh.corners
@@ -57,12 +58,12 @@ class Surface:
         object.__setattr__(self, "_firsts", firsts)
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> FloatArray:
         """Lowest and highest x and y, (2, 2)."""
         return self.mesh.bounds[:, :2]
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> FloatArray:
         """Places (n, 3) at which heights were given."""
         return self.mesh.vertices
 
@@ -71,7 +72,7 @@ class Surface:
         """Distance of neighbouring heights; None, as they lie anywhere."""
         return None
 
-    def heights_at(self, places: np.ndarray) -> np.ndarray:
+    def heights_at(self, places: FloatArray) -> FloatArray:
         """Heights (n,) of the highest triangle at places (n, 2); nan where there is none."""
         places = np.asarray(places, float).reshape(-1, 2)
         found = np.full(len(places), np.nan)
@@ -92,7 +93,7 @@ class Surface:
         return found
 
 
-def _heights_in(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _heights_in(corners: FloatArray, places: FloatArray) -> FloatArray:
     """Height (n,) of each triangle (n, 3, 3) at its place (n, 2); nan where that is beside it."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 
 _STRICTER = 0.7
@@ -32,23 +33,23 @@ class Grid:
         Rows along x, one for each y; s = 2^k + 1.
     """
 
-    low: np.ndarray
+    low: FloatArray
     step_m: float
-    heights: np.ndarray
+    heights: FloatArray
 
     @property
     def size(self) -> int:
         """How many nodes a side has."""
         return len(self.heights)
 
-    def places(self) -> np.ndarray:
+    def places(self) -> FloatArray:
         """Places (s², 2) of all nodes, row by row, m."""
         numbers = np.arange(self.size)
         x, y = np.meshgrid(self.low[0] + self.step_m * numbers, self.low[1] + self.step_m * numbers)
         return np.column_stack((x.ravel(), y.ravel()))
 
 
-def thinned(grid: Grid, tolerance_m: float, kept: np.ndarray, longest_m: float) -> TriangleMesh:
+def thinned(grid: Grid, tolerance_m: float, kept: BoolArray, longest_m: float) -> TriangleMesh:
     """Return triangles that are no farther than a tolerance above or below any node of a grid.
 
     Parameters
@@ -81,7 +82,7 @@ def _levels(size: int) -> Iterator[tuple[int, bool]]:
         half //= 2
 
 
-def _middles(size: int, half: int, of_squares: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _middles(size: int, half: int, of_squares: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Middles (m, 2) of the longest sides of one size, as row and column, and the sides' ends, (m, 2) each."""
     odd, even = np.arange(half, size, 2 * half), np.arange(0, size, 2 * half)
     if of_squares:
@@ -99,7 +100,7 @@ def _middles(size: int, half: int, of_squares: bool) -> tuple[np.ndarray, np.nda
     return np.column_stack((row, column)), np.column_stack(first), np.column_stack(second)
 
 
-def _needed(grid: Grid, limit_m: float, kept: np.ndarray, longest_m: float) -> np.ndarray:
+def _needed(grid: Grid, limit_m: float, kept: BoolArray, longest_m: float) -> BoolArray:
     """Whether each node is a corner of triangles."""
     heights, size = grid.heights, grid.size
     needed = kept.copy()
@@ -113,9 +114,10 @@ def _needed(grid: Grid, limit_m: float, kept: np.ndarray, longest_m: float) -> n
     return needed
 
 
-def _halved_further(needed: np.ndarray, row: np.ndarray, column: np.ndarray, half: int, of_squares: bool) -> np.ndarray:
+def _halved_further(needed: BoolArray, row: IntArray, column: IntArray, half: int, of_squares: bool) -> BoolArray:
     """Whether a triangle that comes from those with these middles is halved in turn."""
     last = len(needed) - 1
+    shifts: tuple[tuple[int, int], ...]
     if of_squares:
         shifts = ((half, 0), (-half, 0), (0, half), (0, -half))
     elif half > 1:
@@ -129,7 +131,7 @@ def _halved_further(needed: np.ndarray, row: np.ndarray, column: np.ndarray, hal
     return found
 
 
-def _interpolated(heights: np.ndarray, needed: np.ndarray) -> np.ndarray:
+def _interpolated(heights: FloatArray, needed: BoolArray) -> FloatArray:
     """Heights (s, s) of the triangles at all nodes: a node that is no corner is the mean of its longest side's ends."""
     found = heights.copy()
     for half, of_squares in _levels(len(heights)):
@@ -140,7 +142,7 @@ def _interpolated(heights: np.ndarray, needed: np.ndarray) -> np.ndarray:
     return found
 
 
-def _triangles(grid: Grid, needed: np.ndarray) -> TriangleMesh:
+def _triangles(grid: Grid, needed: BoolArray) -> TriangleMesh:
     last = grid.size - 1
     # Each with the ends of its longest side first, as row and column, so that, as x and y, they run counter-clockwise.
     corners = np.array([[[0, 0], [last, last], [last, 0]], [[last, last], [0, 0], [0, last]]])

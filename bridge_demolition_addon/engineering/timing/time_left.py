@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arithmetic import exponential
+from ..arrays import FloatArray
 
 _SECONDS_PER_MINUTE = 60
 
@@ -49,8 +50,8 @@ class Pace:
 
 
 def speeds_to_come(
-    heights_m: np.ndarray, velocities_m_s: np.ndarray, gravity_m_s2: float, after_s: Sequence[float]
-) -> np.ndarray:
+    heights_m: FloatArray, velocities_m_s: FloatArray, gravity_m_s2: float, after_s: Sequence[float]
+) -> FloatArray:
     """Return how fast the fastest body probably is at some times to come.
 
     What moves flies on until it is as low as the lowest body, and slows down there. What rests is taken to stay at
@@ -84,7 +85,8 @@ def speeds_to_come(
     climbs = upwards - gravity_m_s2 * flown_s
     speeds = np.sqrt(sideways_squared + climbs * climbs)
     slowed = exponential((flown_s - times[looked_at, None]) / _SLOWING_S)
-    return np.interp(times, times[looked_at], (speeds * slowed).max(axis=1))
+    speeds_left: FloatArray = np.interp(times, times[looked_at], (speeds * slowed).max(axis=1))
+    return speeds_left
 
 
 def clock(seconds: float) -> str:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray
+
 FRAME_NOISE = 1e-6
 """Part of a frame that rounding may add to a duration without a frame being added for it."""
 
@@ -70,12 +72,13 @@ class TimeStep:
 
 
 def substeps_within(
-    frame_s: ArrayLike, fewest: ArrayLike, farthest_m: float, speed_m_s: ArrayLike, acceleration_m_s2: float
-) -> np.ndarray:
+    frame_s: ArrayLike, fewest: ArrayLike, farthest_m: float, speed_m_s: float | FloatArray, acceleration_m_s2: float
+) -> FloatArray:
     """Return sub-steps as `TimeStep.substeps_within`, of frames of these lengths that have so many at least."""
-    frame_s = np.asarray(frame_s, float)
-    way_m = (speed_m_s + acceleration_m_s2 * frame_s) * frame_s
-    return np.maximum(fewest, np.ceil(np.minimum(way_m / farthest_m, MOST_SUBSTEPS)))
+    lengths_s = np.asarray(frame_s, float)
+    way_m = (speed_m_s + acceleration_m_s2 * lengths_s) * lengths_s
+    substeps: FloatArray = np.maximum(fewest, np.ceil(np.minimum(way_m / farthest_m, MOST_SUBSTEPS)))
+    return substeps
 
 
 def frames_over(frame_s: float, duration_s: float) -> int:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arithmetic import logarithm
+from ..arrays import FloatArray
 from .time_step import FRAME_NOISE, frames_over
 
 SLOWING = 0.8
@@ -50,7 +51,7 @@ class Timeline:
         (k,) simulated time that each frame adds.
     """
 
-    frame_lengths_s: np.ndarray
+    frame_lengths_s: FloatArray
 
     @classmethod
     def of(cls, frame_s: float, duration_s: float, slow_motions: Sequence[SlowMotion] = ()) -> Timeline:
@@ -61,7 +62,7 @@ class Timeline:
         has settled in long steps would be torn apart by short ones that came all at once. For the same reason the time
         before is divided evenly, and slow motions with less than `_FEWEST_BETWEEN` frames in between are one.
         """
-        lengths: list[np.ndarray] = []
+        lengths: list[FloatArray] = []
         time = 0.0
         for each in _merged(slow_motions, _FEWEST_BETWEEN * frame_s):
             if each.start_s >= duration_s:
@@ -77,7 +78,7 @@ class Timeline:
         return len(self.frame_lengths_s)
 
     @property
-    def ends_s(self) -> np.ndarray:
+    def ends_s(self) -> FloatArray:
         """(k,) simulated time at the end of each frame."""
         return np.cumsum(self.frame_lengths_s)
 
@@ -87,7 +88,7 @@ class Timeline:
         return int(np.searchsorted(self.ends_s + noise, time_s)) + (1 if time_s > 0.0 else 0)
 
 
-def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float) -> np.ndarray:
+def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float) -> FloatArray:
     """Frames that together are exactly a duration, at first of one length, at last shorter and shorter."""
     steps = max(0, math.ceil(logarithm(slow_frame_s / frame_s) / logarithm(SLOWING)) - 1)
     slowing = frame_s * np.cumprod(np.full(steps, SLOWING))
