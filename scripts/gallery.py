@@ -47,11 +47,11 @@ STUDY = """\
 93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
 and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. What the study says stands in the
 [README](../README.md#a-plan-is-a-study), all its runs are in [a table](data/studies/i235_one_span.csv), and
-`scripts/study_picture.py` draws the picture from its folder.
+`scripts/pictures/study_picture.py` draws the picture from its folder.
 
 Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 """
-"""Section on the example of a study, whose picture `scripts/study_picture.py` makes."""
+"""Section on the example of a study, whose picture `scripts/pictures/study_picture.py` makes."""
 
 
 def main(names: list[str]) -> int:

@@ -2,18 +2,13 @@
 """What arches of the validation are held against, itself held against published limits and textbook formulas."""
 
 import math
-import sys
-
-import numpy as np
-import pytest
-from support.checkout import ROOT
-from support.moving_boxes import moving_boxes
-
-sys.path.insert(1, str(ROOT / "validation"))
 
 import i235_decks
 import laboratory_arches
+import numpy as np
+import pytest
 from arches import Arch, course_of, first_crack_n, limit_load_n
+from support.moving_boxes import moving_boxes
 
 
 def semicircle(thickness):

@@ -3,18 +3,14 @@
 
 import ast
 import re
-import sys
 import tomllib
 from collections import Counter
 from itertools import chain
 from xml.etree import ElementTree
 
 import pytest
+from pictures import layers_picture
 from support.checkout import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import layers_picture
 
 PACKAGE = "bridge_demolition_addon"
 
@@ -51,7 +47,7 @@ def first_cells(heading):
 
 def test_the_picture_is_up_to_date():
     made = layers_picture.PICTURE.read_text(encoding="utf-8")
-    assert made == layers_picture.picture(), "run: python scripts/layers_picture.py"
+    assert made == layers_picture.picture(), "run: python scripts/pictures/layers_picture.py"
 
 
 def test_layers_are_drawn_in_the_order_of_their_contract():

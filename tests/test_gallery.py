@@ -1,14 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The gallery shows every example, with what its file says now."""
 
-import sys
-
-import pytest
-from support.checkout import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
 import gallery
+import pytest
 
 PARTS = ("To see:", "Assumed:", "To trust:")
 

@@ -2,16 +2,12 @@
 """What the documents claim of many seeds is what the measured runs say."""
 
 import csv
-import sys
 
 import numpy as np
 import pytest
+from pictures import seeds_chart
 from support.checkout import EXAMPLES, ROOT
 from support.example_claims import beyond_claims
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import seeds_chart
 
 MEASURED = sorted(seeds_chart.DATA.parent.glob("*.csv"))
 

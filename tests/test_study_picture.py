@@ -2,14 +2,10 @@
 """The README says of the study that it shows what the study says."""
 
 import json
-import sys
 
 import pytest
+from pictures import study_picture
 from support.checkout import EXAMPLES, ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import study_picture
 
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import REACH, read_runs

@@ -1,15 +1,9 @@
 """The validation: its page has every case, and what it says of a case is what the case says."""
 
-import sys
-
 import pytest
-from support.checkout import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
-sys.path.insert(1, str(ROOT / "validation"))
-
 import validate
 from case import GROUPS, Comparison
+from support.checkout import ROOT
 
 
 @pytest.mark.parametrize("name", validate.CASES)

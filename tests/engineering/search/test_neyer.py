@@ -9,7 +9,7 @@ from bridge_demolition_addon.engineering.search.neyer import NeyerTest, most_inf
 from bridge_demolition_addon.engineering.search.probit import Normal, Trials, fitted, limit
 
 SEARCHES = 60
-"""Repetitions. `scripts/search_coverage.py` makes 500 of each kind, for docs/search.md."""
+"""Repetitions. `scripts/experiments/search_coverage.py` makes 500 of each kind, for docs/search.md."""
 
 
 def test_levels_are_those_of_the_published_example():

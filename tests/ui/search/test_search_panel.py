@@ -1,13 +1,12 @@
 """The panel Search: a search that runs beside Blender, is stopped and gone on with, and tells what it found."""
 
 import json
-import sys
 import time
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from support.checkout import ROOT
+from support.panel_layouts import Layout, without_blender
 from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario import BlastSettings, Charge
@@ -16,10 +15,6 @@ from bridge_demolition_addon.ui.scenario.values import show_scenario
 from bridge_demolition_addon.ui.search import session
 from bridge_demolition_addon.ui.search.operator import shown_search
 from bridge_demolition_addon.ui.search.ui import CLASSES
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
-from bench_panels import Layout, without_blender
 
 PATIENCE_S = 300.0
 VERY_SHORT = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.1))

@@ -1,13 +1,12 @@
 """The panel Stages: checked without a simulation, told in a table, and shown as contours before anything is run."""
 
 import csv
-import sys
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.checkout import ROOT
+from support.panel_layouts import Layout, without_blender
 from support.scenarios import I235
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
@@ -18,10 +17,6 @@ from bridge_demolition_addon.ui.contours import view as contour_view
 from bridge_demolition_addon.ui.scenario.values import show_scenario
 from bridge_demolition_addon.ui.stages.checked import checked_in
 from bridge_demolition_addon.ui.stages.ui import CLASSES
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
-from bench_panels import Layout, without_blender
 
 EXCAVATOR = Equipment(name="excavator", mass_kg=10_000.0, place_m=(6.0, 0.0), footprint_m=(2.0, 2.0), from_s=0.5)
 STANDS = replace(

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from support.checkout import ROOT
+from support.panel_layouts import Layout, without_blender
 from support.scenarios import SHORT_RUN
 
 import bridge_demolition_addon
@@ -21,10 +22,6 @@ from bridge_demolition_addon.studies.draw_program import draw_command
 from bridge_demolition_addon.studies.versions import versions_with
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
 from bridge_demolition_addon.ui.study.ui import CLASSES
-
-sys.path.insert(0, str(ROOT / "scripts"))
-
-from bench_panels import Layout, without_blender
 
 PATIENCE_S = 300.0
 

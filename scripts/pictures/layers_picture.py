@@ -8,7 +8,7 @@ import tomllib
 from html import escape
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "docs" / "pictures" / "layers.svg"
 
 WIDTH, GAP, TITLE, ROOM = 860, 8, 30, 26

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure and draw what iterations make of a fixed beam, with rigid and with elastic connections, next to theory.
 
-Usage: elastic_chart.py measure | draw. The beam is 12 m of concrete, 1 m wide and deep, in 20 blocks, fixed at both
+Usage: elastic_beam.py measure | draw. The beam is 12 m of concrete, 1 m wide and deep, in 20 blocks, fixed at both
 ends; measured after 3 s, with 10 sub-steps in each of 24 frames a second.
 """
 
@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
 
 DATA = ROOT / "docs" / "data" / "elastic_beam.csv"
 PICTURE = ROOT / "docs" / "pictures" / "elastic_beam.png"

@@ -7,17 +7,13 @@ Usage: search_coverage.py [SEARCHES] prints a table: 500 of each kind by default
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
-from bridge_demolition_addon.engineering.search.bisection import median_interval  # noqa: E402
-from bridge_demolition_addon.engineering.search.neyer import NeyerTest  # noqa: E402
-from bridge_demolition_addon.engineering.search.probit import Trials, fitted, limit  # noqa: E402
+from bridge_demolition_addon.engineering.search.bisection import median_interval
+from bridge_demolition_addon.engineering.search.neyer import NeyerTest
+from bridge_demolition_addon.engineering.search.probit import Trials, fitted, limit
 
 CONFIDENCE, PROBABILITY, GUESS = 0.95, 0.9, 0.1
 

@@ -5,19 +5,13 @@ Each function is a bowl of 5 m at best and 20 m more for each unit² from there,
 in which runs fail where the first quantity is small. Chance gets the same three rounds. It takes two minutes.
 """
 
-import sys
-from pathlib import Path
-
 import numpy as np
 from scipy.special import ndtr
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
-from bridge_demolition_addon.model.optimise.rounds import CONFIRMATION, SEARCH, Rounds  # noqa: E402
-from bridge_demolition_addon.model.optimise.settings import OptimiseSettings, Quantity  # noqa: E402
-from bridge_demolition_addon.model.study.criteria import Criterion  # noqa: E402
-from bridge_demolition_addon.studies.proposals import OptunaProposals  # noqa: E402
+from bridge_demolition_addon.model.optimise.rounds import CONFIRMATION, SEARCH, Rounds
+from bridge_demolition_addon.model.optimise.settings import OptimiseSettings, Quantity
+from bridge_demolition_addon.model.study.criteria import Criterion
+from bridge_demolition_addon.studies.proposals import OptunaProposals
 
 REPETITIONS = 100
 BEST = np.array([0.3, 0.6, 0.45, 0.8, 0.2, 0.7, 0.5, 0.4])

@@ -6,59 +6,31 @@ and stops when the next point is further away than twice the cell's radius. It g
 Ours is timed with all a `Fracture` holds. The search for the nearest points is not counted against the plain way.
 """
 
-import sys
 import time
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from manifold3d import Manifold
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box, to_manifold
 
 DECK_M = (30.0, 12.0, 1.0)
-SHARD_COUNTS = (200, 1000, 3000)
+SIZES = (200, 1000, 3000)
 NEIGHBOURS = 64
 
 
-def figures(shard_counts: Sequence[int] = SHARD_COUNTS, repeats: int = 2) -> dict[str, float]:
-    """Seconds for each number of shards, ours and the plain way's, the best of some runs, and how often faster we are.
-
-    Returns
-    -------
-    dict
-        `fracture_<n>_s`, `fracture_<n>_plain_s`, `fracture_<n>_ratio` and `fracture_<n>_volume_error`, the latter as a
-        part of the deck's volume.
-    """
-    result: dict[str, float] = {}
-    deck = box(DECK_M)
-    for count in shard_counts:
+def main(smallest: bool) -> None:
+    """Print the seconds of both ways for each number of shards, the best of some runs, and how often faster we are."""
+    print(f"{'shards':>8}{'ours, s':>10}{'plain, s':>10}{'ratio':>8}{'volume error':>14}")
+    deck, repeats = box(DECK_M), 1 if smallest else 2
+    for count in (20,) if smallest else SIZES:
         ours, broken = _best_time(lambda count=count: fracture(deck, count, seed=0), repeats)
         nearest = _nearest_points(broken.points)
         plain, _ = _best_time(lambda points=broken.points, near=nearest: _plain_cells(deck, points, near), repeats)
-        result |= {
-            f"fracture_{count}_s": ours,
-            f"fracture_{count}_plain_s": plain,
-            f"fracture_{count}_ratio": plain / ours,
-            f"fracture_{count}_volume_error": abs(float(broken.volumes.sum()) / np.prod(DECK_M) - 1),
-        }
-    return result
-
-
-def table(measured: dict[str, float]) -> str:
-    """The figures as lines for a person."""
-    counts = sorted(int(key.split("_")[1]) for key in measured if key.endswith("_ratio"))
-    lines = [f"{'shards':>8}{'ours, s':>10}{'plain, s':>10}{'ratio':>8}{'volume error':>14}"]
-    for count in counts:
-        ours, plain, ratio, error = (
-            measured[f"fracture_{count}_{what}"] for what in ("s", "plain_s", "ratio", "volume_error")
-        )
-        lines.append(f"{count:>8}{ours:>10.2f}{plain:>10.2f}{ratio:>8.1f}{error:>14.0e}")
-    return "\n".join(lines)
+        error = abs(float(broken.volumes.sum()) / np.prod(DECK_M) - 1)
+        print(f"{count:>8}{ours:>10.2f}{plain:>10.2f}{plain / ours:>8.1f}{error:>14.0e}", flush=True)
 
 
 def _best_time(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
@@ -93,7 +65,3 @@ def _plain_cell(whole: Manifold, point: np.ndarray, others: np.ndarray) -> Manif
         inwards = (point - other) / distance
         cell = cell.trim_by_plane(inwards.tolist(), float(inwards @ (point + other) / 2))
     return cell
-
-
-if __name__ == "__main__":
-    print(table(figures()))

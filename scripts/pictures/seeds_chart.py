@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-DOCS = Path(__file__).resolve().parent.parent / "docs"
+DOCS = Path(__file__).resolve().parents[2] / "docs"
 DATA = DOCS / "data" / "seeds" / "two_spans_13m_explosives.csv"
 PICTURE = DOCS / "pictures" / "seeds_two_spans_13m_explosives.png"
 

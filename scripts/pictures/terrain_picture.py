@@ -10,8 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT)]
+ROOT = Path(__file__).resolve().parents[2]
 
 PICTURE = ROOT / "docs" / "pictures" / "ground.png"
 STEP_M, HALF_M = 2.0, 280.0

@@ -18,7 +18,7 @@ from bridge_demolition_addon.model.study.statements import percent, rounded_up
 from bridge_demolition_addon.report.ensemble.study_folder import read_study_runs
 from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 DATA, PICTURE = DOCS / "data" / "studies", DOCS / "pictures" / "study_i235_one_span.png"
 RUNS, CONCLUSIONS = DATA / "i235_one_span.csv", DATA / "i235_one_span.json"

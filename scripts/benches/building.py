@@ -8,15 +8,11 @@ the scene after that is its own work, and is shown beside.
 """
 
 import math
-import sys
 import time
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 
 import bpy
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.solids import box
@@ -29,43 +25,29 @@ from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.world import create_world, off_scene
 
 SIZES = ((500, 2_250), (3_000, 13_500), (10_000, 45_000))
-PLAIN_SIZES = SIZES[:2]
+SMALLEST_SIZES = ((20, 40), (40, 80))
+"""Numbers of bodies and of connections."""
+PLAIN_UP_TO = 3_000
 TIME = TimeSettings(duration_s=1.0)
 BREAKING_FORCE_N = 1e5
 
 
-def figures(sizes: Sequence = SIZES, plain_sizes: Sequence = PLAIN_SIZES, repeats: int = 3) -> dict[str, float]:
-    """Seconds for each number of bodies, ours and the plain way's, the best of some runs, ratios and our growth.
-
-    Returns
-    -------
-    dict
-        `building_<n>_s`, `building_<n>_plain_s`, `building_<n>_ratio`, `building_growth`, the exponent of our time over
-        the numbers of bodies from the smallest to the largest, and `first_evaluation_<n>_s`.
-    """
-    result: dict[str, float] = {}
+def main(smallest: bool) -> None:
+    """Print the seconds of both ways for each number of bodies, the best of some runs, and how our time grows."""
+    print(f"{'bodies':>8}{'ours, s':>10}{'plain, s':>10}{'ratio':>8}{'first evaluation, s':>21}")
+    sizes, repeats = (SMALLEST_SIZES, 1) if smallest else (SIZES, 3)
+    times = []
     for count, connection_count in sizes:
         shards, connections = _structure(count, connection_count)
-        built, evaluated = np.min([_seconds(_ours, shards, connections) for _ in range(repeats)], axis=0)
-        result |= {f"building_{count}_s": built, f"first_evaluation_{count}_s": evaluated}
-        if (count, connection_count) in plain_sizes:
+        ours, evaluation = np.min([_seconds(_ours, shards, connections) for _ in range(repeats)], axis=0)
+        shown = " " * 18
+        if count <= PLAIN_UP_TO:
             plain, _ = _seconds(_plain, shards, connections)
-            result |= {f"building_{count}_plain_s": plain, f"building_{count}_ratio": plain / built}
-    smallest, largest = sizes[0][0], sizes[-1][0]
-    times = result[f"building_{largest}_s"] / result[f"building_{smallest}_s"]
-    return result | {"building_growth": math.log(times) / math.log(largest / smallest)}
-
-
-def table(measured: dict[str, float]) -> str:
-    """The figures as lines for a person."""
-    lines = [f"{'bodies':>8}{'ours, s':>10}{'plain, s':>10}{'ratio':>8}{'first evaluation, s':>21}"]
-    for count in sorted(int(key.split("_")[2]) for key in measured if key.startswith("first_evaluation_")):
-        plain, ratio = measured.get(f"building_{count}_plain_s"), measured.get(f"building_{count}_ratio")
-        shown = f"{plain:>10.2f}{ratio:>8.1f}" if plain else f"{'':>18}"
-        ours, evaluation = measured[f"building_{count}_s"], measured[f"first_evaluation_{count}_s"]
-        lines.append(f"{count:>8}{ours:>10.2f}{shown}{evaluation:>21.2f}")
-    lines.append(f"our time grows with the number of bodies to the power of {measured['building_growth']:.2f}")
-    return "\n".join(lines)
+            shown = f"{plain:>10.2f}{plain / ours:>8.1f}"
+        print(f"{count:>8}{ours:>10.2f}{shown}{evaluation:>21.2f}", flush=True)
+        times.append(ours)
+    growth = math.log(times[-1] / times[0]) / math.log(sizes[-1][0] / sizes[0][0])
+    print(f"our time grows with the number of bodies to the power of {growth:.2f}")
 
 
 def _structure(count: int, connection_count: int) -> tuple[list[TriangleMesh], Connections]:
@@ -131,7 +113,3 @@ def _plain(
         constraint.object1, constraint.object2 = bodies[first], bodies[second]
     for template in (body_template, connection_template):
         bpy.data.objects.remove(template)
-
-
-if __name__ == "__main__":
-    print(table(figures()))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PIL import Image, ImageOps
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 GALLERY, RUNS = ROOT / "docs" / "pictures" / "gallery", ROOT / "runs" / "presets"
 SIZE_PX, QUALITY = (256, 192), 85

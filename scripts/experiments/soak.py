@@ -12,8 +12,6 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.files import RESULTS_FILE, SUMMARY_FILE
 from bridge_demolition_addon.model.scenario.file import scenario_from_text

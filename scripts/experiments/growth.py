@@ -16,12 +16,10 @@ import time
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
 from bridge_demolition_addon.model.scenario.connections import MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.model.scenario.file import read_scenario
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
 DATA = ROOT / "docs" / "data" / "growth.csv"
 PICTURE = ROOT / "docs" / "pictures" / "growth.png"

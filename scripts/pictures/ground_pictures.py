@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of docs/ground_motion.md and docs/foundations.md: a record that is made, and how a footing bears.
 
-Usage: python scripts/ground_pictures.py
+Usage: python scripts/pictures/ground_pictures.py
 """
 
 from pathlib import Path
@@ -14,7 +14,7 @@ from bridge_demolition_addon.engineering.foundations.footings import Footings, S
 from bridge_demolition_addon.model.ground_motion.settings import DesignSpectrum, GroundMotion
 from bridge_demolition_addon.model.ground_motion.sources import ground_record
 
-PICTURES = Path(__file__).resolve().parents[1] / "docs" / "pictures"
+PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 
 WIDTH_M, SIDES = 2.0, 40
 STIFFNESS_N_M3, CAPACITY_PA = 44.8e6, 1120e3

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What blast loads cost in a frame, next to Blender's bare step and to the way of 2019, in the same run.
+
+The deck hangs in 250 to 2000 shards, with two charges below it. Its motion is recorded, as in a run of a study, without
+charges and with: then all shards are loaded at once, as in a frame of a 24th of a second, or a twentieth of them, as in
+slow motion, or none, which is what every other frame of a run costs.
+"""
+
+import tempfile
+from contextlib import nullcontext
+from dataclasses import replace
+from pathlib import Path
+from unittest.mock import patch
+
+import bpy
+import numpy as np
+from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+from benches.way_of_2019 import blast_by_fields
+
+from bridge_demolition_addon.model.blast.charges import Charge
+from bridge_demolition_addon.model.blast.explosion import Explosion
+from bridge_demolition_addon.model.blast.settings import Apply, BlastSettings
+from bridge_demolition_addon.scene.blast.charges import create_charges
+from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
+from bridge_demolition_addon.scene.blast.settings import keep_blast
+from bridge_demolition_addon.scene.bodies import bodies_of
+from bridge_demolition_addon.simulation.recording import blast
+
+FRAMES = 5
+"""Of each kind."""
+
+SIZES = (250, 500, 1000, 2000)
+WAY_OF_2019_UP_TO = 500
+"""Shards; with 1000, its 3000 fields take minutes for a frame."""
+
+LOADED = {"all loaded": 1, "one in 20": 20, "none": 0}
+"""One shard in so many is loaded."""
+
+CHARGES = (
+    Charge(name="west", place_m=(7.0, 0.0, 1.0), mass_kg=1e-6),
+    Charge(name="east", place_m=(22.0, 0.0, 1.0), mass_kg=1e-6),
+)
+"""So small that they load every shard and move none: the frames to compare do the same work otherwise."""
+
+
+class SteadyLoads(Explosion):
+    """Loads some bodies in every frame, as if charges went off in each."""
+
+    every = 1
+
+    def loads(self, start_s, end_s, centres, rotations):
+        loads = super().loads(0.0, 1.0, centres, rotations)
+        chosen = loads.bodies % self.every == 0 if self.every else np.zeros(len(loads), bool)
+        return replace(loads, **{name: getattr(loads, name)[chosen] for name in loads.__dataclass_fields__})
+
+    def is_quiet(self, start_s, end_s):
+        return not self.every
+
+
+def main(smallest: bool) -> None:
+    """Print the time of a frame and its ratio to the bare step, for each number of shards."""
+    print(f"{'shards':>7}{'frame':>24}{'ms':>10}{'of bare step':>14}")
+    for shards in (SMALLEST,) if smallest else SIZES:
+        bare = _show(shards, "bare step", _seconds(shards))
+        _show(shards, "motion recorded", _seconds(shards, record=True), bare)
+        for apply in Apply:
+            for name, every in LOADED.items():
+                _show(shards, f"{apply.value}, {name}", _with_blast(shards, apply, every), bare)
+        if shards <= WAY_OF_2019_UP_TO:
+            scene = build_scene(deck(shards))
+            with blast_by_fields(scene, np.array(CHARGES[0].place_m)):
+                _show(shards, "way of 2019", _least(scene), bare)
+
+
+def _show(shards: int, name: str, seconds: float, bare: float | None = None) -> float:
+    print(f"{shards:>7}{name:>24}{1e3 * seconds:>10.1f}{seconds / (bare or seconds):>14.2f}", flush=True)
+    return seconds
+
+
+def _with_blast(shards: int, apply: Apply, every: int) -> float:
+    SteadyLoads.every = every
+    with patch.object(blast, "Explosion", SteadyLoads):
+        return _seconds(shards, apply, record=True)
+
+
+def _seconds(shards: int, apply: Apply | None = None, *, record: bool = False) -> float:
+    scene = build_scene(deck(shards))
+    if apply:
+        create_charges(scene, CHARGES)
+        keep_blast(scene, BlastSettings(start_s=0.0, apply=apply.value))
+        if apply is Apply.FIELDS:
+            build_force_objects(scene, bodies_of(scene))
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        recorded(scene, Path(folder), loads=False) if record else nullcontext(),
+    ):
+        return _least(scene)
+
+
+def _least(scene: bpy.types.Scene) -> float:
+    make_world(scene)
+    return frame_seconds(scene, FRAMES).min()  # what else the machine does only ever adds

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The deck that benches simulate, and the time of its frames.
+
+It hangs between its piers, all awake, so that Bullet has all of it to solve.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from bridge_demolition_addon.model.scenario import (
+    Bridge,
+    ConnectionSettings,
+    Deck,
+    FractureSettings,
+    Piers,
+    Scenario,
+    ShardSettings,
+    TimeSettings,
+)
+from bridge_demolition_addon.model.structure.model import build_model
+from bridge_demolition_addon.scene.demolition import build_demolition
+from bridge_demolition_addon.scene.world import START_FRAME
+from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+DECK = Scenario(
+    title="bench",
+    time=TimeSettings(duration_s=10.0),
+    bridge=Bridge(
+        span_lengths_m=(29.0,),
+        density_kg_m3=2400.0,
+        deck=Deck(width_m=12.0, thickness_m=1.0, overhang_m=0.5),
+        piers=Piers(column_length_m=1.0, column_width_m=12.0, height_m=3.0),
+    ),
+    fracture=FractureSettings(shards=1000),
+    connections=ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, breaking_force_n=1e9),
+    shards=ShardSettings(use_deactivation=False, start_deactivated=False),
+)
+
+SMALLEST = 40
+"""Shards of the smallest deck."""
+
+FIRST_FRAMES = 3
+"""In these Blender makes a new world, which is not timed."""
+
+
+def deck(shards: int, **settings: object) -> Scenario:
+    """The deck in so many shards, with other settings of the scenario."""
+    return replace(DECK, fracture=FractureSettings(shards=shards), **settings)
+
+
+def build_scene(scenario: Scenario) -> bpy.types.Scene:
+    """Build a scenario in an otherwise empty Blender."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    build_demolition(bpy.context.scene, scenario, build_model(scenario))
+    return bpy.context.scene
+
+
+@contextmanager
+def recorded(scene: bpy.types.Scene, folder: Path, **settings: object) -> Iterator[Recording]:
+    """Record the frames that are played meanwhile."""
+    start_recording(recording := Recording(scene, folder, **settings))
+    try:
+        yield recording
+    finally:
+        stop_recording()
+        recording.forget()
+    if recording.error:
+        raise recording.error
+
+
+def make_world(scene: bpy.types.Scene) -> None:
+    """Play the frames in which Blender makes a new world."""
+    scene.rigidbody_world.time_scale = scene.rigidbody_world.time_scale  # makes Blender forget the frames it played
+    for frame in range(START_FRAME, START_FRAME + FIRST_FRAMES):
+        scene.frame_set(frame)
+
+
+def frame_seconds(scene: bpy.types.Scene, frames: int, clock: Callable[[], float] = time.perf_counter) -> np.ndarray:
+    """Seconds (frames,) of each frame after those."""
+    first, marks = START_FRAME + FIRST_FRAMES, [clock()]
+    for frame in range(first, first + frames):
+        scene.frame_set(frame)
+        marks.append(clock())
+    return np.diff(marks)

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What elastic connections cost in a frame, next to Blender's bare step and to recording rigid ones, in the same run.
+
+The deck stands on its piers in more and more shards. Standing, rows and equations are made once; while a bridge breaks
+they are made again in every sub-step. The last way forces that: equations are thrown away before each sub-step.
+"""
+
+import statistics
+import tempfile
+import time
+from contextlib import nullcontext
+from pathlib import Path
+from unittest.mock import patch
+
+import bpy
+from benches.deck import SMALLEST, deck, frame_seconds, make_world, recorded
+
+from bridge_demolition_addon.engineering.elasticity import structure
+from bridge_demolition_addon.model.scenario import ConnectionSettings
+from bridge_demolition_addon.model.structure.model import build_model
+from bridge_demolition_addon.scene.connections.elasticity import damping_ratio_of, forget_elasticity, keep_elasticity
+from bridge_demolition_addon.scene.demolition import build_demolition
+
+FRAMES, ROUNDS = 4, 3
+SIZES = (200, 1000, 3000)
+SETTINGS = ConnectionSettings(
+    type="FIXED",
+    method="face",
+    material="steel",  # so that nothing breaks
+    stiffness="elastic",
+    elastic_modulus_n_mm2=34e3,
+    poisson_ratio=0.2,
+)
+WAYS = ("bare step", "rigid", "elastic", "elastic, again in every sub-step")
+
+
+def main(smallest: bool) -> None:
+    """Build the deck in each number of shards, play it every way in turn, and print the least times and ratios."""
+    for shards in (SMALLEST,) if smallest else SIZES:
+        scenario = deck(shards, connections=SETTINGS)
+        model = build_model(scenario)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        scene = bpy.context.scene
+        build_demolition(scene, scenario, model)
+        made = [each for each in bpy.data.objects if each.rigid_body_constraint]
+        ratio, seconds = damping_ratio_of(scene), {}
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(1 if smallest else ROUNDS):
+                for way in WAYS:
+                    forget_elasticity(scene)
+                    if way.startswith("elastic"):
+                        keep_elasticity(scene, made, model.stiffness, ratio, model.thicknesses_m())
+                    turned_rad = 0.0 if "again" in way else structure.TURNED_RAD
+                    with (
+                        nullcontext() if way == "bare step" else recorded(scene, Path(folder)),
+                        patch.object(structure, "TURNED_RAD", turned_rad),
+                    ):
+                        make_world(scene)
+                        seconds.setdefault(way, []).append(frame_seconds(scene, FRAMES, time.process_time).mean())
+        print(f"{shards} shards, {len(made)} connections")
+        bare = min(seconds["bare step"])
+        for way, times in seconds.items():
+            spread = statistics.median(times) / min(times) - 1.0
+            print(f"  {way:35} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")

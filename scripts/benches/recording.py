@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What recording costs in a frame, next to Blender's bare step and to the way of 2019, in the same run.
+
+The deck in 1000 shards and some 4300 connections is played in each way from the start. Three ways do a part of
+recording each, in the order in which they add up: Bullet writes the loads of connections, calls back around sub-steps,
+and what it holds is copied after each. Takes some 80 s where the bare step takes 0.2 s.
+"""
+
+import statistics
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+
+import bpy
+import numpy as np
+from benches.deck import DECK, SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+from benches.way_of_2019 import forces_and_colours
+
+from bridge_demolition_addon.bullet.snapshots import SnapshotTaker
+from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
+from bridge_demolition_addon.scene.bodies import bodies_of
+from bridge_demolition_addon.scene.connections.constraints import connections_of
+from bridge_demolition_addon.scene.world import START_FRAME
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+FRAMES = 5
+ROUNDS = 4
+"""Of all ways in turn: what else the machine does only ever adds, so that the least of several is the way's own."""
+
+
+def main(smallest: bool) -> None:
+    """Build the deck, play it every way in turn, and print the least times, their spread and ratios."""
+    scene = build_scene(deck(SMALLEST) if smallest else DECK)
+    world = scene.rigidbody_world
+    print(f"{len(world.collection.objects)} bodies, {len(world.constraints.objects)} connections")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        ways = {
+            "bare step": nullcontext,
+            "loads written": lambda: _part(scene, None),
+            "callbacks": lambda: _part(scene, lambda _taker: None),
+            "copies alone": lambda: _part(scene, SnapshotTaker.take),
+            "every sub-step": lambda: recorded(scene, folder, every_substep=True),
+            "last sub-step": lambda: recorded(scene, folder, every_substep=False),
+            "way of 2019": lambda: forces_and_colours(folder / "forces.log"),
+        }
+        seconds: dict[str, list[float]] = {name: [] for name in ways}
+        own: dict[str, list[np.ndarray]] = {"every sub-step": [], "last sub-step": []}
+        for _ in range(1 if smallest else ROUNDS):
+            for name, way in ways.items():
+                with way() as recording:
+                    make_world(scene)
+                    before = _own_seconds(recording) if recording else None
+                    seconds[name].append(frame_seconds(scene, FRAMES).mean())
+                    if recording:
+                        own[name].append((_own_seconds(recording) - before) / FRAMES)
+    _print_table(seconds, own)
+
+
+@contextmanager
+def _part(scene: bpy.types.Scene, after: Callable[[SnapshotTaker], object] | None) -> Iterator[None]:
+    """Have Bullet write loads and, with a function of what takes snapshots, call it after every sub-step."""
+    world = BulletWorld(scene, bodies_of(scene), connections_of(scene))
+
+    def bind(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        if scene.frame_current == START_FRAME + 1 and world.bind(depsgraph) is WorldState.NEW and after:
+            taker = world.snapshots(2 * np.arange(len(world.connections)))
+            world.call_around_substeps(lambda _substep_s: None, lambda _substep_s: after(taker))
+
+    bpy.app.handlers.frame_change_post.append(bind)
+    yield
+    bpy.app.handlers.frame_change_post.remove(bind)
+    world.release()
+
+
+def _own_seconds(recording: Recording) -> np.ndarray:
+    """What our own code has taken, all of it and the part within sub-steps."""
+    return np.array([recording.seconds, recording.reading_seconds])
+
+
+def _print_table(seconds: dict[str, list[float]], own: dict[str, list[np.ndarray]]) -> None:
+    """The whole frame, what our own code takes in it and in sub-steps, all against the bare step: least of all rounds.
+
+    The spread is by how much the median and the most of them are longer.
+    """
+    bare = min(seconds["bare step"])
+    print(
+        f"{'least of all rounds':>20}{'ms a frame':>12}{'median, most':>16}{'over bare step':>16}"
+        f"{'ours, ms':>10}{'of bare step':>14}{'in sub-steps':>14}"
+    )
+    for name, times in seconds.items():
+        frame = min(times)
+        spread = f"{statistics.median(times) / frame - 1.0:+.0%}, {max(times) / frame - 1.0:+.0%}"
+        line = f"{name:>20}{1e3 * frame:>12.1f}{spread:>16}{frame / bare - 1.0:>16.1%}"
+        if name in own:
+            ours, reading = np.min(own[name], axis=0)
+            line += f"{1e3 * ours:>10.1f}{ours / bare:>14.1%}{reading / bare:>14.1%}"
+        print(line)
