@@ -126,19 +126,8 @@ def _with_time_step(scene: bpy.types.Scene, scenario: Scenario) -> Scenario:
         return replace(scenario, time=time)
     if time_is_animated(scene):
         raise ScenarioError("slow motion was animated for frames of another length")
-    ball = scenario.ball and replace(
-        scenario.ball,
-        release_time_s=scenario.ball.release_time_s * factor,
-        hits=tuple(
-            _scaled(each, factor, ("lift_time_s", "lift_duration_s", "release_time_s")) for each in scenario.ball.hits
-        ),
-    )
-    hammers = tuple(
-        _scaled(_scaled(each, factor, ("start_time_s", "end_time_s")), 1.0 / factor, ("speed_m_s", "blows_per_second"))
-        for each in scenario.jackhammers
-    )
     time = replace(time, duration_s=scenario.time.duration_s * factor)
-    return replace(scenario, time=time, ball=ball, jackhammers=hammers)
+    return replace(scenario, time=time, **scenario.actions_scaled_in_time(factor))
 
 
 def _with_duration(scene: bpy.types.Scene, scenario: Scenario) -> Scenario:
@@ -192,7 +181,3 @@ def _read(values: Mapping[str, Any], given: Table) -> dict[str, Any]:
 
 def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
     return replace(table, **values) if any(getattr(table, name) != value for name, value in values.items()) else table
-
-
-def _scaled(table: Table, factor: float, names: Sequence[str]) -> Table:
-    return replace(table, **{name: getattr(table, name) * factor for name in names})

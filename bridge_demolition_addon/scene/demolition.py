@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
+from typing import Any
 
 import bpy
 
 from ..engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ..engineering.mechanics.strength import Ductility, Strength
 from ..errors import SimulationError
+from ..model.actions import PlannedAction
 from ..model.blast.settings import Apply
 from ..model.bridge.extent import room_around, surface_height
-from ..model.scenario import Scenario
+from ..model.scenario import Ball, Change, Jackhammer, Load, Scenario
+from ..model.sequence.checked_model import check_actions
 from ..model.structure.model import Model
 from ..model.structure.start_motion import start_motions
 from .blast.charges import charge_objects, create_charges
@@ -27,14 +31,23 @@ from .connections.soil import keep_soil
 from .start_motion import keep_start_motion
 from .structural_changes import keep_changes, keep_loads
 from .time_scale import animate_time_scale, stop_animation
-from .tools.ball import create_ball, create_hits
-from .tools.cable import create_cable
+from .tools.ball import create_ball
+from .tools.build_site import BuildSite
 from .tools.ground_motion import keep_ground_motion, move_with_ground
 from .tools.jackhammer import create_jackhammer
-from .world import START_FRAME, create_world, off_scene, remove_world, settings_restored_on_failure
+from .world import FIRST_STEP_FRAME, create_world, off_scene, remove_world, settings_restored_on_failure
 
-FIRST_STEP_FRAME = START_FRAME + 2
-"""First frame that time leads to: in the frame before, Blender makes the world and no time passes."""
+TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
+    Ball: create_ball,
+    Jackhammer: create_jackhammer,
+}
+"""Actions that are bodies of their own, and what makes them, in the order of a scenario's actions."""
+
+KEPT: dict[type[PlannedAction], Callable[[bpy.types.Scene, Sequence[Any]], None]] = {
+    Change: keep_changes,
+    Load: keep_loads,
+}
+"""Actions that act on bodies that are there: what keeps all of a kind with the scene until a recording applies them."""
 
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
@@ -48,16 +61,15 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     Raises
     ------
     GeometryError
-        Nothing lies under the ball or under the beginning of a jackhammer's path; nothing was made.
+        Nothing lies under the ball or under the beginning of a jackhammer's path; nothing is left of what was made.
     ScenarioError
         There is no record that the ground could move by; nothing was made.
     SimulationError
         Blender is not in object mode, which fields need; nothing is left of what was made.
     """
-    surfaces = _surfaces(scenario, model)
     record = scenario.ground_record
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
-        shards = _build(scene, scenario, model, *surfaces)
+        shards = _build(scene, scenario, model)
         keep_ground_motion(scene, record, scenario.ground_motion.start_s if record else 0.0)
         if record:
             start_s = scenario.ground_motion.start_s
@@ -70,10 +82,8 @@ def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) 
 
     Raises
     ------
-    GeometryError
-        As `build_demolition`.
-    ScenarioError
-        There is no record that the ground could move by.
+    GeometryError, ScenarioError
+        As `check_actions`.
     SimulationError
         The rigid-body world has bodies that were not built here, and would stay.
     """
@@ -82,35 +92,20 @@ def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) 
             f"the rigid-body world has {len(others)} bodies that were not built here, such as {others[0]!r}: take them "
             "out of it, or build in a new scene"
         )
-    _surfaces(scenario, model)
-    _ = scenario.ground_record
+    check_actions(scenario, model)
 
 
-def _surfaces(scenario: Scenario, model: Model) -> tuple[list[float], list[float]]:
-    """Return the heights, m, under the targets of the ball and where jackhammers begin."""
-    drops = scenario.ball.drops if scenario.ball else ()
-    dropped = [surface_height(scenario, model.members, drop.target_m) for drop in drops]
-    return dropped, [surface_height(scenario, model.members, hammer.path_m[0]) for hammer in scenario.jackhammers]
-
-
-def _build(
-    scene: bpy.types.Scene, scenario: Scenario, model: Model, surfaces: Sequence[float], hammered: Sequence[float]
-) -> list[bpy.types.Object]:
-    """Build on surfaces at these heights, m, under the targets of the ball and where jackhammers begin."""
-    settings = scenario.ball
+def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
     world = create_world(scene, scenario.time, last_frame(scenario))
     ground = _create_ground(world, scenario, model)
-    if settings:
-        ball = create_ball(world, settings, surfaces[0] if surfaces else 0.0, START_FRAME, release_frame(scenario))
-        if settings.cable:
-            create_cable(world, ball, settings.cable)
-        create_hits(ball, settings, surfaces, FIRST_STEP_FRAME, scenario.timeline)
-    for hammer, surface in zip(scenario.jackhammers, hammered, strict=True):
-        create_jackhammer(world, hammer, surface, FIRST_STEP_FRAME - 1, scenario.timeline)
+    site = BuildSite(world, scenario.timeline, partial(surface_height, scenario, model.members))
+    for action in scenario.actions:
+        if make := TOOLS.get(type(action)):
+            make(site, action)
     joints = scenario.joints
     keep_breaking(scene, _breaking(scenario, joints[0].strength))
-    keep_changes(scene, scenario.changes)
-    keep_loads(scene, scenario.loads)
+    for kind, keep in KEPT.items():
+        keep(scene, [action for action in scenario.actions if isinstance(action, kind)])
     with off_scene(scene) as (bodies, connections):
         shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
         for shard, row in zip(shards, model.member_of_shard, strict=True):
@@ -181,11 +176,6 @@ def _breaking(scenario: Scenario, strength: Strength | None) -> Breaking:
 def last_frame(scenario: Scenario) -> int:
     """Return the frame at which a scenario's duration is over."""
     return FIRST_STEP_FRAME - 1 + len(scenario.timeline)
-
-
-def release_frame(scenario: Scenario) -> int:
-    """Return the first frame towards which the ball falls freely."""
-    return first_frame_after(scenario, scenario.ball.release_time_s)
 
 
 def first_frame_after(scenario: Scenario, time_s: float) -> int:

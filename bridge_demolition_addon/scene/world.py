@@ -15,6 +15,8 @@ from .custom_properties import kept_number
 
 START_FRAME = 1
 
+FIRST_STEP_FRAME = START_FRAME + 2
+"""First frame that time leads to: in the frame before, Blender makes the world and no time passes."""
 
 _OF_SCENE = ("gravity", "frame_start", "frame_end")
 _OF_UNITS = ("system", "scale_length")

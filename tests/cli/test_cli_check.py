@@ -9,7 +9,7 @@ from support.processes import run_bda, run_program
 from support.scenarios import I235
 from support.terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
 
-from bridge_demolition_addon.cli.check import MOST_SHARDS_COMPARED, scenario_facts
+from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.model.bridge.mesh_files import exported
@@ -26,6 +26,7 @@ from bridge_demolition_addon.model.scenario import (
 from bridge_demolition_addon.model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.scenario.recording import PictureSettings
+from bridge_demolition_addon.model.structure.facts import MOST_SHARDS_COMPARED
 from bridge_demolition_addon.model.structure.model import build_model
 
 

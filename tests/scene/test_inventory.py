@@ -89,14 +89,17 @@ def test_masses_and_volumes_of_what_moves_and_of_what_does_not(blocks):
 
 
 def test_names_and_kinds(blocks):
+    from bridge_demolition_addon.engineering.timing.timeline import Timeline
     from bridge_demolition_addon.model.scenario import Ball, Ground
     from bridge_demolition_addon.scene.bodies import create_flat_ground
     from bridge_demolition_addon.scene.tools.ball import create_ball
+    from bridge_demolition_addon.scene.tools.build_site import BuildSite
 
     blocks.block((0, 0, 0)).name = "Pier, left"
     blocks.block((0, 0, 2), 10.0).name = "Brücke"
     create_flat_ground(blocks.world, 10.0, Ground())
-    create_ball(blocks.world, Ball(mass_kg=500.0, diameter_m=1.0, target_m=(0.0, 0.0), drop_height_m=2.0), 5.0, 1, 3)
+    ball = Ball(mass_kg=500.0, diameter_m=1.0, target_m=(0.0, 0.0), drop_height_m=2.0, release_time_s=0.0)
+    create_ball(BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: 5.0), ball)
     inventory = inventory_of(blocks.scene)
     assert inventory.body_names.tolist() == ["Pier, left", "Brücke", "Ground", "Wrecking ball"]
     assert inventory.body_kinds.tolist() == ["ground", "shard", "ground", "ball"]

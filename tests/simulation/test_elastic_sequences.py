@@ -22,6 +22,7 @@ from bridge_demolition_addon.scene.connections.breaking_settings import Breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_loads
+from bridge_demolition_addon.scene.tools.build_site import BuildSite
 from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
@@ -176,7 +177,7 @@ def test_a_jackhammer_presses_on_the_beam_and_the_posts_bear_what_it_does(blende
         blows_per_second=2.0,
     )
     world = beam.scene.rigidbody_world
-    create_jackhammer(world, hammer, TOP_M, beam.scene.frame_start + 1, Timeline.of(1.0 / 24.0, 2.0))
+    create_jackhammer(BuildSite(world, Timeline.of(1.0 / 24.0, 2.0), lambda _: TOP_M), hammer)
     results, forces = beam.play(tmp_path, 40)
     frames = results.frames
     row = results.inventory.body_names.tolist().index(beam.beam.name)

@@ -149,3 +149,9 @@ def _turn(matrices: FloatArray, p: int, q: int, cosine: FloatArray, sine: FloatA
     first, second = matrices[..., p, :].copy(order="K"), matrices[..., q, :].copy(order="K")
     matrices[..., p, :] = cosine[..., None] * first - sine[..., None] * second
     matrices[..., q, :] = sine[..., None] * first + cosine[..., None] * second
+
+
+def points_along(path_m: np.ndarray, distances_m: np.ndarray) -> np.ndarray:
+    """Return the points (k, d) of a path (p, d) at distances (k,) from its beginning; its end beyond it."""
+    passed = np.concatenate(([0.0], np.cumsum(length(np.diff(path_m, axis=0)))))
+    return np.column_stack([np.interp(distances_m, passed, column) for column in path_m.T])

@@ -1,12 +1,14 @@
 """Charges, and what other explosives are worth in TNT."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from ...engineering.blast.wave import Burst
-from ...errors import BlastError
-from ..schema import Table, key
+from ...errors import BlastError, ScenarioError
+from ..actions import Fact, Plan, PlannedAction, Worksite
+from ..schema import key, shown
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
 SWISDAK_PRESSURE = "air blast, pressure only; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
@@ -72,10 +74,11 @@ def explosive_named(name: str) -> Explosive:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Charge(Table):
+class Charge(PlannedAction):
     """A bare charge. One of 0 kg does nothing."""
 
     table: ClassVar[str] = "charges"
+    heading: ClassVar[str] = "Charges"
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
     place_m: tuple[float, float, float] = key("Where it is: along the road, across it, and above the ground.", unit="m")
@@ -105,10 +108,37 @@ class Charge(Table):
         """Mass of TNT with the same peak overpressure, kg: what damage depends on."""
         return self.mass_kg * EXPLOSIVES[self.explosive].tnt_by_pressure
 
+    def begins_s(self, plan: Plan) -> float:
+        return plan.detonation_s(self.delay_s) if self.mass_kg > 0.0 else math.inf
+
+    def ends_s(self, plan: Plan) -> float:
+        return plan.detonation_s(self.delay_s)
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        place = ", ".join(f"{value:g}" for value in self.place_m)
+        worth = "" if self.explosive == "TNT" else f" = {self.tnt_kg:.3g} kg of TNT"
+        detonation_s = site.plan.detonation_s(self.delay_s)
+        when = f", {detonation_s:.4g} s" if math.isfinite(detonation_s) else ""
+        yield self.name, f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({place}) m{when}"
+
+    def check_plan(self, plan: Plan) -> None:
+        """Check that it detonates within the run, if at all."""
+        detonation_s = plan.detonation_s(self.delay_s)
+        if plan.time.duration_s <= detonation_s < math.inf:
+            raise ScenarioError(
+                f"{self.name} detonates at {detonation_s:g} s (blast.start_s and its charges.delay_ms): "
+                f"expected less than time.duration_s, {plan.time.duration_s:g} (s)"
+            )
+
 
 def named_charges(charges: Sequence[Charge]) -> tuple[Charge, ...]:
-    """Return charges where those without a name are called after their number."""
-    return tuple(
+    """Return charges where those without a name are called after their number; refuse two of one name."""
+    named = tuple(
         charge if charge.name else replace(charge, name=f"Charge {number}")
         for number, charge in enumerate(charges, start=1)
     )
+    names = [charge.name for charge in named]
+    for name in names:
+        if names.count(name) > 1:
+            raise ScenarioError(f"charges.name is {shown(name)} for {names.count(name)} charges: expected one each")
+    return named

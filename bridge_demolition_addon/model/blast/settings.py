@@ -1,6 +1,7 @@
 """When charges go off, and how their blast is computed and applied."""
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -9,8 +10,12 @@ from ...engineering.blast.pulses import Loading
 from ...engineering.blast.wave import Choice
 from ...engineering.timing.timeline import SlowMotion
 from ...errors import ScenarioError
+from ..actions import Fact
 from ..schema import Table, key
 from .charges import MS_PER_S, Charge
+
+MOST_FIELDS = 300
+"""Force fields up to which they cost less than the rest of a frame: Blender tests every one against every body."""
 
 
 class Apply(Choice):
@@ -73,6 +78,18 @@ class BlastSettings(Table):
     slow_duration_ms: float = key(
         "How long after each detonation frames are that short.", default=50.0, unit="ms", above=0, at_most=1e6
     )
+
+    def facts(self, charges: Sequence[Charge], shards: int) -> Iterator[Fact]:
+        """Yield what charges come to together, and how their blast acts on so many shards."""
+        yield "all", f"{sum(charge.mass_kg for charge in charges):g} kg"
+        if not self.explosion:
+            yield "explosion", "not ticked: nothing goes off"
+        yield "model", f"{self.model}, {self.loading} pressure{', with shielding' if self.shielding else ''}"
+        if self.apply == Apply.DIRECT:
+            yield "applied", "directly in every sub-step"
+        else:
+            slow = f'; with {shards} shards these are slow, and blast.apply = "direct" is not'
+            yield "applied by", f"force fields{slow if shards > MOST_FIELDS else ''}"
 
     def slow_motions(self, charges: tuple[Charge, ...], frame_s: float) -> tuple[SlowMotion, ...]:
         """Return the spans of slow motion after detonations, for frames that otherwise take `frame_s`."""

@@ -34,8 +34,8 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
     ScenarioError
         Two members have the same name, or a file is not there.
     GeometryError
-        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball; the terrain misses
-        the bridge, has no data under a pier or is too high there.
+        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball or a tool; the
+        terrain misses the bridge, has no data under a pier or is too high there.
     """
     terrain = terrain_of(scenario)
     of_bridge = _bridge_on(terrain, scenario) if scenario.bridge else ()
@@ -43,8 +43,8 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
         return PreparedMembers(of_bridge, ())
     from_files, repairs = geometry_members(scenario.geometry, is_flat=terrain is None)
     prepared = without_overlap([*of_bridge, *from_files])
-    for drop in scenario.ball.drops if scenario.ball else ():
-        surface_height(scenario, prepared.members, drop.target_m)  # refuses a ball that nothing lies under
+    for place in (place for action in scenario.actions for place in action.starts_above()):
+        surface_height(scenario, prepared.members, place)  # refuses what nothing lies under
     return PreparedMembers(prepared.members, repairs + prepared.notes)
 
 

@@ -1,9 +1,12 @@
 """How the ground moves: by a recorded accelerogram, a sweep of frequencies, or a record made from a spectrum."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ..actions import Fact, Plan, PlannedAction, Worksite
 from ..schema import Table, check_exactly_one, key
 
 DIRECTIONS = ("along", "across", "up")
@@ -68,11 +71,12 @@ class DesignSpectrum(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GroundMotion(Table):
+class GroundMotion(PlannedAction):
     """The ground moves, and with it what is fixed to it: supports and bodies that never move. Give a `file`, a
     `[ground_motion.sweep]` or a `[ground_motion.spectrum]`."""
 
     table: ClassVar[str] = "ground_motion"
+    heading: ClassVar[str] = "Ground motion"
 
     directions: tuple[str, ...] = key(
         "Where the accelerations act, in the order of the file's columns: `along` the road (x), `across` it (y), `up`. "
@@ -104,6 +108,39 @@ class GroundMotion(Table):
         choices=("linear", "parabola", "none"),
     )
     start_s: float = key("When the record begins; until then the ground rests.", default=0.0, unit="s", at_least=0)
+
+    def begins_s(self, plan: Plan) -> float:
+        return self.start_s
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        record = site.plan.ground_record
+        assert record is not None
+        end_s = self.start_s + record.duration_s
+        yield "from, to", f"{self.start_s:g} s, {end_s:g} s, of {site.plan.time.duration_s:g} s"
+        peaks = record.peaks()
+        for axis, direction in enumerate(DIRECTIONS):
+            if direction in self.directions:
+                acceleration = peaks["accelerations_m_s2"][axis]
+                yield (
+                    direction,
+                    f"up to {acceleration:.3g} m/s² = {acceleration / STANDARD_GRAVITY_M_S2:.3f} g, "
+                    f"{peaks['velocities_m_s'][axis]:.3g} m/s, {peaks['displacements_m'][axis]:.3g} m",
+                )
+
+    def check_plan(self, plan: Plan) -> None:
+        """Check that it begins within the run, and that no machine holds a tool that would not move with the ground."""
+        for action in plan.actions:
+            if key_of_machine := action.held_by_machine:
+                raise ScenarioError(
+                    f"{key_of_machine} is given together with ground_motion: expected one of them; tools that machines "
+                    "hold do not move with the ground"
+                )
+        if self.start_s >= plan.time.duration_s:
+            raise self.unexpected("start_s", f"less than time.duration_s, {plan.time.duration_s:g} (s)")
+
+    def check_model(self, site: Worksite) -> None:
+        """Check that there is a record, by reading its file or making it."""
+        _ = site.plan.ground_record
 
     def _check_together(self) -> None:
         check_exactly_one(self, *_SOURCES)

@@ -1,12 +1,14 @@
 """A load on a part of the bridge, as a scenario gives it: how large it is, at which time."""
 
 from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import sqrt
 from typing import ClassVar
 
 from ...errors import ScenarioError
+from ..actions import Fact, Plan, Worksite
 from ..schema import key, shown
 from .part import Part
 
@@ -20,6 +22,7 @@ class Load(Part):
     """
 
     table: ClassVar[str] = "loads"
+    heading: ClassVar[str] = "Loads"
 
     point_m: tuple[float, float, float] | None = key(
         "Where it acts, as the bridge was built: on one shard of the members, in the box. Of those whose outlines "
@@ -46,13 +49,14 @@ class Load(Part):
         size = sqrt(sum(each * each for each in self.direction))
         return tuple(each / size for each in self.direction)
 
-    @property
-    def begins_s(self) -> float:
-        """Return from when on there is a load; infinite where there never is."""
+    def begins_s(self, plan: Plan) -> float:
         for (time_s, force_n), (_, next_n) in pairwise([*zip(self.times_s, self.forces_n, strict=True), (0.0, 0.0)]):
             if force_n > 0.0 or next_n > 0.0:
                 return time_s
         return float("inf")
+
+    def ends_s(self, plan: Plan) -> float:
+        return self.times_s[-1]
 
     def force_n(self, time_s: float) -> float:
         """Return how large it is at a time."""
@@ -63,6 +67,23 @@ class Load(Part):
             return self.forces_n[-1]
         (start_s, end_s), (start_n, end_n) = self.times_s[after - 1 : after + 1], self.forces_n[after - 1 : after + 1]
         return start_n + (end_n - start_n) * ((time_s - start_s) / (end_s - start_s))
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        steps = zip(self.times_s, self.forces_n, strict=True)
+        course = ", ".join(f"{force_n / 1000.0:g} kN at {time_s:g} s" for time_s, force_n in steps)
+        yield f"load {site.number_of(self)}", f"{course}, towards ({', '.join(f'{part:g}' for part in self.direction)})"
+        point = "" if self.point_m is None else f" at ({', '.join(f'{value:g}' for value in self.point_m)}) m"
+        loaded = site.affected_by(self)
+        shards = f"{loaded.shards} shards" if loaded.shards > 1 else "a shard"
+        yield "", f"on {shards} of {', '.join(loaded.members)}{point}, together {loaded.mass_kg / 1000.0:.3f} t"
+
+    def check_plan(self, plan: Plan) -> None:
+        if self.times_s[0] >= plan.time.duration_s:
+            wanted = f"less than time.duration_s, {plan.time.duration_s} (s)"
+            raise ScenarioError(f"loads.times_s[0] is {self.times_s[0]}: expected {wanted}")
+
+    def check_model(self, site: Worksite) -> None:
+        site.affected_by(self)
 
     def _check_together(self) -> None:
         Part._check_together(self)

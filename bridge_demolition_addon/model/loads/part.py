@@ -1,15 +1,16 @@
-"""A part of the bridge, by members or by a box, as tables of a scenario name it."""
+"""Actions on a part of the bridge, which a scenario gives by members or by a box."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...errors import ScenarioError
-from ..schema import Table, key
+from ..actions import PlannedAction
+from ..schema import key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Part(Table):
-    """A part of the bridge: some members, what lies in a box, or what of the members lies in the box."""
+class Part(PlannedAction):
+    """An action on a part of the bridge: some members, what lies in a box, or what of the members lies in the box."""
 
     table: ClassVar[str] = "parts"
 

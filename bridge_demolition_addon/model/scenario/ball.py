@@ -1,14 +1,18 @@
 """The wrecking ball, and the cable that it may swing on."""
 
 import math
-from dataclasses import dataclass, fields
-from typing import ClassVar
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from typing import ClassVar, Self
 
 import numpy as np
 
 from ...engineering.arithmetic import cosine, sine
+from ...engineering.geometry.vectors import length, points_along
+from ...engineering.timing.timeline import Timeline
 from ...engineering.units import STANDARD_GRAVITY_M_S2
-from ...errors import ScenarioError
+from ...errors import GeometryError, ScenarioError
+from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import FARTHEST_M, SIZE, Table, expected, key
 
 
@@ -85,6 +89,13 @@ class _Drop(Table):
         """Return the speed at the deck after free fall, m/s."""
         return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.drop_height_m)
 
+    def check_release(self, plan: Plan) -> None:
+        """Check that it is let go within the run."""
+        if plan.timeline.frames_until(self.release_time_s) >= len(plan.timeline):
+            time = plan.time
+            wanted = f"less than time.duration_s, {time.duration_s} (s), by a frame of {time.step.frame_s:.3g} s"
+            raise self.unexpected("release_time_s", wanted)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BallHit(_Drop):
@@ -114,12 +125,21 @@ class BallHit(_Drop):
         """Return when the ball is up, s."""
         return self.lift_time_s + self.lift_duration_s
 
+    def check_lift(self, timeline: Timeline) -> None:
+        """Check that the ball is still for a frame before it is let go again, so that it falls from rest."""
+        earliest = timeline.frames_until(self.lift_end_s) + 1
+        if timeline.frames_until(self.release_time_s) < earliest:
+            earliest_s = timeline.ends_s[earliest - 1] if earliest <= len(timeline) else self.lift_end_s
+            wanted = f"at least {earliest_s:.6g} (s), a frame after the ball was lifted"
+            raise self.unexpected("release_time_s", wanted)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ball(_Drop):
+class Ball(_Drop, PlannedAction):
     """A wrecking ball that is let go above the deck. Without this table there is none."""
 
     table: ClassVar[str] = "ball"
+    heading: ClassVar[str] = "Ball"
 
     mass_kg: float = key("Mass.", unit="kg", above=0)
     diameter_m: float = key("Diameter.", **SIZE)
@@ -197,15 +217,121 @@ class Ball(_Drop):
             if getattr(self, name):
                 raise ScenarioError(f"ball.{name} is given together with ball.cable: expected one of the two")
 
-    def check_swing(self, ground_m: float) -> None:
-        """Make sure that a ball on a cable swings above ground of a height, m.
+    @property
+    def held_by_machine(self) -> str | None:
+        return self.cable.table if self.cable else None
 
-        Raises
-        ------
-        ScenarioError
-            It would swing into it.
-        """
+    def begins_s(self, plan: Plan) -> float:
+        """Return the time a frame before free fall brings it to the bridge, or at which it begins to swing."""
+        fall_s = 0.0 if self.cable else self.fall_time_s - plan.time.step.frame_s
+        return self.release_time_s + max(fall_s, 0.0)
+
+    def ends_s(self, plan: Plan) -> float:
+        return max(self.release_time_s, *(drop.release_time_s + drop.fall_time_s for drop in self.drops), 0.0)
+
+    def scaled_in_time(self, factor: float) -> Self:
+        hits = tuple(
+            replace(
+                hit,
+                lift_time_s=hit.lift_time_s * factor,
+                lift_duration_s=hit.lift_duration_s * factor,
+                release_time_s=hit.release_time_s * factor,
+            )
+            for hit in self.hits
+        )
+        return replace(self, release_time_s=self.release_time_s * factor, hits=hits)
+
+    def targets(self) -> Iterator[tuple[str, Place]]:
+        return ((f"{drop.table}.target_m", drop.target_m) for drop in self.drops)
+
+    def starts_above(self) -> tuple[Place, ...]:
+        return tuple(drop.target_m for drop in self.drops)
+
+    def points_of_interest(self, height_at: HeightAt) -> Iterator[Point]:
+        """Yield where it is let go, and the tip of the crane."""
+        for drop in self.drops:
+            yield (*drop.target_m, height_at(drop.target_m) + drop.drop_height_m + self.diameter_m)
+        if self.cable:
+            yield self.cable.start_m
+            yield self.cable.crane_point_m
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        yield "mass", f"{self.mass_kg / 1000.0:.3f} t"
+        yield "diameter", f"{self.diameter_m:.2f} m, so {self.density_kg_m3:.0f} kg/m³"
+        if self.cable:
+            yield from self._swing_facts(self.cable)
+        else:
+            yield from self._drop_facts(site.plan.time.duration_s)
+
+    def _swing_facts(self, cable: BallCable) -> Iterator[Fact]:
+        yield "cable", f"{cable.length_m:.2f} m, let go {cable.angle_degrees:g}° from the vertical"
+        lowest = ", ".join(f"{value:.2f}" for value in cable.lowest_point_m)
+        period_s = cable.period_s(self.diameter_m)
+        at_s = self.release_time_s + period_s / 4
+        yield "swing to and fro", f"{period_s:.3f} s, at its lowest ({lowest}) m at {at_s:.3f} s"
+        yield "largest speed", f"{cable.largest_speed_m_s:.2f} m/s"
+        yield "largest energy", f"{self.mass_kg * cable.largest_speed_m_s**2 / 2000.0:.1f} kJ"
+
+    def _drop_facts(self, duration_s: float) -> Iterator[Fact]:
+        impact_s = self.release_time_s + self.fall_time_s
+        late = ", after the end of the run" if impact_s > duration_s else ""
+        yield "clear drop height", f"{self.drop_height_m:.2f} m"
+        yield "fall time", f"{self.fall_time_s:.3f} s, so it hits the deck at {impact_s:.3f} s{late}"
+        yield "impact speed", f"{self.impact_speed_m_s:.2f} m/s"
+        for number, hit in enumerate(self.hits, start=2):
+            yield f"hit {number}", f"at {hit.release_time_s + hit.fall_time_s:.3f} s, {hit.impact_speed_m_s:.2f} m/s"
+        yield "impact energy", f"{self.mass_kg * self.impact_speed_m_s**2 / 2000.0:.1f} kJ"
+
+    def check_plan(self, plan: Plan) -> None:
+        """Check that it is let go within the run, is up before it is let go again, and swings above flat ground."""
+        for drop in (self, *self.hits):
+            drop.check_release(plan)
+        if self.cable and plan.has_flat_ground:
+            self.check_swing(0.0)
+        for hit in self.hits:
+            hit.check_lift(plan.timeline)
+
+    def check_model(self, site: Worksite) -> None:
+        """Check that it begins beside all members, as Bullet would throw them apart, and swings above the ground."""
+        if self.cable:
+            self.check_swing(site.ground_height(self.cable.lowest_point_m[:2]))
+        heights_m = [site.surface_height(place) for place in self.starts_above()]
+        centre_m = self.start_m(heights_m[0] if heights_m else 0.0)
+        member = site.member_within(centre_m, self.diameter_m / 2.0)
+        if member is not None:
+            where = ", ".join(f"{value:g}" for value in centre_m)
+            raise GeometryError(
+                f"The ball begins within member {member!r}, with its middle at [{where}] (m); give it another "
+                f"{'cable, or draw it aside farther' if self.cable else 'target or drop height'}."
+            )
+
+    def check_swing(self, ground_m: float) -> None:
+        """Make sure that a ball on a cable swings above ground of a height, m."""
         lowest_m = self.cable.lowest_point_m[2] - self.diameter_m / 2.0
         if lowest_m <= ground_m:
             wanted = f"a ball that swings above the ground, its lowest point is at {lowest_m:.6g} (m)"
             raise self.cable.unexpected("length_m", wanted)
+
+
+def lift_path(start_m: np.ndarray, end_m: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """Return the positions of a lifted ball: straight up, then level to its next drop.
+
+    It goes up by the way that it came down. Its speed rises from 0 and falls to 0 again, with 3 s² - 2 s³ of the way
+    after the share s of the time, and is at most 1.5 times the mean: what lies on the ball is pushed off, not flung.
+
+    Parameters
+    ----------
+    start_m, end_m : (3,) float
+        Where the lift begins and ends, m.
+    shares : (k,) float
+        Shares of the time that have passed, from 0 to 1.
+
+    Returns
+    -------
+    (k, 3) float
+        Positions, m.
+    """
+    start, end = np.asarray(start_m, float), np.asarray(end_m, float)
+    path = np.array([start, [*start[:2], end[2]], end])
+    time = np.asarray(shares, float)
+    return points_along(path, time * time * (3.0 - 2.0 * time) * length(np.diff(path, axis=0)).sum())

@@ -1,13 +1,17 @@
 """A whole scenario, made of its tables."""
 
+import math
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from functools import cache
+from itertools import chain
+from typing import Any, ClassVar
 
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion.record import GroundRecord
 from ...engineering.mechanics.joint import Joint
 from ...engineering.timing.timeline import Timeline
 from ...errors import ScenarioError
+from ..actions import PlannedAction
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..foundations.settings import Foundation
@@ -16,8 +20,8 @@ from ..ground_motion.sources import ground_record
 from ..loads.load import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
-from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown
-from .ball import Ball, BallHit
+from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown, subtable_class, subtable_fields
+from .ball import Ball
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
 from .connections import ConnectionSettings
@@ -26,7 +30,7 @@ from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .site import Exclusion, Neighbour, Site, Zone
-from .structural_changes import Change, Removal, SawCut, Weakening, check_times
+from .structural_changes import Change, Removal, SawCut, Weakening
 from .time import MOST_FRAMES, TimeSettings
 
 
@@ -116,12 +120,44 @@ class Scenario(Table):
         return replace(steel, yield_pa=yields)
 
     @property
+    def warm_up_s(self) -> float:
+        """Return how long the bridge settles before anything may change it."""
+        return self.connections.warm_up_s
+
+    @property
+    def has_flat_ground(self) -> bool:
+        """Return whether the ground is flat, at height 0."""
+        return self.ground.file is None
+
+    def detonation_s(self, delay_s: float) -> float:
+        """Return when a charge with a delay detonates, s; infinite where nothing goes off."""
+        return self.blast.start_s + delay_s if self.blast.explosion else math.inf
+
+    @property
+    def actions(self) -> tuple[PlannedAction, ...]:
+        """Return all that is done to the bridge, in the order of the fields."""
+        held = (getattr(self, name) for name in _action_fields(type(self)))
+        return tuple(chain.from_iterable(value if isinstance(value, tuple) else (value,) for value in held if value))
+
+    def actions_scaled_in_time(self, factor: float) -> dict[str, Any]:
+        """Return the fields of all actions, for frames that last longer by a factor, as `replace` takes them."""
+        held = {name: getattr(self, name) for name in _action_fields(type(self))}
+        return {
+            name: tuple(action.scaled_in_time(factor) for action in value)
+            if isinstance(value, tuple)
+            else value.scaled_in_time(factor)
+            for name, value in held.items()
+            if value
+        }
+
+    @property
     def changes(self) -> tuple[Change, ...]:
         """Return all removals, saw cuts and weakenings."""
         return (*self.removals, *self.saw_cuts, *self.weakenings)
 
     def _check_together(self) -> None:
-        self._check_charges()
+        object.__setattr__(self, "charges", named_charges(self.charges))
+        self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         check_materials(self.materials)
         self._check_reinforcement()
@@ -130,30 +166,16 @@ class Scenario(Table):
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
         if self.bridge is None and not self.geometry:
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
-        for ball in (self.ball, *self.ball.hits) if self.ball else ():
-            self._check_release(ball)
-        if self.ball and self.ball.cable and self.ground.file is None:
-            self.ball.check_swing(0.0)
-        for drop in self.ball.drops if self.ball else ():
-            self._check_on_deck(f"{drop.table}.target_m", drop.target_m)
-        for hit in self.ball.hits if self.ball else ():
-            self._check_lift(hit)
-        for hammer in self.jackhammers:
-            hammer.check_time(self.time)
-            for number, point in enumerate(hammer.path_m):
-                self._check_on_deck(f"jackhammers.path_m[{number}]", point)
+        for action in self.actions:
+            action.check_plan(self)
+            for name, place in action.targets():
+                self._check_on_deck(name, place)
         if self.shards.start_deactivated and (moving := [each.name for each in self.geometry if each.is_moving]):
             raise ScenarioError(
                 f"geometry {shown(moving[0])} begins with a velocity or a spin: "
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
-        for load in self.loads:
-            if load.times_s[0] >= self.time.duration_s:
-                wanted = f"less than time.duration_s, {self.time.duration_s} (s)"
-                raise ScenarioError(f"loads.times_s[0] is {load.times_s[0]}: expected {wanted}")
-        self._check_ground_motion()
         self._check_foundations()
-        check_times(self.changes, self.time.duration_s - self.time.step.frame_s, self.connections.warm_up_s)
 
     def _check_foundations(self) -> None:
         if not self.foundations:
@@ -164,19 +186,6 @@ class Scenario(Table):
             )
         if not self.connections.foundation:
             raise self.connections.unexpected("foundation", "true with foundations: they connect to the ground")
-
-    def _check_ground_motion(self) -> None:
-        motion = self.ground_motion
-        if motion is None:
-            return
-        for name, others in (("jackhammers", self.jackhammers), ("ball.cable", self.ball and self.ball.cable)):
-            if others:
-                raise ScenarioError(
-                    f"{name} is given together with ground_motion: expected one of them; tools that machines hold do "
-                    "not move with the ground"
-                )
-        if motion.start_s >= self.time.duration_s:
-            raise motion.unexpected("start_s", f"less than time.duration_s, {self.time.duration_s:g} (s)")
 
     def _check_reinforcement(self) -> None:
         connections, opening = self.connections, "ductile_elongation_m"
@@ -192,40 +201,13 @@ class Scenario(Table):
             wanted = "a number above 0 (m), how far a crack opens until bars rupture, with [[reinforcement]]"
             raise ScenarioError(f"connections.{opening} is missing: expected {wanted}")
 
-    def _check_charges(self) -> None:
-        charges = named_charges(self.charges)
-        object.__setattr__(self, "charges", charges)
-        names = [charge.name for charge in charges]
-        for name in names:
-            if names.count(name) > 1:
-                raise ScenarioError(f"charges.name is {shown(name)} for {names.count(name)} charges: expected one each")
-        for charge in charges if self.blast.explosion else ():
-            detonation_s = self.blast.start_s + charge.delay_s
-            if detonation_s >= self.time.duration_s:
-                raise ScenarioError(
-                    f"{charge.name} detonates at {detonation_s:g} s (blast.start_s and its charges.delay_ms): "
-                    f"expected less than time.duration_s, {self.time.duration_s:g} (s)"
-                )
-        slow_s = sum(motion.duration_s for motion in self.blast.slow_motions(charges, self.time.step.frame_s))
-        if slow_s and slow_s / self.blast.slow_frame_ms * 1000.0 + self.time.frames > MOST_FRAMES:
+    def _check_slow_motion(self) -> None:
+        blast = self.blast
+        slow_s = sum(motion.duration_s for motion in blast.slow_motions(self.charges, self.time.step.frame_s))
+        if slow_s and slow_s / blast.slow_frame_ms * 1000.0 + self.time.frames > MOST_FRAMES:
             raise ScenarioError(
-                f"blast.slow_frame_ms is {self.blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"
+                f"blast.slow_frame_ms is {blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"
             )
-
-    def _check_release(self, ball: Ball | BallHit) -> None:
-        if self.timeline.frames_until(ball.release_time_s) >= len(self.timeline):
-            wanted = (
-                f"less than time.duration_s, {self.time.duration_s} (s), by a frame of {self.time.step.frame_s:.3g} s"
-            )
-            raise ball.unexpected("release_time_s", wanted)
-
-    def _check_lift(self, hit: BallHit) -> None:
-        timeline = self.timeline
-        earliest = timeline.frames_until(hit.lift_end_s) + 1  # still for a frame, so that it falls from rest
-        if timeline.frames_until(hit.release_time_s) < earliest:
-            earliest_s = timeline.ends_s[earliest - 1] if earliest <= len(timeline) else hit.lift_end_s
-            wanted = f"at least {earliest_s:.6g} (s), a frame after the ball was lifted"
-            raise hit.unexpected("release_time_s", wanted)
 
     def _check_on_deck(self, name: str, point: tuple[float, float]) -> None:
         if self.geometry:
@@ -241,3 +223,13 @@ class Scenario(Table):
                     f"{name}[{place}] is {position}: "
                     f"expected a place on the deck, from {lowest:.6g} to {highest:.6g} (m)"
                 )
+
+
+@cache
+def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
+    """Return the names of the fields that hold actions."""
+    return tuple(
+        item.name
+        for item in subtable_fields(scenario_class)
+        if issubclass(subtable_class(item) or Table, PlannedAction)
+    )

@@ -1,9 +1,11 @@
 """Changes to the structure at given times: removals, saw cuts and weakenings."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...errors import ScenarioError
+from ..actions import Fact, Plan, Worksite
 from ..loads.part import Part
 from ..schema import key, shown
 
@@ -16,6 +18,22 @@ class Change(Part):
     kind: ClassVar[str] = "change"
 
     time_s: float = key("When it happens.", unit="s", at_least=0)
+
+    def begins_s(self, plan: Plan) -> float:
+        return self.time_s
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        yield f"{self.time_s:.3f} s", f"{self.kind}, {self.where or 'everywhere'}"
+
+    def check_plan(self, plan: Plan) -> None:
+        """Check that it happens between the end of the settling and the end of the run."""
+        latest_s = plan.time.duration_s - plan.time.step.frame_s
+        if not plan.warm_up_s <= self.time_s < latest_s:
+            latest = f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
+            raise self.unexpected("time_s", f"at least connections.warm_up_s, {plan.warm_up_s} (s), and {latest}")
+
+    def check_model(self, site: Worksite) -> None:
+        site.affected_by(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,17 +81,3 @@ class Weakening(Change):
     kind: ClassVar[str] = "weakening"
 
     factor: float = key("Part of the strength, or of the breaking force, that is left.", above=0, at_most=1)
-
-
-def check_times(changes: tuple[Change, ...], latest_s: float, settled_s: float) -> None:
-    """Check that all changes fall between the end of the settling and the end of the run.
-
-    Raises
-    ------
-    ScenarioError
-        One does not.
-    """
-    for each in changes:
-        if not settled_s <= each.time_s < latest_s:
-            latest = f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
-            raise each.unexpected("time_s", f"at least connections.warm_up_s, {settled_s} (s), and {latest}")

@@ -1,9 +1,12 @@
 """How long the simulation runs, and in which steps."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.timing.time_step import MOST_SUBSTEPS, TimeStep
+from ...engineering.timing.timeline import Timeline
+from ..actions import Fact
 from ..schema import Table, key
 
 MOST_FRAMES = 1_000_000
@@ -67,6 +70,16 @@ class TimeSettings(Table):
     def frames(self) -> int:
         """Whole frames that cover the duration."""
         return self.step.frames(self.duration_s)
+
+    def facts(self, timeline: Timeline) -> Iterator[Fact]:
+        """Yield duration, frames and sub-steps of a run with these frames."""
+        yield "duration", f"{self.duration_s:g} s"
+        shortest = timeline.frame_lengths_s.min()
+        slowed = "" if shortest > 0.999 * self.step.frame_s else f", down to {shortest:.3g} s around detonations"
+        yield "frames", f"{len(timeline)} of {self.step.frame_s:.6g} s{slowed}"
+        farthest_m = self.farthest_per_substep_m
+        shortened = "" if farthest_m is None else f", more where a body would go farther than {farthest_m:g} m in one"
+        yield "sub-step", f"{self.step.substep_s:.6g} s, {self.substeps_per_frame} in a frame{shortened}"
 
     def _check_together(self) -> None:
         if self.duration_s / self.step.frame_s > MOST_FRAMES or not 1 <= self.frames <= MOST_FRAMES:

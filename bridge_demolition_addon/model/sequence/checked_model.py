@@ -1,32 +1,78 @@
 """Check of a scenario as far as its model shows it, without Blender."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from manifold3d import Manifold
 
 from ...engineering.geometry.solids import to_manifold
-from ...errors import GeometryError
+from ..actions import Affected, Place, PlannedAction, Point
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
-from ..scenario import Ball, Scenario
+from ..loads.load import Load
+from ..scenario import Change, Scenario
 from ..structure.model import Model, build_model
-from .events import model_structure, schedule
+from .events import Structure, model_structure, schedule
 from .loads import placed_on_model
 
 _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""
 
 
+@dataclass(frozen=True)
+class ModelWorksite:
+    """What planned actions find: a scenario's bridge as its model has it. A `Worksite` of `model.actions`."""
+
+    plan: Scenario
+    model: Model
+
+    @cached_property
+    def _structure(self) -> Structure:
+        return model_structure(self.model)
+
+    def surface_height(self, place_m: Place) -> float:
+        return surface_height(self.plan, self.model.members, place_m)
+
+    def ground_height(self, place_m: Place) -> float:
+        return float(np.nan_to_num(self.model.ground.heights_at(np.array([place_m]))[0], nan=-np.inf))
+
+    def member_within(self, centre_m: Point, radius_m: float) -> str | None:
+        sphere = Manifold.sphere(radius_m, _SPHERE_FACETS).translate(centre_m)
+        names = (
+            member.name
+            for member in self.model.members
+            if (to_manifold(member.solid, member.name) ^ sphere).volume() > 0.0
+        )
+        return next(names, None)
+
+    def affected_by(self, action: PlannedAction) -> Affected:
+        model = self.model
+        if isinstance(action, Load):
+            shards = placed_on_model(action, self.number_of(action), model, self._structure).bodies
+        else:
+            assert isinstance(action, Change)
+            (event,) = schedule((action,), self._structure)
+            shards = np.union1d(event.bodies, model.connections.pairs[event.connections])
+            shards = shards[shards >= 0]  # without the ground
+        names = sorted({model.members[row].name for row in model.member_of_shard[shards]})
+        return Affected(len(shards), float(model.masses_kg[shards].sum()), tuple(names))
+
+    def number_of(self, action: PlannedAction) -> int:
+        alike = [other for other in self.plan.actions if type(other) is type(action)]
+        return 1 + next(number for number, other in enumerate(alike) if other is action)
+
+
 def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
-    """Return the model of a scenario in which all that is planned for it concerns something.
+    """Return the model of a scenario in which every planned action acts on something.
 
     Parameters
     ----------
-    scenario : Scenario
-        What is to be run.
     members : sequence of Member, optional
-        Its members, where they are prepared already.
+        Those of the scenario, where they are prepared already.
 
     Raises
     ------
@@ -34,32 +80,17 @@ def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -
         The bridge cannot be cut as asked, nothing lies under the ball or the beginning of a jackhammer's path, or the
         ball begins within a member.
     ScenarioError
-        There is no member of a name, or a change or a load concerns nothing.
+        There is no member of a name, or a change or a load acts on nothing.
     """
     model = build_model(scenario, members)
-    schedule(scenario.changes, model_structure(model))
-    placed_on_model(scenario.loads, model)
-    _ = scenario.ground_record  # refuses a file that holds no accelerogram
-    drops = [drop.target_m for drop in scenario.ball.drops] if scenario.ball else []
-    heights = [surface_height(scenario, model.members, place) for place in drops]
-    for hammer in scenario.jackhammers:
-        surface_height(scenario, model.members, hammer.path_m[0])
-    if scenario.ball and scenario.ball.cable and scenario.ground.file is not None:
-        lowest = np.array([scenario.ball.cable.lowest_point_m[:2]])
-        scenario.ball.check_swing(float(np.nan_to_num(model.ground.heights_at(lowest)[0], nan=-np.inf)))
-    if scenario.ball:
-        _check_start(scenario.ball, heights[0] if heights else 0.0, model.members)
+    check_actions(scenario, model)
     return model
 
 
-def _check_start(ball: Ball, surface_m: float, members: Sequence[Member]) -> None:
-    """Bullet would throw a ball and a shard that begin within each other apart."""
-    place = ball.start_m(surface_m)
-    sphere = Manifold.sphere(ball.diameter_m / 2.0, _SPHERE_FACETS).translate(place)
-    for member in members:
-        if (to_manifold(member.solid, member.name) ^ sphere).volume() > 0.0:
-            where = ", ".join(f"{each:g}" for each in place)
-            raise GeometryError(
-                f"The ball begins within member {member.name!r}, with its middle at [{where}] (m); give it another "
-                f"{'cable, or draw it aside farther' if ball.cable else 'target or drop height'}."
-            )
+def check_actions(scenario: Scenario, model: Model) -> None:
+    """Check each planned action against a model."""
+    site = ModelWorksite(scenario, model)
+    for action in scenario.actions:
+        for place in action.starts_above():
+            site.surface_height(place)
+        action.check_model(site)

@@ -11,7 +11,7 @@ from ...engineering.geometry.vectors import distance, length
 from ...errors import ScenarioError
 from ..loads.load import Load
 from ..structure.model import Model
-from .events import Structure, in_box, model_structure, of_members
+from .events import Structure, in_box, of_members
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -58,11 +58,11 @@ def placed_loads(
     return tuple(_placed(number, load, structure, masses_kg, boxes_m) for number, load in enumerate(loads, start=1))
 
 
-def placed_on_model(loads: Sequence[Load], model: Model) -> tuple[PlacedLoad, ...]:
-    """Place loads on the shards of a model, as `placed_loads` does."""
+def placed_on_model(load: Load, number: int, model: Model, structure: Structure) -> PlacedLoad:
+    """Place a load, of a number in its list, on the shards of a model with this structure."""
     masses_kg = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
     boxes_m = np.concatenate(([each.bounds for each in model.shards], np.zeros((1, 2, 3))))
-    return placed_loads(loads, model_structure(model), masses_kg, boxes_m)
+    return _placed(number, load, structure, masses_kg, boxes_m)
 
 
 def _placed(number: int, load: Load, structure: Structure, masses_kg: np.ndarray, boxes_m: np.ndarray) -> PlacedLoad:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...engineering.geometry.vectors import distance
@@ -67,14 +69,7 @@ class Rest:
 def last_event_s(scenario: Scenario, motion_end_s: float = 0.0) -> float:
     """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest.
 
-    From `motion_end_s` on the ground does not move any more.
+    From `motion_end_s` on the ground does not move any more, as the record of the scene says.
     """
-    times = [motion_end_s, scenario.connections.warm_up_s, *(change.time_s for change in scenario.changes)]
-    times += [load.times_s[-1] for load in scenario.loads]
-    times += [hammer.end_time_s for hammer in scenario.jackhammers]
-    if scenario.blast.explosion:
-        times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges]
-    if scenario.ball:
-        times += [scenario.ball.release_time_s]
-        times += [drop.release_time_s + drop.fall_time_s for drop in scenario.ball.drops]
-    return max(times)
+    ends_s = (action.ends_s(scenario) for action in scenario.actions)
+    return max(motion_end_s, scenario.connections.warm_up_s, *filter(math.isfinite, ends_s))

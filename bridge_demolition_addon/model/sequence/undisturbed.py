@@ -14,21 +14,8 @@ from ..scenario import Scenario
 
 
 def first_event_s(scenario: Scenario) -> float:
-    """Return the time up to which nothing is done to the bridge, s; infinite where nothing ever is.
-
-    A ball counts from a frame before free fall brings it to the bridge, and one that swings from when it is let go.
-    """
-    times = [change.time_s for change in scenario.changes]
-    times += [load.begins_s for load in scenario.loads]
-    times += [hammer.start_time_s for hammer in scenario.jackhammers]
-    if scenario.ground_motion:
-        times.append(scenario.ground_motion.start_s)
-    if scenario.blast.explosion:
-        times += [scenario.blast.start_s + charge.delay_s for charge in scenario.charges if charge.mass_kg > 0.0]
-    if ball := scenario.ball:
-        fall_s = 0.0 if ball.cable else ball.fall_time_s - scenario.time.step.frame_s
-        times.append(ball.release_time_s + max(fall_s, 0.0))
-    return min(times, default=math.inf)
+    """Return the time up to which nothing is done to the bridge, s; infinite where nothing ever is."""
+    return min((action.begins_s(scenario) for action in scenario.actions), default=math.inf)
 
 
 def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -14,6 +14,7 @@ from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
 from ...engineering.terrain.thinning import Grid, thinned
 from ...errors import GeometryError
+from ..actions import Fact
 from ..scenario import Scenario
 from .placed import Terrain, terrain_of
 from .surfaces import BuiltSurface, built_surfaces
@@ -247,3 +248,12 @@ def terrain_summary(facts: TerrainFacts) -> list[tuple[str, str]]:
         for each in facts.levelled
     ]
     return lines
+
+
+def terrain_facts(ground: BuiltGround) -> Iterator[Fact]:
+    """Yield how the terrain was made, and what lies on it."""
+    if ground.facts:
+        yield from terrain_summary(ground.facts)
+    recorded = ground.recorded()
+    for surface in recorded.surfaces:
+        yield surface.name, f"{surface.kind}, {recorded.shown(surface).area():.1f} m² in plan"

@@ -9,13 +9,14 @@ import numpy as np
 from mathutils import Matrix
 
 from ...engineering.geometry.solids import sphere
-from ...engineering.timing.timeline import Timeline
 from ...model.scenario import Ball
+from ...model.scenario.ball import lift_path
 from ...model.scenario.kept import values_from_text, values_text
-from ...model.sequence.tool_paths import lift_path
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from ..custom_properties import edited
 from ..world import START_FRAME
+from .build_site import BuildSite
+from .cable import create_cable
 from .keyframes import key_values
 
 _LIFTS = "bda_lifts"
@@ -23,16 +24,15 @@ _BALL_SEGMENTS = 88
 _STEEL = (0.08, 0.09, 0.10, 1.0)
 
 
-def create_ball(
-    world: bpy.types.RigidBodyWorld, settings: Ball, deck_top_m: float, start_frame: int, release_frame: int
-) -> bpy.types.Object:
-    """Make a wrecking ball above its target: fixed by animation up to its release, then free.
+def create_ball(site: BuildSite, settings: Ball) -> bpy.types.Object:
+    """Make a wrecking ball above its target, or on its cable: fixed by animation up to its release, then free.
 
     In the release frame it is free for the first time, so that it falls in the step towards that frame.
     """
+    surfaces_m = [site.height_at(drop.target_m) for drop in settings.drops]
     radius = settings.diameter_m / 2.0
-    ball = create_body(world, mesh_of("Wrecking ball", sphere(radius, _BALL_SEGMENTS)), Kind.BALL, "SPHERE")
-    ball.location = settings.start_m(deck_top_m)
+    ball = create_body(site.world, mesh_of("Wrecking ball", sphere(radius, _BALL_SEGMENTS)), Kind.BALL, "SPHERE")
+    ball.location = settings.start_m(surfaces_m[0] if surfaces_m else 0.0)
     ball.color = _STEEL
     rigid = ball.rigid_body
     rigid.mass = settings.mass_kg
@@ -40,46 +40,35 @@ def create_ball(
     # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
     rigid.linear_damping, rigid.angular_damping = 0.0, settings.angular_damping
     rigid.use_deactivation = False
-    for frame, is_fixed in ((start_frame, True), (release_frame, False)):
+    for frame, is_fixed in ((START_FRAME, True), (site.frame_after(settings.release_time_s), False)):
         rigid.kinematic = is_fixed
         ball.keyframe_insert("rigid_body.kinematic", frame=frame)
     rigid.kinematic = True
-    # Blender animates a body before it simulates it only where its place is animated; otherwise it may let go of the
+    # Blender animates a body before it simulates it only where its position is animated; otherwise it may let go of the
     # ball a frame late, as its threads happen to run.
-    ball.keyframe_insert("location", frame=start_frame)
+    ball.keyframe_insert("location", frame=START_FRAME)
+    if settings.cable:
+        create_cable(site.world, ball, settings.cable)
+    if settings.hits:
+        _create_hits(site, ball, settings, surfaces_m)
     return ball
 
 
-def create_hits(
-    ball: bpy.types.Object, settings: Ball, surfaces_m: Sequence[float], first_step_frame: int, timeline: Timeline
-) -> None:
-    """Animate all hits of a ball but the first, which `create_ball` has animated.
-
-    Parameters
-    ----------
-    surfaces_m : sequence of float
-        Heights of what lies under the targets of all drops, the first one's too.
-    first_step_frame : int
-        First frame that time leads to.
-    timeline : Timeline
-        The frames from there on.
-    """
-    if not settings.hits:
-        return
+def _create_hits(site: BuildSite, ball: bpy.types.Object, settings: Ball, surfaces_m: Sequence[float]) -> None:
+    """Animate all hits but the first, on surfaces of these heights, the first one's too."""
     radius = settings.diameter_m / 2.0
     start = tuple(ball.location)
-    release_frame = first_step_frame + timeline.frames_until(settings.release_time_s)
+    release_frame = site.frame_after(settings.release_time_s)
     key_values(ball, "location", [START_FRAME, release_frame], [start, start])
     key_values(ball, "rotation_euler", [START_FRAME], [ball.rotation_euler], constant=True)
     lying = (*settings.target_m, surfaces_m[0] + radius)
     for hit, surface in zip(settings.hits, surfaces_m[1:], strict=True):
         end = (*hit.target_m, surface + hit.drop_height_m + radius)
-        first, last = (timeline.frames_until(time_s) for time_s in (hit.lift_time_s, hit.lift_end_s))
-        times = np.concatenate(([0.0], np.cumsum(timeline.frame_lengths_s[first:last])))
-        plan_lift(ball, first_step_frame + first, times / times[-1], lying, end)
-        release_frame = first_step_frame + timeline.frames_until(hit.release_time_s)
-        frames = [first_step_frame + first, release_frame]
-        key_values(ball, "rigid_body.kinematic", frames, [1.0, 0.0], constant=True)
+        first, last = (site.timeline.frames_until(time_s) for time_s in (hit.lift_time_s, hit.lift_end_s))
+        times = np.concatenate(([0.0], np.cumsum(site.timeline.frame_lengths_s[first:last])))
+        lift_frame, release_frame = site.frame_after(hit.lift_time_s), site.frame_after(hit.release_time_s)
+        plan_lift(ball, lift_frame, times / times[-1], lying, end)
+        key_values(ball, "rigid_body.kinematic", [lift_frame, release_frame], [1.0, 0.0], constant=True)
         key_values(ball, "location", [release_frame], [end])
         lying = (*hit.target_m, surface + radius)
 

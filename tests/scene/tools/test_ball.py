@@ -24,20 +24,24 @@ HITS = (
 BALL = Ball(mass_kg=1000, diameter_m=1.0, target_m=(0, 0), drop_height_m=3.0, release_time_s=0.5, hits=HITS)
 
 
+def site_of(blocks, height_m=0.0):
+    from bridge_demolition_addon.scene.tools.build_site import BuildSite
+
+    return BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: height_m)
+
+
 @pytest.fixture(scope="module")
 def hits(tmp_path_factory):
     """Three hits on a slab that yields nothing, with a light block beside the place of the first."""
     import bpy
 
-    from bridge_demolition_addon.scene.tools.ball import create_ball, create_hits
+    from bridge_demolition_addon.scene.tools.ball import create_ball
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     blocks = Blocks(substeps_per_frame=30)
     blocks.block((0, 0, -0.5), size_m=(30, 30, 1))
     blocks.block((0.85, 0, 0.25), 10.0, size_m=(0.5, 0.5, 0.5))
-    first_step = blocks.scene.frame_start + 2
-    ball = create_ball(blocks.world, BALL, 0.0, 1, first_step + blocks.time.step.frames(BALL.release_time_s))
-    create_hits(ball, BALL, [0.0] * len(BALL.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
+    create_ball(site_of(blocks), BALL)
     return blocks.play(tmp_path_factory.mktemp("hits"), blocks.time.step.frames(9.0))
 
 
@@ -65,7 +69,7 @@ def test_ball_reaches_the_deck_as_fast_as_a_free_fall(blender, tmp_path):
 
     blocks = Blocks(substeps_per_frame=250)
     blocks.block((0, 0, -0.5), size_m=(30, 30, 1))
-    create_ball(blocks.world, replace(BALL, drop_height_m=1.0, hits=()), 0.0, 1, 3)
+    create_ball(site_of(blocks), replace(BALL, drop_height_m=1.0, release_time_s=0.0, hits=()))
     results = blocks.play(tmp_path, 12)
     (hit,) = summarise(results, np.array((0, 0, -STANDARD_GRAVITY_M_S2)))["hits_of_the_ball"]
     assert hit["approach_m_s"] == pytest.approx(np.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * 1.0), rel=1e-3)
@@ -93,16 +97,14 @@ def test_nothing_is_flung_by_the_lift(hits):
 
 def test_ball_is_lifted_from_where_it_has_rolled(blender, tmp_path):
     """Blender itself would take it to the guessed place, above the target, in one frame: at 120 m/s from 5 m below."""
-    from bridge_demolition_addon.scene.tools.ball import create_ball, create_hits
+    from bridge_demolition_addon.scene.tools.ball import create_ball
 
     blocks = Blocks()
     blocks.block((0, 0, -10.5), size_m=(30, 30, 1))
     slope = blocks.block((0, 0, -0.5), size_m=(4, 4, 1))
     slope.rotation_euler[1] = 0.5
-    first_step = blocks.scene.frame_start + 2
     settings = replace(BALL, hits=(replace(HITS[0], lift_time_s=4.0, lift_duration_s=3.0, release_time_s=7.5),))
-    ball = create_ball(blocks.world, settings, 0.6, 1, first_step + 12)
-    create_hits(ball, settings, [0.6] * len(settings.drops), first_step, Timeline.of(blocks.time.step.frame_s, 10.0))
+    create_ball(site_of(blocks, 0.6), settings)
     results = blocks.play(tmp_path, 24 * 8)
     row = results.inventory.of_kind("ball")[0]
     lifted = int(np.flatnonzero(results.frames.time_s > 4.02)[0])  # the ball rolls on in the frame up to 4 s

@@ -11,6 +11,7 @@ from support.terrain_files import EASTING, NORTHING, write_asc
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.engineering.timing.timeline import Timeline
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.results.arrays import load_results
@@ -28,11 +29,11 @@ def swinging(cable):
 
 def play_swing(cable, folder, seconds):
     from bridge_demolition_addon.scene.tools.ball import create_ball
-    from bridge_demolition_addon.scene.tools.cable import create_cable
+    from bridge_demolition_addon.scene.tools.build_site import BuildSite
 
     blocks = Blocks()
-    ball = create_ball(blocks.world, swinging(cable), 0.0, 1, blocks.scene.frame_start + 2 + 12)
-    create_cable(blocks.world, ball, cable)
+    site = BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: 0.0)
+    create_ball(site, swinging(cable))
     return blocks.play(folder, round(24 * seconds))
 
 

@@ -12,7 +12,6 @@ from bridge_demolition_addon.engineering.timing.timeline import Timeline
 from bridge_demolition_addon.model.bridge import deck_top
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.scenario import Jackhammer
-from bridge_demolition_addon.model.sequence.tool_paths import chisel_tip_positions
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
@@ -42,6 +41,7 @@ def slab(tmp_path_factory):
     """A slab that is held along its two ends, under a jackhammer: what was recorded."""
     import bpy
 
+    from bridge_demolition_addon.scene.tools.build_site import BuildSite
     from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -54,7 +54,7 @@ def slab(tmp_path_factory):
     )
     scene.hold(abs(scene.fracture.centres[:, 0]) > 3.6)
     world = scene.scene.rigidbody_world
-    create_jackhammer(world, HAMMER, TOP_M, scene.scene.frame_start + 1, Timeline.of(1.0 / 24.0, 8.0))
+    create_jackhammer(BuildSite(world, Timeline.of(1.0 / 24.0, 8.0), lambda _: TOP_M), HAMMER)
     recording = Recording(scene.scene, tmp_path_factory.mktemp("slab"))
     start_recording(recording)
     for frame in range(1, 85):
@@ -79,7 +79,7 @@ def test_jackhammer_removes_material_where_it_is_driven(slab):
 def test_chisel_is_where_it_is_led(slab):
     (tool,) = slab.inventory.of_kind("tool")
     np.testing.assert_allclose(
-        slab.frames.positions_m[:, tool], chisel_tip_positions(HAMMER, TOP_M, slab.frames.time_s), atol=1e-4
+        slab.frames.positions_m[:, tool], HAMMER.tip_positions(TOP_M, slab.frames.time_s), atol=1e-4
     )
     heights = slab.frames.positions_m[:, tool, 2]
     assert heights.min() == pytest.approx(TOP_M - HAMMER.depth_m, abs=1e-4)
@@ -98,7 +98,7 @@ def test_scenario_with_a_jackhammer(tmp_path):
     (tool,) = results.inventory.of_kind("tool")
     np.testing.assert_allclose(
         results.frames.positions_m[:, tool],
-        chisel_tip_positions(hammer, deck_top(scenario.bridge), results.frames.time_s),
+        hammer.tip_positions(deck_top(scenario.bridge), results.frames.time_s),
         atol=1e-4,
     )
     assert results.frames.intact[results.frames.time_s < 0.19].all()

@@ -8,8 +8,8 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Jackhammer
+from bridge_demolition_addon.model.scenario.ball import lift_path
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.model.sequence.tool_paths import chisel_tip_positions, lift_path
 
 HAMMER = Jackhammer(
     start_time_s=1.0,
@@ -24,7 +24,7 @@ HAMMER = Jackhammer(
 
 def test_chisel_goes_up_and_down_along_its_path():
     times = np.array((0.0, 1.0, 1.25, 1.5, 2.0, 2.25, 2.5, 4.0, 4.5, 5.0, 9.0))
-    places = chisel_tip_positions(HAMMER, 5.0, times)
+    places = HAMMER.tip_positions(5.0, times)
     clear, low, high = 5.0 - 0.2 + 0.5, 4.8, 6.3
     expected_z = (clear, clear, low, clear, clear, low, clear, clear, (clear + high) / 2, high, high)
     np.testing.assert_allclose(places[:, 2], expected_z, atol=1e-12)
@@ -33,13 +33,13 @@ def test_chisel_goes_up_and_down_along_its_path():
 
 
 def test_chisel_on_one_point_stays_there():
-    places = chisel_tip_positions(replace(HAMMER, path_m=[(3, 1)]), 5.0, np.linspace(0, 9, 50))
+    places = replace(HAMMER, path_m=[(3, 1)]).tip_positions(5.0, np.linspace(0, 9, 50))
     assert (places[:, :2] == (3, 1)).all()
 
 
 def test_largest_speed():
     times = np.linspace(1.0, 4.0, 30001)
-    speeds = np.diff(chisel_tip_positions(HAMMER, 0.0, times)[:, 2]) / np.diff(times)
+    speeds = np.diff(HAMMER.tip_positions(0.0, times)[:, 2]) / np.diff(times)
     assert HAMMER.largest_speed_m_s == pytest.approx(abs(speeds).max(), rel=1e-4)
 
 

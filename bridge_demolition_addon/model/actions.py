@@ -1,0 +1,134 @@
+"""Planned actions: what is done to a bridge at a planned time, by a tool, a charge, a load or the ground.
+
+A scenario holds actions in fields of their own. All else asks them the same: when they begin and end, what
+a camera is to see, what `bda check` says of them, and whether they fit the model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import ClassVar, Protocol, Self
+
+from ..engineering.ground_motion.record import GroundRecord
+from ..engineering.timing.time_step import TimeStep
+from ..engineering.timing.timeline import Timeline
+from .schema import Table
+
+Fact = tuple[str, str]
+"""A label and a text, as `bda check` prints them."""
+
+Place = tuple[float, float]
+Point = tuple[float, float, float]
+"""Along the road, across it, and above the ground, m."""
+
+HeightAt = Callable[[Place], float]
+"""Height of what lies under a place, m."""
+
+
+class RunTime(Protocol):
+    """How long a run lasts, and in which steps."""
+
+    @property
+    def duration_s(self) -> float: ...
+    @property
+    def step(self) -> TimeStep: ...
+
+
+class Plan(Protocol):
+    """The scenario, as far as an action depends on it."""
+
+    @property
+    def time(self) -> RunTime: ...
+    @property
+    def timeline(self) -> Timeline: ...
+    @property
+    def ground_record(self) -> GroundRecord | None: ...
+    @property
+    def warm_up_s(self) -> float: ...
+    @property
+    def has_flat_ground(self) -> bool: ...
+    @property
+    def actions(self) -> tuple[PlannedAction, ...]: ...
+    def detonation_s(self, delay_s: float) -> float: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Affected:
+    """Shards that an action acts on: how many, their mass, and the members that they were cut from."""
+
+    shards: int
+    mass_kg: float
+    members: tuple[str, ...]
+
+
+class Worksite(Protocol):
+    """The bridge and its ground, as they stand before anything is done to them."""
+
+    @property
+    def plan(self) -> Plan: ...
+
+    def surface_height(self, place_m: Place) -> float:
+        """Return the height of what something that falls on a place meets first; refuse a place beside all members."""
+
+    def ground_height(self, place_m: Place) -> float:
+        """Return the height of the ground at a place, minus infinity beyond its edge."""
+
+    def member_within(self, centre_m: Point, radius_m: float) -> str | None:
+        """Return the name of a member that overlaps a sphere, None without one."""
+
+    def affected_by(self, action: PlannedAction) -> Affected:
+        """Return the shards that a change or a load acts on; refuse one that acts on nothing."""
+
+    def number_of(self, action: PlannedAction) -> int:
+        """Return the number of an action in its list, from 1 on."""
+
+
+class PlannedAction(Table):
+    """Base of the tables of what is done to a bridge."""
+
+    __slots__ = ()
+    heading: ClassVar[str] = "Sequence"
+    """Section of `bda check` that describes it. Under this one, actions are in order of time."""
+
+    @property
+    def held_by_machine(self) -> str | None:
+        """Return the key of what a machine holds, which would not move with a ground that shakes; None without one."""
+        return None
+
+    def begins_s(self, plan: Plan) -> float:
+        """Return from when on it acts on the bridge, s; infinite where it never does."""
+        raise NotImplementedError
+
+    def ends_s(self, plan: Plan) -> float:
+        """Return when it is over, s; infinite where it never acts."""
+        return self.begins_s(plan)
+
+    def scaled_in_time(self, factor: float) -> Self:
+        """Return it where all frames last longer by a factor: what is animated keeps its frames, and its times change.
+
+        What happens at a simulated time, whatever the frame, stays as it is.
+        """
+        return self
+
+    def targets(self) -> Iterator[tuple[str, Place]]:
+        """Yield the keys and values of places that have to be on the deck."""
+        yield from ()
+
+    def starts_above(self) -> tuple[Place, ...]:
+        """Return the places at which a member has to be below it."""
+        return ()
+
+    def points_of_interest(self, height_at: HeightAt) -> Iterator[Point]:
+        """Yield points that a camera is to see."""
+        yield from ()
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        """Yield what a planner wants to know of it before a run."""
+        yield from ()
+
+    def check_plan(self, plan: Plan) -> None:
+        """Check it against the other tables of its scenario."""
+
+    def check_model(self, site: Worksite) -> None:
+        """Check it against the model that was built of its scenario."""

@@ -1,0 +1,160 @@
+"""What a planner wants to know of a model before a run: shards, connections, and how the bridge stands at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ...engineering.mechanics.joint import Joint
+from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
+from ..actions import Fact
+from ..materials.bar_layers import AXES, SIDES
+from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
+from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
+from .equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
+from .face_bars import layers_of_members
+from .model import Model
+
+MOST_SHARDS_COMPARED = 2000
+"""Comparing so many shards with their neighbours takes as long as cutting them."""
+
+MOST_PAIRS_NAMED = 5
+
+
+def overlap_facts(model: Model) -> Iterator[Fact]:
+    """Yield whether shards lie in each other, which would throw them apart when the simulation begins."""
+    if len(model.shards) > MOST_SHARDS_COMPARED:
+        yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_COMPARED}"
+        return
+    yield from _pairs_found("overlapping shards", overlaps(model.shards), model)
+    # What Blender lets collide. Hulls of connected shards overlap unharmed until their connection breaks.
+    yield from _pairs_found("overlapping hulls", overlaps(hulls(model.shards)), model)
+
+
+def _pairs_found(name: str, found: Overlaps, model: Model) -> Iterator[Fact]:
+    yield name, f"{len(found) or 'no'} pairs, by more than {SHARD_OVERLAP_TOLERANCE:g} of the smaller one"
+    for (first, second), volume in list(zip(found.pairs, found.volumes, strict=True))[:MOST_PAIRS_NAMED]:
+        named = (f"{model.members[model.member_of_shard[shard]].name}, shard {shard}" for shard in (first, second))
+        yield "", f"{volume:.3g} m³ of {' and '.join(named)}"
+
+
+def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    connections = scenario.connections
+    yield "shards", f"{len(model.shards)}"
+    kind = f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
+    yield "connections", f"{len(model.connections.pairs)}, {kind}"
+    is_large = scenario.fracture.shards >= LARGE_MODEL
+    if connections.material is not None:
+        is_usual = is_large and connections.material == MATERIAL_OF_LARGE_MODELS
+        usual = f", as in all models of {LARGE_MODEL} shards or more that give no strength" if is_usual else ""
+        yield "strength of", f"{connections.material}{usual}"
+        yield from _strength_facts(scenario.joints[0].strength)
+    else:
+        force = scenario.joints[0].breaking_force_n
+        yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
+        yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
+        if is_large:
+            yield from _stress_facts(force, scenario, model)
+            yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
+            yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
+    yield from _bar_facts(scenario, model)
+    yield from _rule_facts(scenario)
+
+
+def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield what sections with layers of bars bear at yield."""
+    strength = scenario.joints[0].strength
+    for group in layers_of_members(scenario.reinforcement, model.members):
+        section = group.section(strength.compression_pa, scenario.connections.strength_factor)
+        along, across, _ = group.axes
+        sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
+        moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
+        borne = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
+        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {borne}"
+
+
+def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield how an elastic bridge stands under its own weight."""
+    rest = model_at_rest(model, scenario.joints)
+    held = int(rest.held[: len(model.shards)].sum())
+    loose = len(model.shards) - held - int(model.fixed.sum())
+    broken = int(overloaded(model, rest, scenario.joints).sum())
+    yield "overloaded", f"{broken} of {len(model.connections)} connections, by the bridge's own weight alone"
+    if not scenario.connections.is_elastic:
+        yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
+    elif broken:
+        yield "", "they break before anything is done to it, and the bridge may fall by itself"
+    used = used_of_forces(model, rest, scenario.joints)
+    if by_force := np.count_nonzero(~np.isnan(used)):
+        yield (
+            "of breaking forces",
+            f"{np.nanmax(used):.1%} used at most, {np.nanmean(used):.1%} in the mean of {by_force}",
+        )
+        yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
+    if loose:
+        yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
+        yield "", "would hold them: [[connections.between]] with type GENERIC"
+    if held:
+        yield "sag", f"{1000.0 * sag_m(model, rest):.2f} mm"
+        yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
+
+
+def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield how footings press on their soil by the bridge's own weight."""
+    rest, soil = model_at_rest(model, scenario.joints), model.soil
+    forces_n = np.abs(rest.loads[2, soil.rows])
+    areas = model.connections.areas[soil.rows]
+    members = model.member_of_shard[model.connections.pairs[soil.rows, 0]]
+    for member in dict.fromkeys(members.tolist()):
+        mine = members == member
+        force, area = float(forces_n[mine].sum()), float(areas[mine].sum())
+        pressure = force / area
+        settled = pressure / float(soil.stiffness_n_m3[mine][0])
+        yield (
+            model.members[member].name,
+            f"{force / 1e3:.0f} kN on {area:.2f} m², {pressure / 1e3:.0f} kPa, "
+            f"{pressure / float(soil.capacity_pa[mine][0]):.1%} of what it bears, {1e3 * settled:.2f} mm",
+        )
+
+
+def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield the stress that one breaking force for all comes to, which grows with the number of shards."""
+    alike = np.array([joint.breaking_force_n == force_n for joint in scenario.joints])
+    holds = alike[model.joint_of_connection]
+    if area_m2 := float(model.connections.areas[holds].sum()):
+        stress = force_n * int(holds.sum()) / area_m2 / NEWTON_PER_SQUARE_MILLIMETRE
+        torn = MATERIALS["concrete"].tension_pa / NEWTON_PER_SQUARE_MILLIMETRE
+        yield "of all, by their area", f"{stress:.3g} N/mm² in the mean; plain concrete is torn at {torn:g} N/mm²"
+
+
+def _rule_facts(scenario: Scenario) -> Iterator[Fact]:
+    for rule, joint in zip(scenario.connections.between, scenario.joints[1:], strict=True):
+        yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else _joint_text(rule, joint)}"
+
+
+def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:
+    """Return what a connection of a rule holds, and what breaks it where that is not as elsewhere."""
+    words = [joint.type]
+    if joint.free:
+        words.append(f"free: {', '.join(joint.free)}")
+    if rule.material is not None:
+        words.append(f"strength of {rule.material}")
+    elif rule.breaking_force_newton is not None:
+        words.append(f"breaking force {rule.breaking_force_newton / 1000.0:.2f} kN")
+    return ", ".join(words)
+
+
+def _strength_facts(strength: Strength) -> Iterator[Fact]:
+    for kind in ("compression", "tension", "shear", "torsion", "bending"):
+        yield f"in {kind}", f"{getattr(strength, f'{kind}_pa') / NEWTON_PER_SQUARE_MILLIMETRE:g} N/mm²"
+
+
+def _method(connections: ConnectionSettings) -> str:
+    if connections.method == "face":
+        return "shards that share a face"
+    if connections.method == "nearest":
+        return f"each with its {connections.neighbours} nearest"
+    places = {"vertex": "nearest vertices", "centre": "centres of mass"}
+    return f"{places[connections.method]} within {connections.search_radius_m:g} m"
