@@ -78,7 +78,7 @@ class TimeSettings(Table):
         slowed = "" if shortest > 0.999 * self.step.frame_s else f", down to {shortest:.3g} s around detonations"
         yield "frames", f"{len(timeline)} of {self.step.frame_s:.6g} s{slowed}"
         farthest_m = self.farthest_per_substep_m
-        shortened = "" if farthest_m is None else f", more where a body would go farther than {farthest_m:g} m in one"
+        shortened = "" if farthest_m is None else f", more where a body would move by more than {farthest_m:g} m in one"
         yield "sub-step", f"{self.step.substep_s:.6g} s, {self.substeps_per_frame} in a frame{shortened}"
 
     def _check_together(self) -> None:

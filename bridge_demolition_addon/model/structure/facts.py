@@ -28,14 +28,14 @@ def overlap_facts(model: Model) -> Iterator[Fact]:
     if len(model.shards) > MOST_SHARDS_COMPARED:
         yield "overlapping shards", f"not compared with each other, as they are more than {MOST_SHARDS_COMPARED}"
         return
-    yield from _pairs_found("overlapping shards", overlaps(model.shards), model)
+    yield from _pair_facts("overlapping shards", overlaps(model.shards), model)
     # What Blender lets collide. Hulls of connected shards overlap unharmed until their connection breaks.
-    yield from _pairs_found("overlapping hulls", overlaps(hulls(model.shards)), model)
+    yield from _pair_facts("overlapping hulls", overlaps(hulls(model.shards)), model)
 
 
-def _pairs_found(name: str, found: Overlaps, model: Model) -> Iterator[Fact]:
-    yield name, f"{len(found) or 'no'} pairs, by more than {SHARD_OVERLAP_TOLERANCE:g} of the smaller one"
-    for (first, second), volume in list(zip(found.pairs, found.volumes, strict=True))[:MOST_PAIRS_NAMED]:
+def _pair_facts(name: str, pairs: Overlaps, model: Model) -> Iterator[Fact]:
+    yield name, f"{len(pairs) or 'no'} pairs, by more than {SHARD_OVERLAP_TOLERANCE:g} of the smaller one"
+    for (first, second), volume in list(zip(pairs.pairs, pairs.volumes, strict=True))[:MOST_PAIRS_NAMED]:
         named = (f"{model.members[model.member_of_shard[shard]].name}, shard {shard}" for shard in (first, second))
         yield "", f"{volume:.3g} m³ of {' and '.join(named)}"
 
@@ -64,15 +64,15 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
-    """Yield what sections with layers of bars bear at yield."""
+    """Yield the moments at which sections with layers of bars yield."""
     strength = scenario.joints[0].strength
     for group in layers_of_members(scenario.reinforcement, model.members):
         section = group.section(strength.compression_pa, scenario.connections.strength_factor)
         along, across, _ = group.axes
         sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
         moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
-        borne = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
-        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {borne}"
+        resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
+        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {resisted}"
 
 
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
@@ -115,7 +115,7 @@ def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield (
             model.members[member].name,
             f"{force / 1e3:.0f} kN on {area:.2f} m², {pressure / 1e3:.0f} kPa, "
-            f"{pressure / float(soil.capacity_pa[mine][0]):.1%} of what it bears, {1e3 * settled:.2f} mm",
+            f"{pressure / float(soil.capacity_pa[mine][0]):.1%} of its capacity, {1e3 * settled:.2f} mm",
         )
 
 
