@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bridge_demolition_addon.model.results.arrays import load_results, named_arrays
-from bridge_demolition_addon.model.results.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.run_folder.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, SUMMARY_FILE
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
@@ -31,7 +31,7 @@ TESTS = (
     "tests/system/array_files",
     "tests/model/results/test_stream.py",
     "tests/simulation/test_elastic_connections.py",
-    "tests/simulation/test_results_folder.py",
+    "tests/model/run_folder/test_run_folder.py",
     "tests/simulation/test_settling.py",
     "tests/simulation/test_throw_and_energy.py",
 )

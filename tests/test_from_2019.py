@@ -138,7 +138,7 @@ def test_every_table_is_one_and_has_its_brackets():
 
 
 def test_every_column_of_our_logs_is_there_and_no_other():
-    from bridge_demolition_addon.simulation.recording import logs
+    from bridge_demolition_addon.model.run_folder import logs
 
     columns = {
         "force_log.csv": logs.FORCE_TABLE.headers,

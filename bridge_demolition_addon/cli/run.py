@@ -10,15 +10,15 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import OutputError, SimulationError
-from ..model.results.files import RESULT_FILES
 from ..model.results.fingerprint import SHORT
 from ..model.results.summary import first_hit_s
+from ..model.run_folder.files import RESULT_FILES
+from ..model.run_folder.folder import check_folder, remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.sequence.undisturbed import self_collapse_text
 from ..model.structure.model import Model
-from ..simulation.results_folder import check_folder, remove_report
 from ..system.progress import Progress
 from ..system.signals import interrupted_afterwards
 from .arguments import naming

@@ -18,8 +18,8 @@ import numpy as np
 from ..errors import MissingLibraryError
 from ..model.results.arrays import Results
 from ..model.results.energy import energy_of
-from ..model.results.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
 from ..model.results.motion import throw
+from ..model.run_folder.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
 from ..system.progress import Progress
 
 MOST_ROWS = 1_048_575

@@ -32,7 +32,7 @@ def findings(run: Run, debris: Debris) -> list[Finding]:
     count = results.frames.intact.shape[1]
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
     found = [
-        _finding(IMPACT, "s", run.hit_s, ".3f"),
+        _finding(IMPACT, "s", run.ball.first_hit_s, ".3f"),
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
         _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", unrest),

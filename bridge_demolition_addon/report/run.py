@@ -11,7 +11,7 @@ from ..engineering.terrain.contour_lines import contour_lines
 from ..errors import OutputError
 from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.throws import debris_of
-from ..model.results.files import DXF_FILE, GEOJSON_FILE
+from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE
 from ..model.scenario.file import scenario_text
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.made_elastic import made_elastic

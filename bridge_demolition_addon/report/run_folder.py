@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import os
 import struct
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -17,9 +14,9 @@ from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import OutputError, ScenarioError, UnreadableError
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import Results, load_results, results_in
-from ..model.results.checks import checked_summary
-from ..model.results.files import (
-    BREAKING_LOG,
+from ..model.results.removed_shards import without_removed
+from ..model.results.summary import hits_of_balls, impact_of
+from ..model.run_folder.files import (
     FORCE_LOG,
     FRAMES_FILE,
     PICTURE_FOLDER,
@@ -28,39 +25,18 @@ from ..model.results.files import (
     SCENARIO_FILE,
     SUMMARY_FILE,
 )
-from ..model.results.removed_shards import without_removed
-from ..model.results.summary import first_hit_s, hits_of_balls, impact_of
+from ..model.run_folder.folder import holds_run, writer_of_run
+from ..model.run_folder.logs import LoggedForces, count_logged_breaks, read_logged_forces
+from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.undisturbed import self_collapse_text
-from ..system.folder_lock import LOCK_FILE, writer_in
-from ..system.reading import MEGABYTE, check_file, file_text
-
-MOST_SUMMARY_BYTES = 100 * MEGABYTE
-"""Size up to which a summary is read, which lists every frame."""
-
+from ..system.reading import MEGABYTE, check_file
 
 MOST_PICTURE_BYTES = 100 * MEGABYTE
 
 _NO_PICTURE = (OSError, SyntaxError, ValueError, MemoryError, struct.error, zlib.error)
 """What the reader of pictures raises for a file that is none, is damaged, or says that it is larger than there is."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class LoggedForces:
-    """What a force log holds without results.
-
-    Attributes
-    ----------
-    times_s : (k,) float
-        Times of the frames.
-    sums_n, resultants_n : (k,) float
-        Largest sum of magnitudes and largest resultant on any body but the ground.
-    """
-
-    times_s: np.ndarray
-    sums_n: np.ndarray
-    resultants_n: np.ndarray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -74,7 +50,7 @@ class Run:
     scenario, summary, results
         Each None where it is missing or cannot be read.
     ball
-        Impact and hits of the ball, with the keys of the summary; from the results where there is no summary.
+        Its summary, or one of the results with impact and hits of the ball.
     logged_forces
         Read from the log where there are no results; None where there is no log either.
     logged_breaks
@@ -87,9 +63,9 @@ class Run:
 
     folder: Path
     scenario: Scenario | None
-    summary: dict[str, Any] | None
+    summary: RunSummary | None
     results: Results | None
-    ball: dict[str, Any]
+    ball: RunSummary
     logged_forces: LoggedForces | None
     logged_breaks: int | None
     pictures: dict[str, Path]
@@ -105,28 +81,12 @@ class Run:
         """Title of the scenario, or else name of the folder."""
         if self.scenario:
             return self.scenario.title
-        return str(self.summary["title"]) if self.summary and "title" in self.summary else self.name
-
-    @property
-    def impact_s(self) -> float | None:
-        """End of the frame in which the ball hit; None where it did not, or nobody knows."""
-        impact = self.ball.get("impact")
-        return float(impact["time_s"]) if impact else None
-
-    @property
-    def hit_s(self) -> float | None:
-        """When the ball hit, to a sub-step where its hits were recorded; None as for `impact_s`."""
-        return first_hit_s(self.ball)
+        return (self.summary and self.summary.title) or self.name
 
 
 def shown_name(folder: Path) -> str:
     """Return the name of a folder; bytes of it that are no letters in UTF-8 are shown as numbers."""
     return os.fsencode(folder.resolve().name).decode("utf-8", "backslashreplace")
-
-
-def holds_run(folder: Path) -> bool:
-    """Return whether a folder holds anything that a run recorded."""
-    return any((folder / name).exists() for name in (RESULTS_FILE, FRAMES_FILE, FORCE_LOG))
 
 
 def read_run(folder: Path) -> Run:
@@ -139,7 +99,7 @@ def read_run(folder: Path) -> Run:
     """
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
-    at_work = _run_at_work(folder)  # before anything is read: what a run that has ended by now left is whole
+    at_work = writer_of_run(folder)  # before anything is read: what a run that has ended by now left is whole
     if not holds_run(folder):
         if at_work:
             raise OutputError(f"{folder}: holds no frame yet, and is being written to by {at_work}: wait for its end")
@@ -147,14 +107,14 @@ def read_run(folder: Path) -> Run:
     shortcomings: list[str] = []
     results = _results(folder, at_work, shortcomings)
     summary = _summary(folder, shortcomings)
-    if summary and not summary.get("completed", True):
+    if summary and not summary.completed:
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
-    if summary and (fall := self_collapse_text(summary)):
+    if summary and (fall := self_collapse_text(summary.values)):
         shortcomings.append(f"{fall}.")
-    if summary and (by_hand := summary.get("made_by_hand")):
+    if summary and summary.made_by_hand:
         shortcomings.append(
             "The scene was changed in Blender after it was built, and the scenario of the run cannot say that: "
-            f"{'; '.join(by_hand)}."
+            f"{'; '.join(summary.made_by_hand)}."
         )
     logged = _logged_forces(folder, shortcomings) if results is None else None
     scenario = _scenario(folder, shortcomings)
@@ -205,22 +165,6 @@ def _results(folder: Path, at_work: str | None, shortcomings: list[str]) -> Resu
     return results
 
 
-def _run_at_work(folder: Path) -> str | None:
-    """Return who is still at work on the run in a folder; None where it has ended.
-
-    Who makes the report of a killed run locks its folder too, but its frames and its log are older than that.
-    """
-    growing = [path for path in (folder / FRAMES_FILE, folder / FORCE_LOG) if path.exists()]
-    writer = writer_in(folder)
-    if writer is None or (folder / RESULTS_FILE).exists():
-        return None
-    try:
-        begun = (folder / LOCK_FILE).stat().st_mtime
-        return writer if not growing or max(path.stat().st_mtime for path in growing) >= begun else None
-    except FileNotFoundError:  # it has ended just now
-        return None
-
-
 def _still_at_work(writer: str) -> str:
     return f"The run is still at work ({writer}): make the report again once it has ended."
 
@@ -230,33 +174,49 @@ def _reason(error: Exception, path: Path) -> str:
     return str(error).removeprefix(f"{path}: ")
 
 
-def _summary(folder: Path, shortcomings: list[str]) -> dict[str, Any] | None:
-    path = folder / SUMMARY_FILE
-    if not path.exists():
+def _summary(folder: Path, shortcomings: list[str]) -> RunSummary | None:
+    if not (folder / SUMMARY_FILE).exists():
         shortcomings.append(
             f"There is no {SUMMARY_FILE}: which Blender the run came from is not known. Hits of the ball are worked "
             "out from the frames, as far as these are here."
         )
         return None
     try:
-        return checked_summary(json.loads(file_text(path, MOST_SUMMARY_BYTES)))
+        return read_summary(folder)
     except OutputError as error:
         shortcomings.append(f"{SUMMARY_FILE} is not what a run writes, and is left out: {error}.")
-    except (UnreadableError, RecursionError, ValueError) as error:
+    except (UnreadableError, ValueError) as error:
         shortcomings.append(f"{SUMMARY_FILE} cannot be read, and what it says is left out: {error}.")
     return None
 
 
-def _ball(summary: dict[str, Any] | None, results: Results | None, scenario: Scenario | None) -> dict[str, Any]:
-    """Return impact and hits of the ball: where there is no summary, as that would have them under standard gravity."""
+def _ball(summary: RunSummary | None, results: Results | None, scenario: Scenario | None) -> RunSummary:
+    """Return the summary; without one, impact and hits of the ball under standard gravity."""
     if summary or results is None:
-        return summary or {}
+        return summary or RunSummary({})
     gravity = np.array([0.0, 0.0, -STANDARD_GRAVITY_M_S2])
     contact_time_s = scenario.ball.contact_time_s if scenario and scenario.ball else None
-    return {
-        "impact": impact_of(results, gravity),
-        "hits_of_the_ball": hits_of_balls(results, gravity, contact_time_s),
-    }
+    hits = hits_of_balls(results, gravity, contact_time_s)
+    return RunSummary({"impact": impact_of(results, gravity), "hits_of_the_ball": hits})
+
+
+def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None:
+    try:
+        logged = read_logged_forces(folder)
+    except OutputError as error:
+        shortcomings.append(f"{error}.")
+        return None
+    if logged and logged.is_cut:
+        shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
+    return logged
+
+
+def _logged_breaks(folder: Path, shortcomings: list[str]) -> int | None:
+    try:
+        return count_logged_breaks(folder)
+    except OutputError as error:
+        shortcomings.append(f"{error}.")
+        return None
 
 
 def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
@@ -275,8 +235,8 @@ def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
 
 
 def pictures_in(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
-    """Return those of the rendered pictures of a run that are there and whole; of each other it is said why not."""
-    found = {}
+    """Return the rendered pictures that are whole, and explain each that is not."""
+    pictures = {}
     for name in PICTURES:
         path = folder / PICTURE_FOLDER / f"{name}.png"
         if not path.exists():
@@ -289,52 +249,5 @@ def pictures_in(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
         except (UnreadableError, *_NO_PICTURE):
             shortcomings.append(f"frames/{path.name} is no whole picture, and is left out.")
         else:
-            found[name] = path
-    return found
-
-
-def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None:
-    """Return the largest forces of every frame that the log holds whole."""
-    largest: dict[float, tuple[float, float]] = {}
-    bodies_of_frame: dict[float, int] = {}
-    path = folder / FORCE_LOG
-    if not path.exists():
-        return None
-    try:
-        check_file(path)
-        with path.open(encoding="utf-8", newline="") as file:
-            for row in csv.DictReader(file):
-                if None in row.values():  # a line that was cut in two
-                    break
-                time_s = float(row["time_s"])
-                bodies_of_frame[time_s] = bodies_of_frame.get(time_s, 0) + 1
-                before = largest.get(time_s, (0.0, 0.0))
-                if row["body"] != "Ground":
-                    found = (float(row["peak_force_sum_N"]), float(row["peak_force_N"]))
-                    largest[time_s] = tuple(np.fmax(before, found))
-                else:
-                    largest.setdefault(time_s, before)
-    except (UnreadableError, OSError, TypeError, ValueError, KeyError, csv.Error) as error:
-        shortcomings.append(f"{FORCE_LOG} cannot be read, and is left out: {error}.")
-        return None
-    whole = [time_s for time_s, count in bodies_of_frame.items() if count == max(bodies_of_frame.values())]
-    if not whole:
-        shortcomings.append(f"{FORCE_LOG} holds no frame.")
-        return None
-    if len(whole) < len(bodies_of_frame):
-        shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
-    sums, resultants = np.array([largest[time_s] for time_s in whole]).T
-    return LoggedForces(np.array(whole), sums, resultants)
-
-
-def _logged_breaks(folder: Path, shortcomings: list[str]) -> int | None:
-    path = folder / BREAKING_LOG
-    if not path.exists():
-        return None
-    try:
-        check_file(path)
-        with path.open("rb") as file:
-            return max(0, sum(line.endswith(b"\n") for line in file) - 1)
-    except (UnreadableError, OSError) as error:
-        shortcomings.append(f"{BREAKING_LOG} cannot be read, and what broke is left out: {error}.")
-        return None
+            pictures[name] = path
+    return pictures

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError, text_of
-from ..model.results.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.run_folder.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.run_folder.folder import holds_run
 from ..model.study.files import REPORT_FOLDER
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
@@ -24,7 +25,7 @@ from .ensemble.search_folder import is_search, read_found_search
 from .ensemble.study import study_report
 from .ensemble.study_folder import is_study, read_study_runs
 from .run import run_report
-from .run_folder import holds_run, read_run
+from .run_folder import read_run
 from .sections.cover import add_on_version
 from .sections.stages import has_stages, stages_report
 

@@ -1,9 +1,9 @@
-"""The last run of a scene, kept with it, so that a file that is opened again finds what was recorded."""
+"""Runs that are kept: in their folder, and with their scene, so that a file that is opened again finds them."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,27 +12,51 @@ import numpy as np
 
 from ..display.moments import moments
 from ..errors import OutputError
-from ..model.results.arrays import Results, load_results
-from ..model.results.files import RESULTS_FILE, SUMMARY_FILE
+from ..model.results.arrays import RESULTS_FILE, Results, load_results
+from ..model.run_folder.files import FORCE_CHART, SCENARIO_FILE
+from ..model.run_folder.folder import keep_ground_motion, keep_scenario
+from ..model.run_folder.summary import RunSummary, result_digest_in, write_summary
 from ..scene.blast.charges import charges_of
 from ..scene.blast.settings import blast_of
 from ..scene.rendering.markers import mark_moments
+from .recording.recorder import Recording
+from .run_summary import RunContext
 
 _FOLDER, _DIGEST = "bda_run_folder", "bda_run_digest"
 
 
-def keep_run(scene: bpy.types.Scene, folder: Path, summary: dict[str, Any]) -> None:
-    """Keep with a scene where the results of its run are, and what they are known by."""
-    scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), summary["fingerprint"]["result"]
+def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any], context: RunContext) -> None:
+    """Write a recording that has ended to its folder, and keep it with its scene."""
+    results = recording.results()
+    if context.scenario and not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
+        keep_scenario(folder, context.scenario, context.made_by_hand)
+    keep_results(folder, results, summary)
+    if motion := context.ground_motion:
+        keep_ground_motion(folder, motion.record, motion.start_s)
+    recording.remove_stream()
+    with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
+        scene = recording.scene
+        scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), RunSummary(summary).result_digest
+        _mark_run(scene, results, RunSummary(summary))
 
 
-def mark_run(scene: bpy.types.Scene, results: Results, summary: dict[str, Any]) -> None:
+def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> None:
+    """Write arrays, summary and force chart of a recording beside its logs."""
+    results.save(folder / RESULTS_FILE)
+    write_summary(folder, summary)
+    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on wait for. Where it
+    # is missing or broken, the results are written by now.
+    from ..charts.force_chart import plot_forces
+
+    plot_forces(results, folder / FORCE_CHART, summary["title"], RunSummary(summary).first_hit_s)
+
+
+def _mark_run(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> None:
     """Mark on the scene's timeline what happened in its run."""
     settings = blast_of(scene)
     charges = charges_of(scene) if settings.explosion else ()
-    detonations_s = {each.name: settings.start_s + each.delay_s for each in charges if each.mass_kg > 0.0}
-    rest_s = summary.get("came_to_rest_s")
-    mark_moments(scene, moments(results, np.array(scene.gravity), detonations_s, rest_s))
+    detonations_s = {charge.name: settings.start_s + charge.delay_s for charge in charges if charge.mass_kg > 0.0}
+    mark_moments(scene, moments(results, np.array(scene.gravity), detonations_s, summary.came_to_rest_s))
 
 
 def forget_run(scene: bpy.types.Scene) -> None:
@@ -54,7 +78,7 @@ def digest_of_run(scene: bpy.types.Scene) -> str:
 
 def is_run_of(scene: bpy.types.Scene, folder: Path) -> bool:
     """Return whether a folder holds the results of the run that is kept with a scene."""
-    return has_run(scene) and _digest_in(folder) == scene.get(_DIGEST)
+    return has_run(scene) and result_digest_in(folder) == scene.get(_DIGEST)
 
 
 def folder_of_run(scene: bpy.types.Scene) -> Path:
@@ -66,7 +90,7 @@ def folder_of_run(scene: bpy.types.Scene) -> Path:
         They are not there any more, or are of another run by now.
     """
     for folder in _places(Path(str(scene[_FOLDER]))):
-        if _digest_in(folder) == scene.get(_DIGEST):
+        if result_digest_in(folder) == scene.get(_DIGEST):
             return folder
     raise OutputError(
         f"{scene[_FOLDER]}: holds the results of this scene's run no more; load them from where they are, or run the "
@@ -90,11 +114,3 @@ def _places(folder: Path) -> Iterator[Path]:
     if bpy.data.filepath:
         beside = Path(bpy.data.filepath).parent
         yield from (beside, beside / folder.name)
-
-
-def _digest_in(folder: Path) -> str | None:
-    """Return what the results in a folder are known by; None where there are none that can be told."""
-    try:
-        return json.loads((folder / SUMMARY_FILE).read_text(encoding="utf-8"))["fingerprint"]["result"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return None

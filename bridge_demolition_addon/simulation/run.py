@@ -13,7 +13,9 @@ import bpy
 from ..display.camera_targets import points_to_see
 from ..display.contour_ranges import ContourSettings
 from ..errors import DemolitionError, SimulationError, text_of
-from ..model.results.files import BLEND_FILE, FRAMES_FILE, SCENARIO_FILE
+from ..model.run_folder.files import BLEND_FILE, FRAMES_FILE
+from ..model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder
+from ..model.run_folder.summary import write_summary
 from ..model.scenario import Scenario
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
@@ -27,18 +29,9 @@ from ..system.progress import Progress
 from ..system.signals import Interrupted, interrupted_afterwards, signals_noted
 from .display.film import FilmRendering, FilmSettings
 from .display.pictures import check_camera, rendered_pictures, show_charges
-from .kept_run import keep_run, mark_run
+from .kept_run import keep_recording
 from .playback import Playing
 from .recording.recorder import Recording
-from .results_folder import (
-    check_folder,
-    keep_ground_motion,
-    keep_results,
-    keep_scenario,
-    keep_summary,
-    lock_in_place,
-    prepare_folder,
-)
 from .run_summary import RunContext, rest_watch, run_summary
 
 SLOW_MOTION = 5.0
@@ -124,7 +117,8 @@ def run_scenario(
             progress.stage("writing the results")
             with _results_of_failure(recording.error, lock.folder):
                 kept = locks.enter_context(lock_in_place(lock))
-                _keep_all(kept.folder, scene, scenario, recording, summary)
+                keep_recording(kept.folder, recording, summary, context)
+                _save_scene(scene, kept.folder)
                 times["results"] = lap_s()
                 locks.callback(recording.forget)  # its files are gone when the folder is free, on Windows too
         if recording.error:
@@ -145,7 +139,7 @@ def run_scenario(
             times["film"] = lap_s()
         if not lock.in_place:
             raise SimulationError(f"{lock.folder}: was moved or deleted before all pictures were in it")
-        keep_summary(lock.folder, summary)  # once more, with all times
+        write_summary(lock.folder, summary)  # again, with all times
     return summary
 
 
@@ -162,18 +156,7 @@ def _laps() -> Callable[[], float]:
     return lap_s
 
 
-def _keep_all(
-    folder: Path, scene: bpy.types.Scene, scenario: Scenario, recording: Recording, summary: dict[str, Any]
-) -> None:
-    """Leave results, scenario and scene in a folder."""
-    if not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
-        keep_scenario(folder, scenario)
-    keep_results(folder, recording.results(), summary)
-    if motion := ground_motion_of(scene):
-        keep_ground_motion(folder, motion.record, motion.start_s)
-    recording.remove_stream()
-    keep_run(scene, folder, summary)
-    mark_run(scene, recording.results(), summary)
+def _save_scene(scene: bpy.types.Scene, folder: Path) -> None:
     keep_played_frames(scene)
     path = folder.resolve() / BLEND_FILE
     try:  # Blender itself writes beside it and renames
@@ -184,7 +167,7 @@ def _keep_all(
 
 @contextmanager
 def _results_of_failure(error: Exception | None, folder: Path) -> Iterator[None]:
-    """Where results cannot be kept of a recording that ended for an error, say so together with that."""
+    """Report both errors if saving fails after a failed run."""
     try:
         yield
     except (DemolitionError, OSError) as failure:

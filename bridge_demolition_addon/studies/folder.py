@@ -16,7 +16,7 @@ from typing import Any, Self
 
 from ..errors import OutputError, ScenarioError, UnreadableError
 from ..model.optimise.file import Optimisation
-from ..model.results.files import SCENARIO_FILE
+from ..model.run_folder.files import SCENARIO_FILE
 from ..model.search.file import Search
 from ..model.study.file import Study, read_study
 from ..model.study.files import DRAW_FOLDER, OUTCOME_FILE, STUDY_FILE, VERSIONS_FILE

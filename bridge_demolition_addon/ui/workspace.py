@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 
 from ..errors import OutputError, SimulationError
-from ..model.results.files import FORCE_CHART
+from ..model.run_folder.files import FORCE_CHART
 from .operators import Action
 from .results.operator import CHARTS
 from .results.shown_run import shown_run

@@ -67,9 +67,9 @@ def growth_of(shards: int) -> Growth:
     from bridge_demolition_addon.model.sequence.checked_model import checked_model
     from bridge_demolition_addon.scene.demolition import build_demolition
     from bridge_demolition_addon.scene.world import keep_played_frames
+    from bridge_demolition_addon.simulation.kept_run import keep_results
     from bridge_demolition_addon.simulation.playback import Playing
     from bridge_demolition_addon.simulation.recording.recorder import Recording
-    from bridge_demolition_addon.simulation.results_folder import keep_results
     from bridge_demolition_addon.simulation.run_summary import RunContext, run_summary
 
     scenario = _scenario(shards)

@@ -28,7 +28,7 @@ from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at
-from bridge_demolition_addon.model.results.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.run_folder.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
 from bridge_demolition_addon.model.scenario import BallCable, BallHit, Load
 from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
@@ -241,7 +241,7 @@ def test_frames_of_a_killed_run_give_the_hits_that_its_summary_would_give(tmp_pa
     hits, left = (told(folder).tables["hits_of_the_ball"] for folder in (whole, killed))
     assert len(hits.rows) == 1
     np.testing.assert_allclose(left.rows[0][1:], hits.rows[0][1:], rtol=1e-6)  # frames are kept with seven digits
-    assert read_run(killed).hit_s == pytest.approx(read_run(whole).hit_s)
+    assert read_run(killed).ball.first_hit_s == pytest.approx(read_run(whole).ball.first_hit_s)
     assert any("The run ended before its end" in text for text in read_run(killed).shortcomings)
 
 

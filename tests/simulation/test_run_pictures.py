@@ -9,7 +9,7 @@ from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError, ScenarioError
-from bridge_demolition_addon.model.results.files import PICTURES
+from bridge_demolition_addon.model.run_folder.files import PICTURES
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.scenario.recording import PictureSettings
 

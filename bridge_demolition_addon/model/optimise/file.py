@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from ...errors import ScenarioError
-from ..results.files import SCENARIO_FILE
+from ..run_folder.files import SCENARIO_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..study.criteria import check_criteria

@@ -22,9 +22,13 @@ from ...system.array_files.archive import read_archive, write_archive
 from ...system.array_files.table import stored_rows
 from ...system.reading import check_file
 from .checks import check_arrays
-from .files import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
 from .frames import BallHistory, ContactHistory, Frame, FrameSeries
 from .inventory import Inventory
+
+RESULTS_FILE = "results.npz"
+FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.npy", "results_inventory.npz"
+CONTACTS_FILE = "results_contacts.npy"
+"""Files that grow during a run. They are deleted once the results are whole; a run that is killed leaves them."""
 
 _Part = TypeVar("_Part")
 

@@ -1,17 +1,15 @@
-"""Whether what was read from the files of a run can be what a run writes, before anything is worked out from it."""
+"""Checks that arrays read from the files of a run can be those of a run, before anything is calculated from them."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 
 from ...engineering.geometry.vectors import product
 from ...errors import OutputError
 from ...system.array_files.blocks import blocks_of
-from ..schema import LARGEST_NUMBER, shown
+from ..schema import LARGEST_NUMBER
 
 _FARTHEST_M = 1e7
 """Farther than any debris flies."""
@@ -133,29 +131,6 @@ def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
     _check_contacts(arrays)
 
 
-def checked_summary(summary: Any) -> dict[str, Any]:
-    """Return a run's summary, after making sure of all that is read from it again.
-
-    Raises
-    ------
-    OutputError
-        It is no table, or a value in it is none that a run writes; the text begins with its name.
-    """
-    _check_table("the whole", summary, _SUMMARY, optional=_SUMMARY)
-    for name in ("impact", "key_frame"):
-        if summary.get(name) is not None:
-            _check_table(name, summary[name], {"time_s": _is_number, "reason": _is_text}, optional=("reason",))
-    if summary.get("fell_by_itself") is not None:
-        _check_table("fell_by_itself", summary["fell_by_itself"], _FALL)
-    if summary.get("terrain") is not None:
-        _check_table("terrain", summary["terrain"], _TERRAIN)
-        for number, each in enumerate(summary["terrain"]["levelled"]):
-            _check_table(f"terrain.levelled[{number}]", each, _LEVELLED)
-    for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
-        _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
-    return summary
-
-
 def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
     """See that triangles, which only runs on ground that is not flat have, are of vertices of their own bodies."""
     if "triangles" not in arrays and "triangle_counts" not in arrays:
@@ -186,7 +161,7 @@ def _check_kind(name: str, array: np.ndarray, kind: str) -> None:
     words, kinds = _KINDS[kind]
     if array.dtype.kind not in kinds:
         raise OutputError(f"{name}: expected {words}, found {array.dtype}")
-    if kind == "U" and not _can_be_written(array):
+    if kind == "U" and not can_be_written(array):
         raise OutputError(f"{name}: expected {words} in Unicode, found others")
 
 
@@ -231,97 +206,7 @@ def _expect(name: str, array: np.ndarray, holds: Callable[[np.ndarray], np.ndarr
         raise OutputError(f"{name}: expected {wanted}")
 
 
-def _check_table(
-    name: str, table: Any, keys: Mapping[str, Callable[[Any], bool]], optional: Mapping[str, Any] | tuple = ()
-) -> None:
-    if not isinstance(table, dict):
-        raise OutputError(f"{name}: is {shown(table)}, expected a table")
-    for key, holds in keys.items():
-        if key not in table and key not in optional:
-            raise OutputError(f"{name}: has no {key}")
-        if key in table and not holds(table[key]):
-            raise OutputError(f"{key}: is {shown(table[key])}, which no run writes")
-
-
-def _is_number(value: Any) -> bool:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    return -LARGEST_NUMBER <= value <= LARGEST_NUMBER and math.isfinite(value)
-
-
-def _is_text(value: Any) -> bool:
-    return isinstance(value, str) and _can_be_written(np.array(value))
-
-
-def _can_be_written(texts: np.ndarray) -> bool:
+def can_be_written(texts: np.ndarray) -> bool:
     """Return whether texts hold letters of Unicode alone, and no halves of them (surrogates)."""
     letters = np.frombuffer(np.ascontiguousarray(texts, texts.dtype.newbyteorder("=")).tobytes(), np.uint32)
     return not ((letters > 0x10FFFF) | ((letters >= 0xD800) & (letters < 0xE000))).any()
-
-
-def _is_list(value: Any) -> bool:
-    return isinstance(value, list)
-
-
-def _is_switch(value: Any) -> bool:
-    return isinstance(value, bool)
-
-
-def _is_table_or_none(value: Any) -> bool:
-    return value is None or isinstance(value, dict)
-
-
-def _is_number_or_none(value: Any) -> bool:
-    return value is None or _is_number(value)
-
-
-def _are_texts(value: Any) -> bool:
-    return isinstance(value, list) and all(map(_is_text, value))
-
-
-_FALL = {
-    "until_s": _is_number_or_none,
-    "first_break_s": _is_number_or_none,
-    "broken": _is_number,
-    "connections": _is_number,
-    "largest_move_m": _is_number,
-}
-_TERRAIN = {
-    "name": _is_text,
-    "heights": _is_number,
-    "triangles": _is_number,
-    "step_m": _is_number,
-    "largest_error_m": _is_number,
-    "error_place_m": lambda value: _is_list(value) and len(value) == 2 and all(map(_is_number, value)),
-    "common_error_m": _is_number,
-    "lowest_m": _is_number,
-    "highest_m": _is_number,
-    "filled_in_share": _is_number,
-    "levelled": _is_list,
-}
-_LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
-_SUMMARY = {
-    "terrain": _is_table_or_none,
-    "made_by_hand": _are_texts,
-    "fell_by_itself": _is_table_or_none,
-    "title": _is_text,
-    "completed": _is_switch,
-    "blender": _is_text,
-    "density_kg_m3": _is_number,
-    "impact": _is_table_or_none,
-    "key_frame": lambda value: isinstance(value, dict),
-    "hits_of_the_ball": _is_list,
-}
-
-_ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}
-
-_HIT = {
-    "ball": _is_text,
-    "time_s": _is_number,
-    "lasted_s": _is_number,
-    "approach_m_s": _is_number,
-    "impulse_Ns": _is_number,
-    "raw_peak_force_N": _is_number,
-    **_ESTIMATES,
-}
-"""A hit from behind has no estimates."""

@@ -10,8 +10,18 @@ import numpy as np
 from ...system.array_files.archive import write_archive
 from ...system.array_files.table import GrowingTable
 from ...system.disk import writing
-from .arrays import Results, balls_of, columns, contacts_until, frames_of, named_arrays
-from .files import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_FILE
+from .arrays import (
+    BALLS_FILE,
+    CONTACTS_FILE,
+    FRAMES_FILE,
+    INVENTORY_FILE,
+    Results,
+    balls_of,
+    columns,
+    contacts_until,
+    frames_of,
+    named_arrays,
+)
 from .frames import BallHistory, ContactHistory, Frame
 from .inventory import Inventory
 

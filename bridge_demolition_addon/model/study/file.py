@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ScenarioError
-from ..results.files import SCENARIO_FILE
+from ..run_folder.files import SCENARIO_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown

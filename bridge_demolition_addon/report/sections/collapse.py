@@ -32,19 +32,19 @@ def collapse_section(run: Run) -> Section:
     if spans:
         blocks += [
             Picture(
-                partial(span_heights, times_s=results.frames.time_s, spans=spans, impact_s=run.hit_s),
+                partial(span_heights, times_s=results.frames.time_s, spans=spans, impact_s=run.ball.first_hit_s),
                 "Height of every span over time.",
             ),
             _span_table(spans),
         ]
     blocks += [
         Picture(
-            partial(progress_history, times_s=results.frames.time_s, progress=progress, impact_s=run.hit_s),
+            partial(progress_history, times_s=results.frames.time_s, progress=progress, impact_s=run.ball.first_hit_s),
             "Progress of the collapse.",
             75.0,
         ),
         Picture(
-            partial(energy_history, energy=energy, impact_s=run.hit_s),
+            partial(energy_history, energy=energy, impact_s=run.ball.first_hit_s),
             "Energy of shards and ball, the potential one above its least in this run. Dissipated is what is missing "
             "of the energy at the beginning: by impacts, friction, damping and breaking. It goes down where something "
             "else than gravity does work.",

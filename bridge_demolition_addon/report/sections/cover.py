@@ -13,6 +13,7 @@ import numpy as np
 from ...model.debris.throws import Debris
 from ...model.results.arrays import Results
 from ...model.results.collapse import rest_of
+from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
@@ -107,7 +108,7 @@ def scenario_section(run: Run, text: str) -> Section:
 def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
     yield "Scenario", run.title
     yield "Folder", run.name
-    summary, results = run.summary or {}, run.results
+    summary, results = run.summary or RunSummary({}), run.results
     if results is not None:
         yield "Simulated", f"{results.frames.time_s[-1]:.3f} s in {len(results.frames)} frames"
         steps = results.frames.substep_s[results.frames.substep_s > 0.0]
@@ -129,13 +130,13 @@ def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
         )
     if results is not None:
         yield from _model_facts(results)
-    if "density_kg_m3" in summary:
-        yield "Density", f"{summary['density_kg_m3']:.0f} kg/m³"
+    if summary.density_kg_m3 is not None:
+        yield "Density", f"{summary.density_kg_m3:.0f} kg/m³"
     if run.scenario:
         yield "Connections break", _breaking_text(run)
         yield "Seed", str(run.scenario.seed)
-    if "blender" in summary:
-        yield "Blender", str(summary["blender"])
+    if summary.blender:
+        yield "Blender", summary.blender
     yield "Bridge Demolition Add-on", version
 
 
@@ -186,5 +187,5 @@ def _findings(run: Run, debris: Debris) -> Iterator[tuple[str, str]]:
 
 def _caption(run: Run, picture: str) -> str:
     """Return what a picture shows; in summaries of earlier versions there is no key frame."""
-    reason = (run.summary or {}).get("key_frame", {}).get("reason", "In the course of the run")
+    reason = (run.summary and run.summary.key_frame_reason) or "In the course of the run"
     return {"before": "Before", "after": "At the end"}.get(picture, reason)

@@ -159,8 +159,8 @@ def terrain_section(run: Run) -> Section | None:
     results = without_removed(run.results)[0]
     under, ground = bodies_under_ground(results), results.ground()
     blocks: list[Block] = []
-    if run.summary and run.summary.get("terrain"):
-        blocks.append(facts("Ground", terrain_summary(facts_from(run.summary["terrain"])), "terrain"))
+    if run.summary and run.summary.terrain:
+        blocks.append(facts("Ground", terrain_summary(facts_from(run.summary.terrain)), "terrain"))
     if ground.surfaces:
         rows = [(each.name, f"{each.kind}, {ground.shown(each).area():.1f} m² in plan") for each in ground.surfaces]
         blocks.append(facts("Surfaces on the ground", rows, "surfaces"))

@@ -11,8 +11,9 @@ from ...charts.histories import breaking_history, contact_force_history, load_hi
 from ...charts.stress_elevation import stress_elevation
 from ...model.results.arrays import Results
 from ...model.results.force_history import Peak, breaking_by_kind, contact_forces, most_loaded
+from ...model.run_folder.logs import LoggedForces
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
-from ..run_folder import LoggedForces, Run
+from ..run_folder import Run
 
 _BEYOND_THE_FORCE = (
     "The force of a connection is the resultant of its three directions. Each direction by itself is held up to the "
@@ -29,12 +30,12 @@ def force_section(run: Run) -> Section:
         forces = contact_forces(results)
         blocks += [
             Picture(
-                partial(contact_force_history, forces=forces, impact_s=run.hit_s),
+                partial(contact_force_history, forces=forces, impact_s=run.ball.first_hit_s),
                 "Contact forces, each the mean over a frame. Contacts that press a body from two sides cancel "
                 "within it, so that the total is a lower bound. Foundations that hold are not contacts.",
             ),
             Picture(
-                partial(load_history, results=results, impact_s=run.hit_s),
+                partial(load_history, results=results, impact_s=run.ball.first_hit_s),
                 "Largest load on a shard by its connections and contacts together. Peaks of impacts grow as the step "
                 "of the physics shrinks.",
             ),
@@ -116,7 +117,7 @@ def _connection_row(results: Results, peak: Peak) -> tuple:
 
 
 def _hit_blocks(run: Run) -> list[Block]:
-    hits = run.ball.get("hits_of_the_ball", [])
+    hits = run.ball.hits_of_the_ball
     if not len(run.results.inventory.of_kind("ball")):
         return [Paragraph("There is no ball in this run.")]
     if not hits:
@@ -152,9 +153,9 @@ def _hit_blocks(run: Run) -> list[Block]:
 
 def _stress_blocks(run: Run) -> list[Block]:
     results, moments = run.results, []
-    if run.impact_s is not None:
+    if run.ball.impact_s is not None:
         moments.append(
-            (int(np.abs(results.frames.time_s - run.impact_s).argmin()), "in the frame of the ball's impact")
+            (int(np.abs(results.frames.time_s - run.ball.impact_s).argmin()), "in the frame of the ball's impact")
         )
     peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if peaks:
@@ -198,7 +199,7 @@ def _breaking_blocks(run: Run) -> list[Block]:
     ]
     return [
         Picture(
-            partial(breaking_history, times_s=results.frames.time_s, kinds=kinds, impact_s=run.hit_s),
+            partial(breaking_history, times_s=results.frames.time_s, kinds=kinds, impact_s=run.ball.first_hit_s),
             "Connections broken, by the members that they joined.",
             100.0,
         ),

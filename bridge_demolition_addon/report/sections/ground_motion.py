@@ -13,7 +13,7 @@ from ...errors import ScenarioError
 from ...model.ground_motion.record_file import read_record
 from ...model.ground_motion.settings import DIRECTIONS, GroundMotion
 from ...model.results.arrays import Results
-from ...model.results.files import GROUND_MOTION_FILE
+from ...model.run_folder.files import GROUND_MOTION_FILE
 from ...model.scenario import Scenario
 from ...model.structure.settlement import settlements
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section

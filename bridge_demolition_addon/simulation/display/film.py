@@ -15,7 +15,7 @@ from ...display.contour_ranges import ContourSettings
 from ...display.contours import ContourSeries
 from ...display.film_frames import film_rows
 from ...errors import ContourError, OutputError
-from ...model.results.files import FILM_FILE, SLOW_FILM_FILE
+from ...model.run_folder.files import FILM_FILE, SLOW_FILM_FILE
 from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from ...scene.rendering.plain_path import rendered_to

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ...errors import OutputError
-from ...model.results.files import PICTURE_FOLDER, PICTURES
+from ...model.run_folder.files import PICTURE_FOLDER, PICTURES
 from ...model.scenario import Scenario
 from ...model.scenario.recording import PictureSettings
 from ...scene.blast.charges import charge_objects, show_never, show_until

@@ -4,7 +4,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ...errors import OutputError
-from ...model.results.files import DEBRIS_LOG, FORCE_LOG
+from ...model.run_folder.files import DEBRIS_LOG, FORCE_LOG
 from ..operators import Action, FileWriter, absolute, recording_runs
 
 _SUFFIX = ".csv"

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
 import bpy
 
 from ...errors import DemolitionError, OutputError, SimulationError
-from ...model.results.files import SCENARIO_FILE
+from ...model.run_folder.folder import (
+    check_folder,
+    keep_scenario,
+    lock_in_place,
+    prepare_folder,
+    withdraw_folder,
+)
+from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
 from ...model.sequence.rest import Rest
@@ -19,20 +25,10 @@ from ...scene.made_by_hand import made_by_hand
 from ...scene.world import start_over
 from ...simulation.blender_events import running_recording, shown_results, start_recording, stop_recording
 from ...simulation.display.pictures import show_charges
-from ...simulation.kept_run import keep_run, mark_run
-from ...simulation.recording.logs import LogFiles
+from ...simulation.kept_run import keep_recording
+from ...simulation.recording.logs import LogFiles, checked_log
 from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
-from ...simulation.results_folder import (
-    check_folder,
-    checked_log,
-    keep_ground_motion,
-    keep_results,
-    keep_scenario,
-    lock_in_place,
-    prepare_folder,
-    withdraw_folder,
-)
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ...system.folder_lock import FolderLock
 from .. import messages
@@ -188,7 +184,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         messages.tell(operator, "WARNING", f"The recording ended early: {recording.error}")
     elif stopped:
         messages.tell(operator, "WARNING", stopped)
-    if fall := self_collapse_text(session.last_recording().summary):
+    if fall := self_collapse_text(session.last_recording().summary.values):
         messages.tell(operator, "WARNING", fall)
     if by_hand := _contexts[recording].made_by_hand:
         messages.tell(
@@ -219,16 +215,8 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
     context = _contexts[recording]
     summary = run_summary(recording, results, context, completed=completed)
     with lock_in_place(_locks.pop(recording)) as lock:
-        if context.scenario and not (lock.folder / SCENARIO_FILE).exists():  # a folder in the place of one that moved
-            keep_scenario(lock.folder, context.scenario, context.made_by_hand)
-        keep_results(lock.folder, results, summary)
-        if motion := context.ground_motion:
-            keep_ground_motion(lock.folder, motion.record, motion.start_s)
-        recording.remove_stream()
-    with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
-        keep_run(recording.scene, lock.folder, summary)
-        mark_run(recording.scene, results, summary)
-    session.keep_recording(lock.folder, recording, summary)
+        keep_recording(lock.folder, recording, summary, context)
+    session.keep_recording(lock.folder, recording, RunSummary(summary))
     return lock.folder
 
 

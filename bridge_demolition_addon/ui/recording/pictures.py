@@ -5,7 +5,7 @@ from pathlib import Path
 
 import bpy
 
-from ...model.results.files import PICTURES
+from ...model.run_folder.files import PICTURES
 from ...simulation.crash_guards.safe_render import frames_are_known
 from ...simulation.display.pictures import rendered_pictures
 from .. import messages
@@ -38,7 +38,7 @@ class BDA_OT_render_run(RenderingTask, bpy.types.Operator):
         messages.clear(self)
         last = session.last_recording()
         self._folder = last.folder
-        key_frame, last_frame = last.summary["key_frame"]["frame"], last.recording.last_frame
+        key_frame, last_frame = last.summary.key_frame, last.recording.last_frame
         view = view_of(last.recording)
         return rendered_pictures(context.scene, last.folder, view, key_frame, last_frame), len(PICTURES)
 

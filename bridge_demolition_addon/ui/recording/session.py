@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import bpy
 
+from ...model.run_folder.summary import RunSummary
 from ...simulation.blender_events import running_recording, stop_recording
 from ...simulation.recording.recorder import Recording
 from .. import task_progress
@@ -26,10 +27,10 @@ class LastRecording(NamedTuple):
 
     folder: Path
     recording: Recording
-    summary: dict[str, Any]
+    summary: RunSummary
 
 
-def keep_recording(folder: Path, recording: Recording, summary: dict[str, Any]) -> None:
+def keep_recording(folder: Path, recording: Recording, summary: RunSummary) -> None:
     """Keep a recording in place of the one before."""
     _recordings[:] = [LastRecording(folder, recording, summary)]
 

@@ -3,7 +3,6 @@
 import shutil
 import sys
 from pathlib import Path
-from typing import Any
 
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
@@ -11,10 +10,9 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 from ...engineering.blast.models import BlastModel
 from ...errors import OutputError, SimulationError
 from ...exports.formats import FORMATS, Format
-from ...model.results.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
-from ...model.results.summary import first_hit_s
+from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
+from ...model.run_folder.folder import keep_site
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
-from ...simulation.results_folder import keep_site
 from ...system.disk import writing
 from ..bridge_view import look_at_shards, shards_in_view
 from ..modal_task import ModalTask, Work
@@ -129,8 +127,8 @@ class BDA_OT_draw_charts(ModalTask, _OfShownRun, bpy.types.Operator):
             with writing(folder):
                 folder.mkdir(exist_ok=True)
                 thread.stage("forces over time")
-                plot_forces(results, folder / FORCE_CHART, run.title, first_hit_s(run.summary))
-                paths = write_charts(folder, settings, thread.part) if had_charges(run.summary) else []
+                plot_forces(results, folder / FORCE_CHART, run.title, run.summary.first_hit_s)
+                paths = write_charts(folder, settings, thread.part) if run.summary.has_blast else []
             return f"{len(paths) + 1} charts are in {folder}" if paths else f"{folder / FORCE_CHART}"
 
         return draw
@@ -248,11 +246,6 @@ def open_path(path: Path) -> None:
     if sys.platform.startswith("linux") and not shutil.which(_OPENER):
         raise OutputError(f"{path}: this system has no {_OPENER}, which opens folders and files")
     bpy.ops.wm.path_open(filepath=str(path))
-
-
-def had_charges(summary: dict[str, Any]) -> bool:
-    """Return whether anything exploded in a run, or was meant to."""
-    return bool(summary.get("charges") or summary["blast"])
 
 
 CLASSES = (

@@ -2,38 +2,35 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
-from ...model.results.checks import checked_summary
-from ...model.results.files import SUMMARY_FILE
+from ...model.run_folder.files import SUMMARY_FILE
+from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.undisturbed import self_collapse_text
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
-from ...system.reading import MEGABYTE, file_text
 from ..recording.session import LastRecording, last_recording
 
 _N_PER_KN = 1000.0
 _MS_PER_S = 1000.0
-_MOST_SUMMARY_BYTES = 100 * MEGABYTE
-
-_read: dict[tuple[str, str], ShownRun] = {}
-"""The run that was read last, by its file and what its results are known by: panels are drawn many times a second."""
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A largest value, with the body and the frame that it was at."""
+class LargestValue(NamedTuple):
+    """A largest value as text, with the body and the frame that it was at."""
 
     text: str
     body: str
     frame: int
+
+
+_read: dict[tuple[str, str], ShownRun] = {}
+"""The run that was read last, by its file and what its results are known by: panels are drawn many times a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,34 +55,34 @@ class ShownRun:
 
     folder: Path
     title: str
-    summary: dict[str, Any]
+    summary: RunSummary
     fall: str
     lines: tuple[str, ...]
-    peak_force: Place | None
-    largest_throw: Place | None
+    peak_force: LargestValue | None
+    largest_throw: LargestValue | None
     explained_peak: str
     results: Callable[[], Results]
 
     @classmethod
-    def of(cls, folder: Path, summary: dict[str, Any], last_frame: int, results: Callable[[], Results]) -> ShownRun:
-        """Put a summary in words.
+    def of(cls, folder: Path, summary: RunSummary, last_frame: int, results: Callable[[], Results]) -> ShownRun:
+        """Put a summary into texts.
 
         Raises
         ------
         OutputError
-            It is none that a run writes.
+            It is not one that a run writes.
         """
         try:
-            force, throw = summary["largest_resultant"], summary["largest_throw"]
+            force, throw = summary.largest_force_n, summary.largest_throw_m
             return cls(
                 folder=folder,
-                title=str(summary["title"]),
+                title=summary.title or "",
                 summary=summary,
-                fall=self_collapse_text(summary),
-                lines=tuple(lines_of(summary)),
-                peak_force=force and Place(f"{force['force_N'] / _N_PER_KN:,.0f} kN", force["body"], force["frame"]),
-                largest_throw=throw and Place(f"{throw['throw_m']:.2f} m", throw["body"], last_frame),
-                explained_peak=explained_peak(summary),
+                fall=self_collapse_text(summary.values),
+                lines=tuple(lines_of(summary.values)),
+                peak_force=force and LargestValue(f"{force.value / _N_PER_KN:,.0f} kN", force.body, force.frame),
+                largest_throw=throw and LargestValue(f"{throw.value:.2f} m", throw.body, last_frame),
+                explained_peak=explained_peak(summary.values),
                 results=results,
             )
         except (KeyError, TypeError, ValueError) as error:
@@ -103,7 +100,7 @@ def shown_run(scene: bpy.types.Scene) -> ShownRun | None:
         A run is kept with the scene, and cannot be found or read.
     """
     last = last_recording()
-    if has_run(scene) and not (last and last.summary["fingerprint"]["result"] == digest_of_run(scene)):
+    if has_run(scene) and not (last and last.summary.result_digest == digest_of_run(scene)):
         return _of_file(scene)
     return _of_recording(last) if last else None
 
@@ -113,7 +110,7 @@ def forget_shown() -> None:
     _read.clear()
 
 
-def explained_peak(summary: dict[str, Any]) -> str:
+def explained_peak(summary: Mapping[str, Any]) -> str:
     """Return in a sentence what the peak force is, and why the contours show another number."""
     return (
         f"The resultant on a shard in its worst sub-step, of {_substep_text(summary)} ms. Contours show "
@@ -121,14 +118,14 @@ def explained_peak(summary: dict[str, Any]) -> str:
     )
 
 
-def _substep_text(summary: dict[str, Any]) -> str:
+def _substep_text(summary: Mapping[str, Any]) -> str:
     """Length of a sub-step, ms; the shortest and the longest where frames have more or fewer of them."""
     longest, shortest = summary["substep_s"], summary.get("shortest_substep_s") or summary["substep_s"]
     shortened = f"{shortest * _MS_PER_S:.3g} to " if shortest < 0.999 * longest else ""
     return f"{shortened}{longest * _MS_PER_S:.3g}"
 
 
-def lines_of(summary: dict[str, Any]) -> list[str]:
+def lines_of(summary: Mapping[str, Any]) -> list[str]:
     """Return the totals of a summary, each in a few words."""
     connections = summary["connections"]
     return [
@@ -146,11 +143,10 @@ def _of_file(scene: bpy.types.Scene) -> ShownRun:
     folder = folder_of_run(scene)
     name = (str(folder), digest_of_run(scene))
     if name not in _read:
-        path = folder / SUMMARY_FILE
         try:
-            summary = checked_summary(json.loads(file_text(path, _MOST_SUMMARY_BYTES)))
-        except (UnreadableError, DemolitionError, RecursionError, ValueError) as error:
-            raise OutputError(f"{path}: cannot be read: {error}") from error
+            summary = read_summary(folder)
+        except (UnreadableError, DemolitionError, ValueError) as error:
+            raise OutputError(f"{folder / SUMMARY_FILE}: cannot be read: {error}") from error
         results = results_of_run(scene)
         last_frame = int(results.frames.number[-1])
         forget_shown()

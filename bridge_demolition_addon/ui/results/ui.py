@@ -4,7 +4,7 @@ import bpy
 
 from ...errors import OutputError
 from ..sidebar import SidebarPanel, draw_sentence
-from .shown_run import Place, shown_run
+from .shown_run import LargestValue, shown_run
 
 
 class BDA_PT_results(SidebarPanel, bpy.types.Panel):
@@ -29,24 +29,24 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         column = layout.column(align=True)
         for line in run.lines:
             column.label(text=line)
-        self._draw_place("Peak force", run.peak_force)
+        self._draw_largest("Peak force", run.peak_force)
         if run.peak_force:
             draw_sentence(layout, context, run.explained_peak, icon="INFO")
-        self._draw_place("Largest throw", run.largest_throw)
+        self._draw_largest("Largest throw", run.largest_throw)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
         row = layout.row(align=True)
         row.operator("bda.open_results")
         row.operator("bda.draw_charts")
         layout.operator_menu_enum("bda.export_run", "form", icon="EXPORT")
 
-    def _draw_place(self, label: str, place: Place | None) -> None:
+    def _draw_largest(self, label: str, largest: LargestValue | None) -> None:
         """Draw a largest value, with a button that leads to where and when it was."""
-        if place is None:
+        if largest is None:
             return
         column = self.layout.column(align=True)
-        column.label(text=f"{label}: {place.text}".replace(",", " "))
-        go = column.operator("bda.go_to_body", text=f"{place.body}, frame {place.frame}", icon="VIEWZOOM")
-        go.body, go.frame = place.body, place.frame
+        column.label(text=f"{label}: {largest.text}".replace(",", " "))
+        go = column.operator("bda.go_to_body", text=f"{largest.body}, frame {largest.frame}", icon="VIEWZOOM")
+        go.body, go.frame = largest.body, largest.frame
 
 
 class BDA_PT_report(SidebarPanel, bpy.types.Panel):

@@ -25,7 +25,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ...model.results.files import SCENARIO_FILE
+from ...model.run_folder.files import SCENARIO_FILE
 from ...model.scenario import Charge, Scenario
 from ...model.scenario.file import read_scenario
 from ...model.schema import (

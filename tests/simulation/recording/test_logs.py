@@ -8,15 +8,15 @@ import pytest
 from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
-from bridge_demolition_addon.simulation.recording.logs import (
+from bridge_demolition_addon.model.run_folder.logs import (
     BREAKING_TABLE,
     DEBRIS_TABLE,
     FORCE_TABLE,
     BodyLog,
     LogColumn,
-    Logs,
     LogTable,
 )
+from bridge_demolition_addon.simulation.recording.logs import Logs
 from bridge_demolition_addon.simulation.recording.substeps import Breaks
 
 TABLE = LogTable(("body",), (LogColumn("", "m", lambda values: values, ("x", "y")),))

@@ -1,34 +1,32 @@
-"""The folder that a run keeps its results in."""
+"""The folder of a run: made or cleared, locked, and read again."""
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..engineering.ground_motion.record import GroundRecord
-from ..errors import OutputError
-from ..model.ground_motion.record_file import record_text
-from ..model.results.arrays import Results
-from ..model.results.files import (
-    FORCE_CHART,
+from ...engineering.ground_motion.record import GroundRecord
+from ...errors import OutputError
+from ...system.disk import part_of, write_whole_text, writing
+from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked, writer_in
+from ..ground_motion.record_file import record_text
+from ..scenario import Scenario
+from ..scenario.file import read_scenario, scenario_text
+from .files import (
+    FORCE_LOG,
+    FRAMES_FILE,
     GROUND_MOTION_FILE,
     PICTURE_FOLDER,
     REPORT_FILES,
     RESULT_FILES,
     RESULTS_FILE,
     SCENARIO_FILE,
-    SUMMARY_FILE,
     TABLE_FOLDER,
 )
-from ..model.results.summary import first_hit_s
-from ..model.scenario import Scenario
-from ..model.scenario.file import read_scenario, scenario_text
-from ..system.disk import part_of, write_whole_text, writing
-from ..system.folder_lock import FolderLock, check_unlocked
+from .summary import read_summary
 
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""
@@ -126,31 +124,9 @@ def _clear(folder: Path) -> None:
     (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
 
 
-def checked_log(path: Path, *, overwrite: bool) -> Path:
-    """A file for a log, after seeing that it can be written.
-
-    Raises
-    ------
-    OutputError
-        It is there already and may not be overwritten, is no file, or cannot be written.
-    """
-    if path.is_dir():
-        raise OutputError(f"{path}: expected a file for the log, found a folder")
-    if path.exists() and not path.is_file():
-        raise OutputError(f"{path}: expected a file for the log, found a pipe or a device")
-    if path.exists() and not overwrite:
-        raise OutputError(f"{path}: exists already; choose another file or allow overwriting")
-    with writing(path):
-        existed = path.exists()
-        path.open("ab").close()  # the only sure way to know; what is in it stays until it is written
-        if not existed:
-            path.unlink()
-    return path
-
-
 def keep_scenario(folder: Path, scenario: Scenario, made_by_hand: Sequence[str] = ()) -> None:
     """Write the scenario of a run, and in comments above it what was made by hand and no scenario can say."""
-    lines = [f"# Changed in Blender, and not in this scenario: {each}.\n" for each in made_by_hand]
+    lines = [f"# Changed in Blender, and not in this scenario: {change}.\n" for change in made_by_hand]
     write_whole_text(folder / SCENARIO_FILE, "".join([*lines, scenario_text(scenario)]))
 
 
@@ -179,19 +155,7 @@ def keep_site(folder: Path, site: Mapping[str, Any]) -> None:
     scenario = replace(kept, **site)
     if scenario != kept:
         with FolderLock(folder):
-            summary = json.loads((folder / SUMMARY_FILE).read_text(encoding="utf-8"))
-            keep_scenario(folder, scenario, summary.get("made_by_hand", ()))
-
-
-def keep_results(folder: Path, results: Results, summary: dict[str, Any]) -> None:
-    """Write arrays, summary and force chart of a recording beside its logs."""
-    results.save(folder / RESULTS_FILE)
-    keep_summary(folder, summary)
-    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on wait for. Where it
-    # is missing or broken, the results are written by now.
-    from ..charts.force_chart import plot_forces
-
-    plot_forces(results, folder / FORCE_CHART, summary["title"], first_hit_s(summary))
+            keep_scenario(folder, scenario, read_summary(folder).made_by_hand)
 
 
 def keep_ground_motion(folder: Path, record: GroundRecord, start_s: float) -> None:
@@ -199,6 +163,22 @@ def keep_ground_motion(folder: Path, record: GroundRecord, start_s: float) -> No
     write_whole_text(folder / GROUND_MOTION_FILE, record_text(record, start_s))
 
 
-def keep_summary(folder: Path, summary: dict[str, Any]) -> None:
-    """Write the summary, in place of one that is there."""
-    write_whole_text(folder / SUMMARY_FILE, json.dumps(summary, indent=2) + "\n")
+def holds_run(folder: Path) -> bool:
+    """Return whether a folder holds anything that a run recorded."""
+    return any((folder / name).exists() for name in (RESULTS_FILE, FRAMES_FILE, FORCE_LOG))
+
+
+def writer_of_run(folder: Path) -> str | None:
+    """Return which process still writes the run in a folder; None where the run has ended.
+
+    Writing a report also locks the folder, but the frames and the log of a run that was killed are older than that.
+    """
+    growing = [path for path in (folder / FRAMES_FILE, folder / FORCE_LOG) if path.exists()]
+    writer = writer_in(folder)
+    if writer is None or (folder / RESULTS_FILE).exists():
+        return None
+    try:
+        begun = (folder / LOCK_FILE).stat().st_mtime
+        return writer if not growing or max(path.stat().st_mtime for path in growing) >= begun else None
+    except FileNotFoundError:  # it has ended just now
+        return None

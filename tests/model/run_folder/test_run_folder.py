@@ -11,9 +11,11 @@ from support.sample_results import GRAVITY, hanging_chain
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.model.results.files import RESULT_FILES
 from bridge_demolition_addon.model.results.summary import summarise
-from bridge_demolition_addon.simulation.results_folder import checked_log, keep_results, prepare_folder, withdraw_folder
+from bridge_demolition_addon.model.run_folder.files import RESULT_FILES
+from bridge_demolition_addon.model.run_folder.folder import prepare_folder, withdraw_folder
+from bridge_demolition_addon.simulation.kept_run import keep_results
+from bridge_demolition_addon.simulation.recording.logs import checked_log
 
 
 def files_in(folder):

@@ -1,11 +1,8 @@
-"""What the files in the folder of a run are called, for who writes them and who reads them."""
+"""Names of the files in the folder of a run. Those of its arrays are in `model/results/arrays.py`."""
+
+from ..results.arrays import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
 
 SUMMARY_FILE = "summary.json"
-RESULTS_FILE = "results.npz"
-FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.npy", "results_inventory.npz"
-CONTACTS_FILE = "results_contacts.npy"
-"""What grows while a run goes on; taken away once the results are whole, and left by a run that is killed."""
-
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
 BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
 GROUND_MOTION_FILE = "ground_motion.csv"

@@ -1,0 +1,267 @@
+"""The summary of a run: its main numbers, in ``summary.json``."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...errors import OutputError, UnreadableError
+from ...system.disk import write_whole_text
+from ...system.reading import MEGABYTE, file_text
+from ..results.checks import can_be_written
+from ..results.summary import first_hit_s
+from ..schema import LARGEST_NUMBER, shown
+from .files import SUMMARY_FILE
+
+_MOST_BYTES = 100 * MEGABYTE
+"""Size up to which a summary is read, which lists every frame."""
+
+
+class BodyValue(NamedTuple):
+    """A largest value, with its body and its frame; without a frame it is of the last one."""
+
+    value: float
+    body: str
+    frame: int | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunSummary:
+    """A summary, for those who read it. Earlier versions wrote less, and only some values are checked.
+
+    Attributes
+    ----------
+    values
+        All that it holds, by its keys in the file.
+    """
+
+    values: Mapping[str, Any]
+
+    @property
+    def title(self) -> str | None:
+        """Title of the run."""
+        return self.values.get("title")
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run went on for as long as planned."""
+        return self.values.get("completed", True)
+
+    @property
+    def blender(self) -> str | None:
+        """Version of Blender."""
+        return self.values.get("blender")
+
+    @property
+    def density_kg_m3(self) -> float | None:
+        """Density of the bridge."""
+        return self.values.get("density_kg_m3")
+
+    @property
+    def made_by_hand(self) -> list[str]:
+        """Changes made in Blender, which the scenario does not hold."""
+        return self.values.get("made_by_hand", [])
+
+    @property
+    def terrain(self) -> dict[str, Any] | None:
+        """Facts of the terrain; None where the ground is flat."""
+        return self.values.get("terrain")
+
+    @property
+    def key_frame(self) -> int:
+        """Frame of the picture of the run."""
+        return self.values["key_frame"]["frame"]
+
+    @property
+    def key_frame_reason(self) -> str | None:
+        """Why the picture of the run was taken when it was."""
+        return self.values.get("key_frame", {}).get("reason")
+
+    @property
+    def impact_s(self) -> float | None:
+        """End of the frame in which the ball hit; None where it did not, or this is unknown."""
+        impact = self.values.get("impact")
+        return float(impact["time_s"]) if impact else None
+
+    @property
+    def first_hit_s(self) -> float | None:
+        """When the ball hit, to a sub-step where its hits were recorded; None as for `impact_s`."""
+        return first_hit_s(self.values)
+
+    @property
+    def hits_of_the_ball(self) -> list[dict[str, Any]]:
+        """Every hit of every ball."""
+        return self.values.get("hits_of_the_ball", [])
+
+    @property
+    def came_to_rest_s(self) -> float | None:
+        """When everything came to rest; None where it did not."""
+        return self.values.get("came_to_rest_s")
+
+    @property
+    def largest_force_n(self) -> BodyValue | None:
+        """Largest resultant on a shard."""
+        force = self.values["largest_resultant"]
+        return force and BodyValue(force["force_N"], force["body"], force["frame"])
+
+    @property
+    def largest_throw_m(self) -> BodyValue | None:
+        """Largest throw of a shard."""
+        throw = self.values["largest_throw"]
+        return throw and BodyValue(throw["throw_m"], throw["body"])
+
+    @property
+    def has_blast(self) -> bool:
+        """Whether charges loaded the bridge, or were to."""
+        return bool(self.values.get("charges") or self.values["blast"])
+
+    @property
+    def result_digest(self) -> str:
+        """What the results are recognised by."""
+        return self.values["fingerprint"]["result"]
+
+
+def read_summary(folder: Path) -> RunSummary:
+    """Read the summary in a run's folder.
+
+    Raises
+    ------
+    UnreadableError, ValueError
+        The file cannot be read, or is no JSON. The text does not name it.
+    OutputError
+        It holds something that no run writes; the text does not name the file.
+    """
+    return RunSummary(_checked(_read(folder)))
+
+
+def write_summary(folder: Path, values: Mapping[str, Any]) -> None:
+    """Write a summary, in place of one that is there."""
+    write_whole_text(folder / SUMMARY_FILE, json.dumps(values, indent=2) + "\n")
+
+
+def result_digest_in(folder: Path) -> str | None:
+    """Return what the results in a folder are recognised by; None if unreadable."""
+    try:
+        return _read(folder)["fingerprint"]["result"]
+    except (UnreadableError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _read(folder: Path) -> Any:
+    try:
+        return json.loads(file_text(folder / SUMMARY_FILE, _MOST_BYTES))
+    except RecursionError as error:
+        raise ValueError(str(error)) from error
+
+
+def _checked(summary: Any) -> dict[str, Any]:
+    """Return a summary after checking all that is read from it again."""
+    _check_table("the whole", summary, _SUMMARY, optional=_SUMMARY)
+    for name in ("impact", "key_frame"):
+        if summary.get(name) is not None:
+            _check_table(name, summary[name], {"time_s": _is_number, "reason": _is_text}, optional=("reason",))
+    if summary.get("fell_by_itself") is not None:
+        _check_table("fell_by_itself", summary["fell_by_itself"], _FALL)
+    if summary.get("terrain") is not None:
+        _check_table("terrain", summary["terrain"], _TERRAIN)
+        for number, surface in enumerate(summary["terrain"]["levelled"]):
+            _check_table(f"terrain.levelled[{number}]", surface, _LEVELLED)
+    for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
+        _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
+    return summary
+
+
+def _check_table(
+    name: str, table: Any, keys: Mapping[str, Callable[[Any], bool]], optional: Mapping[str, Any] | tuple = ()
+) -> None:
+    if not isinstance(table, dict):
+        raise OutputError(f"{name}: is {shown(table)}, expected a table")
+    for key, holds in keys.items():
+        if key not in table and key not in optional:
+            raise OutputError(f"{name}: has no {key}")
+        if key in table and not holds(table[key]):
+            raise OutputError(f"{key}: is {shown(table[key])}, which no run writes")
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return -LARGEST_NUMBER <= value <= LARGEST_NUMBER and math.isfinite(value)
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str) and can_be_written(np.array(value))
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list)
+
+
+def _is_switch(value: Any) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_table_or_none(value: Any) -> bool:
+    return value is None or isinstance(value, dict)
+
+
+def _is_number_or_none(value: Any) -> bool:
+    return value is None or _is_number(value)
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+_FALL = {
+    "until_s": _is_number_or_none,
+    "first_break_s": _is_number_or_none,
+    "broken": _is_number,
+    "connections": _is_number,
+    "largest_move_m": _is_number,
+}
+_TERRAIN = {
+    "name": _is_text,
+    "heights": _is_number,
+    "triangles": _is_number,
+    "step_m": _is_number,
+    "largest_error_m": _is_number,
+    "error_place_m": lambda value: _is_list(value) and len(value) == 2 and all(map(_is_number, value)),
+    "common_error_m": _is_number,
+    "lowest_m": _is_number,
+    "highest_m": _is_number,
+    "filled_in_share": _is_number,
+    "levelled": _is_list,
+}
+_LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
+_SUMMARY = {
+    "terrain": _is_table_or_none,
+    "made_by_hand": _are_texts,
+    "fell_by_itself": _is_table_or_none,
+    "title": _is_text,
+    "completed": _is_switch,
+    "blender": _is_text,
+    "density_kg_m3": _is_number,
+    "impact": _is_table_or_none,
+    "key_frame": lambda value: isinstance(value, dict),
+    "hits_of_the_ball": _is_list,
+}
+
+_ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}
+
+_HIT = {
+    "ball": _is_text,
+    "time_s": _is_number,
+    "lasted_s": _is_number,
+    "approach_m_s": _is_number,
+    "impulse_Ns": _is_number,
+    "raw_peak_force_N": _is_number,
+    **_ESTIMATES,
+}
+"""A hit from behind has no estimates."""
