@@ -17,8 +17,14 @@ import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from bridge_demolition_addon.model.results.arrays import load_results, named_arrays
-from bridge_demolition_addon.model.run_folder.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.results.arrays import (
+    BALLS_FILE,
+    FRAMES_FILE,
+    INVENTORY_FILE,
+    load_results,
+    named_arrays,
+)
+from bridge_demolition_addon.model.run_folder.files import SUMMARY_FILE
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "examples" / "i235_one_span.toml"

@@ -13,18 +13,10 @@ import numpy as np
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import OutputError, ScenarioError, UnreadableError
 from ..model.debris.footprint import check_covers_ground
-from ..model.results.arrays import Results, load_results, results_in
+from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.removed_shards import without_removed
 from ..model.results.summary import hits_of_balls, impact_of
-from ..model.run_folder.files import (
-    FORCE_LOG,
-    FRAMES_FILE,
-    PICTURE_FOLDER,
-    PICTURES,
-    RESULTS_FILE,
-    SCENARIO_FILE,
-    SUMMARY_FILE,
-)
+from ..model.run_folder.files import FORCE_LOG, PICTURE_FOLDER, PICTURES, SCENARIO_FILE, SUMMARY_FILE
 from ..model.run_folder.folder import holds_run, writer_of_run
 from ..model.run_folder.logs import LoggedForces, count_logged_breaks, read_logged_forces
 from ..model.run_folder.summary import RunSummary, read_summary

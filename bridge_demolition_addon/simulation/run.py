@@ -13,7 +13,8 @@ import bpy
 from ..display.camera_targets import points_to_see
 from ..display.contour_ranges import ContourSettings
 from ..errors import DemolitionError, SimulationError, text_of
-from ..model.run_folder.files import BLEND_FILE, FRAMES_FILE
+from ..model.results.arrays import FRAMES_FILE
+from ..model.run_folder.files import BLEND_FILE
 from ..model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder
 from ..model.run_folder.summary import write_summary
 from ..model.scenario import Scenario

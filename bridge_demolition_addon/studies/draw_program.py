@@ -13,8 +13,8 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..model.results.arrays import Results, load_results
-from ..model.run_folder.files import BLEND_FILE, FORCE_CHART, RESULTS_FILE
+from ..model.results.arrays import RESULTS_FILE, Results, load_results
+from ..model.run_folder.files import BLEND_FILE, FORCE_CHART
 from ..model.scenario import Scenario
 from ..model.scenario.file import scenario_from_text
 from ..model.sequence.checked_model import checked_model

@@ -13,7 +13,8 @@ import time
 from pathlib import Path
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.model.run_folder.files import RESULTS_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.results.arrays import RESULTS_FILE
+from bridge_demolition_addon.model.run_folder.files import SUMMARY_FILE
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 
 FRAMES, PARTS = 10_000, 10

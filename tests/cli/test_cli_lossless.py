@@ -15,8 +15,7 @@ import pytest
 from support.processes import TIMEOUT_S, outcome, run_bda, start_bda
 from support.scenarios import SHORT_RUN
 
-from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.model.run_folder.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
+from bridge_demolition_addon.model.results.arrays import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, load_results
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.2))

@@ -19,14 +19,13 @@ from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.errors import OutputError
-from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.arrays import RESULTS_FILE, load_results
 from bridge_demolition_addon.model.run_folder.files import (
     BREAKING_LOG,
     FORCE_LOG,
     PICTURE_FOLDER,
     PICTURES,
     REPORT_PAGE,
-    RESULTS_FILE,
     SCENARIO_FILE,
     SUMMARY_FILE,
 )

@@ -28,7 +28,8 @@ from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at
-from bridge_demolition_addon.model.run_folder.files import FRAMES_FILE, RESULTS_FILE, SUMMARY_FILE
+from bridge_demolition_addon.model.results.arrays import FRAMES_FILE, RESULTS_FILE
+from bridge_demolition_addon.model.run_folder.files import SUMMARY_FILE
 from bridge_demolition_addon.model.scenario import BallCable, BallHit, Load
 from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings

@@ -14,8 +14,7 @@ from support.scenarios import I235, SHORT_RUN
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.bridge import deck_underside
-from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.model.run_folder.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE
+from bridge_demolition_addon.model.results.arrays import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, load_results
 from bridge_demolition_addon.model.scenario.file import read_scenario
 
 

@@ -13,16 +13,15 @@ from ...errors import OutputError
 from ...system.disk import part_of, write_whole_text, writing
 from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked, writer_in
 from ..ground_motion.record_file import record_text
+from ..results.arrays import FRAMES_FILE, RESULTS_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
 from .files import (
     FORCE_LOG,
-    FRAMES_FILE,
     GROUND_MOTION_FILE,
     PICTURE_FOLDER,
     REPORT_FILES,
     RESULT_FILES,
-    RESULTS_FILE,
     SCENARIO_FILE,
     TABLE_FOLDER,
 )

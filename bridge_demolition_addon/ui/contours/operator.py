@@ -5,8 +5,7 @@ from pathlib import Path
 
 import bpy
 
-from ...model.results.arrays import load_results, results_in
-from ...model.run_folder.files import FRAMES_FILE
+from ...model.results.arrays import FRAMES_FILE, load_results, results_in
 from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings
 from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden

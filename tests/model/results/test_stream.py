@@ -9,11 +9,17 @@ from support.run_folders import flying_shards, stream_run
 from support.sample_results import hanging_chain, with_contacts, without_connections
 
 from bridge_demolition_addon.errors import OutputError
-from bridge_demolition_addon.model.results.arrays import load_results, results_in
+from bridge_demolition_addon.model.results.arrays import (
+    BALLS_FILE,
+    FRAMES_FILE,
+    INVENTORY_FILE,
+    RESULTS_FILE,
+    load_results,
+    results_in,
+)
 from bridge_demolition_addon.model.results.fingerprint import result_digest
 from bridge_demolition_addon.model.results.frames import BallHistory, ContactHistory
 from bridge_demolition_addon.model.results.stream import FrameStream
-from bridge_demolition_addon.model.run_folder.files import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, RESULTS_FILE
 
 NEVER_FALLS_SHORT = 1e-6
 """Of single precision, which rounds by up to 6e-8."""
