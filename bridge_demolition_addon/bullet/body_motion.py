@@ -96,8 +96,8 @@ class BodyMotionReader:
         fields = (start + np.concatenate((_VECTOR, 32 + _VECTOR))).astype(np.uint64)[:, None] + self._bodies[rows]
         write_doubles(fields, loads)
 
-    def put(self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> None:
-        """Put bodies (r,) at positions (3, r) with rotations (3, 3, r), before any time passes."""
+    def set_positions(self, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        """Move bodies (r,) to positions (3, r) with rotations (3, 3, r), before any time passes."""
         start = self._bodies[rows] + np.uint64(self._body.transform)
         for row in range(3):
             write_doubles(start + (32 * row + _VECTOR).astype(np.uint64)[:, None], rotations[row])

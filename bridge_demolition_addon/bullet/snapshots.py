@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .contacts import ContactCopies, ContactReader, Contacts
+from .bodies import BodyTable
+from .constraints import ConstraintTable
+from .contacts import ContactCopies, Contacts
 from .layout import Layout
 from .memory import Places
 
@@ -65,7 +67,7 @@ class Snapshot:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BodyStates:
+class BodyHistory:
     """States of n bodies after each of s sub-steps.
 
     Attributes
@@ -85,7 +87,7 @@ class BodyStates:
     can_move: np.ndarray
 
     @classmethod
-    def of(cls, snapshots: Sequence[Snapshot]) -> BodyStates:
+    def of(cls, snapshots: Sequence[Snapshot]) -> BodyHistory:
         """Return the states in snapshots."""
         values = np.stack([each.bodies for each in snapshots], axis=1)
         rotations, *vectors = values[:9], values[9:12], values[12:15], values[15:18]
@@ -101,37 +103,21 @@ class SnapshotTaker:
     ----------
     layout
         Byte offsets.
-    bodies, connections
-        (n,) and (m,) addresses.
-    exists, removed
-        (m,) connections that exist, and (n,) bodies that were taken out, kept up to date by whoever changes them.
-    contacts
-        Reads the contacts.
-    feedback
-        (m, 4, 4) where Bullet writes the loads of the connections.
+    bodies, constraints
+        What is in it.
     sides
         (k,) which loads: 2 c for those of connection c on Bullet's body A, 2 c + 1 for those on its body B.
     """
 
-    def __init__(
-        self,
-        layout: Layout,
-        bodies: np.ndarray,
-        connections: np.ndarray,
-        exists: np.ndarray,
-        removed: np.ndarray,
-        contacts: ContactReader,
-        feedback: np.ndarray,
-        sides: np.ndarray,
-    ):
-        self._constraint, self._connections = layout.constraint, connections
-        self._exists, self._removed, self._contacts = exists, removed, contacts
-        self._feedback = feedback.reshape(-1)
+    def __init__(self, layout: Layout, bodies: BodyTable, constraints: ConstraintTable, sides: np.ndarray):
+        self._constraint, self._connections = layout.constraint, constraints.addresses
+        self._exists, self._removed, self._contacts = constraints.exists, bodies.removed, bodies.contacts
+        self._feedback = constraints.feedback.reshape(-1)
         self._loads = 8 * np.asarray(sides) + _FEEDBACK_COLUMNS[:, None]
         body = layout.body
         rows = [body.transform + 32 * row for row in range(4)]
         vectors = [start + _VECTOR for start in (*rows, body.linear_velocity, body.angular_velocity)]
-        self._bodies = Places(bodies, np.concatenate([*vectors, [body.inverse_mass]]))
+        self._bodies = Places(bodies.addresses, np.concatenate([*vectors, [body.inverse_mass]]))
         self._find_existing()
 
     def take(self) -> Snapshot:

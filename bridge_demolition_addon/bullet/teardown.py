@@ -97,7 +97,7 @@ class Fingerprints:
         return np.frombuffer(raw, np.uint8)[self._columns].tobytes() if raw else None
 
 
-def retire(
+def detach_freed(
     layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.ndarray, alive: np.ndarray, *, bodies_stay: bool
 ) -> None:
     """Take out of a world all that may point at freed memory.

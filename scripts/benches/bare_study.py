@@ -48,7 +48,8 @@ def _broken_ones_collide(scene: bpy.types.Scene) -> Iterator[None]:
 
     def bind(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         if scene.frame_current == START_FRAME + 1 and world.bind(depsgraph) is WorldState.NEW:
-            world.call_around_substeps(lambda _: None, lambda _: world.let_broken_collide(world.intact()))
+            table = world.constraints
+            world.call_around_substeps(lambda _: None, lambda _: table.let_broken_collide(table.intact()))
 
     bpy.app.handlers.frame_change_post.append(bind)
     yield

@@ -65,7 +65,7 @@ def _part(scene: bpy.types.Scene, after: Callable[[SnapshotTaker], object] | Non
 
     def bind(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         if scene.frame_current == START_FRAME + 1 and world.bind(depsgraph) is WorldState.NEW and after:
-            taker = world.snapshots(2 * np.arange(len(world.connections)))
+            taker = world.snapshots(2 * np.arange(len(world.connection_objects)))
             world.call_around_substeps(lambda _substep_s: None, lambda _substep_s: after(taker))
 
     bpy.app.handlers.frame_change_post.append(bind)

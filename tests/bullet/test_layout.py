@@ -49,7 +49,7 @@ def trusted(stepped, layout):
 def test_right_layout_is_trusted(stepped):
     world, state = bound(stepped, platform_layout())
     assert state is WorldState.NEW
-    assert world.intact().all()
+    assert world.constraints.intact().all()
     world.release()
 
 

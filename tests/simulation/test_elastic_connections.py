@@ -232,7 +232,7 @@ def test_connections_are_as_blender_made_them_once_the_recording_has_ended(blend
     blocks = beam.scene_of_blocks
     world = BulletWorld(beam.scene, [*bodies_of(beam.scene)], connections_of(beam.scene))
     assert world.bind(blender.context.evaluated_depsgraph_get(), to_read=False) is WorldState.NEW
-    rows = world.constraint_rows()
+    rows = world.elastic_rows()
     assert rows.held.all() and rows.held.shape == (6, 20)
     world.release()
     blocks.scene.frame_set(blocks.scene.frame_current + 1)

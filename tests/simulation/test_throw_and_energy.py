@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
-from bridge_demolition_addon.bullet.memory import write_vectors
 from bridge_demolition_addon.engineering.mechanics.work import FrameWork
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.energy import energy_of
@@ -27,10 +26,7 @@ def launched(blocks, folder, frames, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0
     for frame in range(first, first + frames + 2):
         blocks.scene.frame_set(frame)
         if frame == first + 1:
-            world = recording.world
-            address = world._bound.bodies[[body]]
-            write_vectors(address + np.uint64(world._layout.body.linear_velocity), np.array([velocity]))
-            write_vectors(address + np.uint64(world._layout.body.angular_velocity), np.array([spin]))
+            recording.world.bodies.set_velocities(np.array([body]), np.array([velocity]), np.array([spin]))
     stop_recording()
     if recording.error:
         raise recording.error

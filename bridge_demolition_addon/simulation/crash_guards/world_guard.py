@@ -155,7 +155,7 @@ class WorldGuard:
     def _stand_still(self, scene: bpy.types.Scene, *, bodies_stay: bool = True) -> None:
         """Make the world safe and stop time; where memory is not as expected, Blender is left to itself."""
         try:
-            self._world.retire(bodies_stay=bodies_stay)
+            self._world.detach_freed(bodies_stay=bodies_stay)
             stop_time(scene)
             self.stands_still = True
         except LayoutError:

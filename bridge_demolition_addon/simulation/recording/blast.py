@@ -143,13 +143,13 @@ class DirectBlast:
         start_s, self._elapsed_s = self._elapsed_s, self._elapsed_s + substep_s
         if self._explosion.is_quiet(start_s, self._elapsed_s):
             return
-        centres, rotations = self._world.positions()
+        centres, rotations = self._world.bodies.positions()
         loads = self._explosion.loads(start_s, self._elapsed_s, centres[self._rows], rotations[self._rows])
         if not len(loads):
             return
         pushed = np.flatnonzero(np.bincount(loads.bodies, minlength=len(self._rows)))
         forces = loads.vectors(len(self._rows))[pushed] / substep_s
-        self._world.push(self._rows[pushed], forces)
+        self._world.bodies.push(self._rows[pushed], forces)
         self._loads.append(loads)
 
     def after_frame(self) -> StepLoads:

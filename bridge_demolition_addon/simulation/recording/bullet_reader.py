@@ -8,6 +8,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
+from ...bullet.bodies import BodyTable
 from ...bullet.world import BulletWorld
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
@@ -71,7 +72,7 @@ class BulletReader:
         self._scene, self._world, self._every_substep = scene, world, every_substep
         self._inventory, self._substeps_of_frame = inventory, scene.rigidbody_world.substeps_per_frame
         self.rigid_because: LayoutError | None = None
-        self._built_positions_m, self._built_rotations = world.positions()
+        self._built_positions_m, self._built_rotations = world.bodies.positions()
         elastic = self._elastic_connections(bodies, connections) if is_elastic(scene) and connections else None
         self.elasticity = elastic.elasticity if elastic else None
         self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
@@ -82,7 +83,7 @@ class BulletReader:
             np.array([body.rigid_body.linear_damping for body in bodies]),
             np.array([body.rigid_body.angular_damping for body in bodies]),
             np.array(scene.gravity, float),
-            Motion(*(each[None] for each in (world.positions()[0], world.velocities(), world.angular_velocities()))),
+            _motion(world.bodies),
         )
         self._substeps = SubstepRecorder(
             world,
@@ -198,18 +199,23 @@ class BulletReader:
         return self._frame(substep_s, loads, work), breaks
 
     def _frame(self, substep_s: float, loads: FrameLoads, work: FrameWork) -> Frame:
-        positions, rotations = self._world.positions()
+        positions, rotations = self._world.bodies.positions()
         return Frame(
             number=self._scene.frame_current,
             time_s=self._substeps.elapsed_s,
             substep_s=substep_s,
             positions_m=positions,
             rotations=rotations,
-            velocities_m_s=self._world.velocities(),
-            angular_velocities_rad_s=self._world.angular_velocities(),
-            asleep=self._world.asleep(),
-            intact=self._world.intact(),
+            velocities_m_s=self._world.bodies.velocities(),
+            angular_velocities_rad_s=self._world.bodies.angular_velocities(),
+            asleep=self._world.bodies.asleep(),
+            intact=self._world.constraints.intact(),
             blast_impulses_ns=np.zeros_like(positions),
             loads=loads,
             work=work,
         )
+
+
+def _motion(bodies: BodyTable) -> Motion:
+    """How bodies move now, as of one sub-step."""
+    return Motion(bodies.positions()[0][None], bodies.velocities()[None], bodies.angular_velocities()[None])

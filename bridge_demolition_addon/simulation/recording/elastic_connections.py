@@ -84,7 +84,7 @@ class ElasticConnections:
         damping_ratio: float,
         soil: SoilSprings | None = None,
     ):
-        self._world, self._rows, self._reader = world, world.constraint_rows(), world.body_motion()
+        self._world, self._rows, self._reader = world, world.elastic_rows(), world.bodies.motion()
         self._damping_ratio = damping_ratio
         self._left_per_second = 1.0 - np.array(
             [(each.rigid_body.linear_damping, each.rigid_body.angular_damping) for each in bodies]
@@ -117,7 +117,7 @@ class ElasticConnections:
         self._built = motion
         self._substep_s = 0.0
         self._loads = np.zeros((2, 6, len(self._frames)))
-        world.hold_connections()
+        world.constraints.hold_thresholds()
 
     def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
         """Have reinforcement hold on in place of what breaks, before any time passes.
@@ -197,7 +197,7 @@ class ElasticConnections:
         (2, 6, m) float
             Forces and torques on Bullet's bodies A and B of each connection.
         """
-        intact = self._world.intact()
+        intact = self._world.constraints.intact()
         self._coming = step = self._structure.step(self._start, intact, self._substep_s)
         self._loads[:, :, ~self.holding(intact)] = 0.0
         for loads, of_connections, of_cracks in (
@@ -239,7 +239,7 @@ class ElasticConnections:
         bodies = RigidBodies(masses, self._inertias, motion.positions_m, motion.rotations)
         rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity)
         rows = np.flatnonzero(rest.held)
-        self._reader.put(rows, rest.positions_m[:, rows], rest.rotations[..., rows])
+        self._reader.set_positions(rows, rest.positions_m[:, rows], rest.rotations[..., rows])
         return rest
 
     def _prepare(self, motion: BodyMotion, substep_s: float) -> None:
@@ -255,7 +255,7 @@ class ElasticConnections:
             )
             self._damping_s = damping_s
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
-        intact = np.flatnonzero(self._world.intact())
+        intact = np.flatnonzero(self._world.constraints.intact())
         rows = places.rows()
         inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._reader.inverse_inertias())
         diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
@@ -271,7 +271,7 @@ class ElasticConnections:
     def _follow_lifting(self) -> None:
         """Let Bullet's own constraint of a footing answer as softly as what of it still touches the ground."""
         touching, rows = self._footings.touching, self._footings.rows
-        changed = np.flatnonzero((touching != self._touching) & self._world.intact()[rows])
+        changed = np.flatnonzero((touching != self._touching) & self._world.constraints.intact()[rows])
         if not len(changed):
             return
         share = touching[changed]
@@ -288,9 +288,10 @@ class ElasticConnections:
 
     def _check_frames(self, motion: BodyMotion) -> None:
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
-        matrices = np.array([np.array(each.matrix_world) for each in self._world.connections]).reshape(-1, 4, 4)
-        names = [each.name for each in self._world.connections]
-        turned = np.array([each.matrix_world.decompose()[1].to_matrix() for each in self._world.connections], float)
+        connections = self._world.connection_objects
+        matrices = np.array([np.array(each.matrix_world) for each in connections]).reshape(-1, 4, 4)
+        names = [each.name for each in connections]
+        turned = np.array([each.matrix_world.decompose()[1].to_matrix() for each in connections], float)
         for axes, bodies, levers in (
             (places.first_axes, self._frames.first, places.first_levers_m),
             (places.second_axes, self._frames.second, places.second_levers_m),

@@ -44,7 +44,7 @@ class Events:
     """
 
     def __init__(self, world: BulletWorld, pairs: np.ndarray, events: Sequence[Event]):
-        self.remaining_strength = np.ones(len(world.connections))
+        self.remaining_strength = np.ones(len(pairs))
         self.applied: list[AppliedEvent] = []
         self._world, self._pairs = world, pairs
         self._coming = list(events)
@@ -58,16 +58,16 @@ class Events:
         self._begins_s += substep_s
 
     def _apply(self, event: Event) -> None:
-        connections = event.connections[self._world.intact()[event.connections]]
+        connections = event.connections[self._world.constraints.intact()[event.connections]]
         # What broke before may still hold by its reinforcement, which is weakened or cut with the rest.
         self.remaining_strength[event.connections] *= event.factor
         if event.factor > 0.0:
-            self._world.weaken_connections(connections, event.factor)
+            self._world.constraints.weaken(connections, event.factor)
         else:
-            self._world.break_connections(connections)
-        bodies = event.bodies[~self._world.removed[event.bodies]]
-        self._world.wake(self._concerned(bodies, connections))
-        self._world.remove_bodies(bodies)
+            self._world.constraints.break_rows(connections)
+        bodies = event.bodies[~self._world.bodies.removed[event.bodies]]
+        self._world.bodies.wake(self._concerned(bodies, connections))
+        self._world.bodies.remove(bodies)
         self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections))
 
     def _concerned(self, bodies: np.ndarray, connections: np.ndarray) -> np.ndarray:

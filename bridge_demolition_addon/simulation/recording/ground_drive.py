@@ -28,7 +28,7 @@ class GroundDrive:
 
     def __init__(self, world: BulletWorld, rows: np.ndarray, shards: np.ndarray, motion: GroundMotionOfScene):
         self._world, self._rows, self._shards, self._motion = world, rows, shards, motion
-        self._places = world.positions()[0][rows]
+        self._places = world.bodies.positions()[0][rows]
         self._time_s = 0.0
         self._shift = np.zeros(3)
 
@@ -36,12 +36,12 @@ class GroundDrive:
         """Lead the ground into a sub-step of a length in s."""
         begins = self._time_s - self._motion.start_s
         now, coming = (self._motion.record.displacement_at(time_s) for time_s in (begins, begins + substep_s))
-        self._world.lead(self._rows, self._places + now, (coming - now) / substep_s)
+        self._world.bodies.move_kinematic(self._rows, self._places + now, (coming - now) / substep_s)
         if self._motion.start_s < self._time_s + substep_s and self._time_s < self._motion.end_s:
-            self._world.wake(self._shards)
+            self._world.bodies.wake(self._shards)
         self._shift = coming
         self._time_s += substep_s
 
     def after_substep(self) -> None:
         """Put the ground where it is at the end of the sub-step."""
-        self._world.put(self._rows, self._places + self._shift)
+        self._world.bodies.set_positions(self._rows, self._places + self._shift)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...bullet.contacts import Contacts
-from ...bullet.snapshots import BodyStates, Snapshot
+from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
 from ...engineering.geometry.rotations import axes_in_bodies, carried_axes, carried_points
 from ...engineering.geometry.vectors import by_component, length, taken, transformed, transformed_back
@@ -47,7 +47,7 @@ class LoadReader:
         self._snapshots = world.snapshots(2 * rows + self.sides)
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
-        centres, rotations = world.positions()
+        centres, rotations = world.bodies.positions()
         bodies = self._bodies
         self._local_points = by_component(*transformed_back(rotations[bodies], points_m - centres[bodies]).T)
         self.lever_arms_m = length(self._local_points)
@@ -80,14 +80,14 @@ class LoadReader:
         """
         return self._snapshots.contacts([snapshot])
 
-    def loads(self, snapshots: Sequence[Snapshot], bodies: BodyStates, substeps_s: np.ndarray) -> SubstepLoads:
+    def loads(self, snapshots: Sequence[Snapshot], bodies: BodyHistory, substeps_s: np.ndarray) -> SubstepLoads:
         """Return the loads of sub-steps.
 
         Parameters
         ----------
         snapshots : (s,) Snapshot
             Taken after each of them.
-        bodies : BodyStates
+        bodies : BodyHistory
             What is in these.
         substeps_s : (s,) float
             How long each was.

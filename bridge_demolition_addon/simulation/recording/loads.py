@@ -34,7 +34,7 @@ class Loads:
         self._turns = np.flatnonzero(at_points[self._load_of])
         arms = np.array([each.arm_m for each in loads if each.arm_m is not None]).reshape(-1, 3)
         self._arms = transformed_back(
-            world.positions()[1][self._bodies[self._turns]], arms
+            world.bodies.positions()[1][self._bodies[self._turns]], arms
         )  # in the axes of the bodies
         self._begins_s = 0.0
 
@@ -52,9 +52,9 @@ class Loads:
         forces = sizes_n[:, None] * self._unit_forces
         torques = np.zeros_like(forces)
         if len(self._turns):
-            arms = transformed(self._world.positions()[1][self._bodies[self._turns]], self._arms)
+            arms = transformed(self._world.bodies.positions()[1][self._bodies[self._turns]], self._arms)
             torques[self._turns] = cross(arms, forces[self._turns])
-        pushed = np.flatnonzero((sizes_n > 0.0) & ~self._world.removed[self._bodies])
+        pushed = np.flatnonzero((sizes_n > 0.0) & ~self._world.bodies.removed[self._bodies])
         if len(pushed):
-            self._world.wake(self._bodies[pushed])
-            self._world.add_forces(self._bodies[pushed], forces[pushed], torques[pushed])
+            self._world.bodies.wake(self._bodies[pushed])
+            self._world.bodies.add_forces(self._bodies[pushed], forces[pushed], torques[pushed])

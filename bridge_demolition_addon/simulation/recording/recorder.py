@@ -506,7 +506,7 @@ class Recording:
         moving = np.flatnonzero(velocities.any(axis=1) | spins.any(axis=1))
         if len(moving) and not held:
             raise SimulationError("bodies that begin with a velocity need the timeline played from its start frame")
-        self.world.set_velocities(moving, velocities[moving], spins[moving])
+        self.world.bodies.set_velocities(moving, velocities[moving], spins[moving])
 
     def _keep(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
         """Keep and log a frame, with what exploded, what hit the balls and what touched in it."""

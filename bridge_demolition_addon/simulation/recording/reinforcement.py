@@ -43,13 +43,13 @@ class Reinforcement:
         remaining_strength: np.ndarray,
         bars: FaceBars | None = None,
     ):
-        self._world, self._inventory, self._ductility = world, inventory, ductility
+        self._bodies, self._inventory, self._ductility = world.bodies, inventory, ductility
         self._remaining_strength = remaining_strength
         self._yield_n = ductility.strength_share * tension_pa * inventory.areas_m2
         self._offsets_m = self._reader = None
         if bars:
             bars = bars.with_even(self._yield_n)
-            self._yield_n, self._offsets_m, self._reader = bars.yield_n, bars.offsets_m, world.body_motion()
+            self._yield_n, self._offsets_m, self._reader = bars.yield_n, bars.offsets_m, self._bodies.motion()
         self._rows = np.zeros(0, int)
         self._anchors = np.zeros((0, 2, 3))
         self._holding_n = np.zeros(0)
@@ -68,7 +68,7 @@ class Reinforcement:
             points_m = points_m + transformed(axes[:, :, 1:], self._offsets_m[rows])
             held = self._yield_n[rows] > 0.0
             rows, points_m = rows[held], points_m[held]
-        positions, rotations = self._world.positions()
+        positions, rotations = self._bodies.positions()
         pairs = self._inventory.pairs[rows]
         levers = points_m[:, None] - positions[pairs]
         anchors = transformed_back(rotations[pairs], levers)
@@ -82,10 +82,10 @@ class Reinforcement:
         if not len(self._rows):
             return
         pairs = self._inventory.pairs[self._rows]
-        positions, rotations = self._world.positions()
+        positions, rotations = self._bodies.positions()
         levers = transformed(rotations[pairs], self._anchors)
         points = positions[pairs] + levers
-        speeds = self._world.velocities()[pairs] + np.cross(self._world.angular_velocities()[pairs], levers)
+        speeds = self._bodies.velocities()[pairs] + np.cross(self._bodies.angular_velocities()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
         masses = effective_masses(self._inventory.masses_kg, pairs, self._turning(pairs, levers, directions))
         yield_n = (self._remaining_strength * self._yield_n)[self._rows]
@@ -94,7 +94,7 @@ class Reinforcement:
         pulls = np.where(holds, tensions, 0.0)[:, None] * directions
         self.forces_n[self._rows] = pulls
         both = np.stack((pulls, -pulls), axis=1).reshape(-1, 3)
-        self._world.add_forces(pairs.ravel(), both, np.cross(levers.reshape(-1, 3), both))
+        self._bodies.add_forces(pairs.ravel(), both, np.cross(levers.reshape(-1, 3), both))
         self._rows, self._anchors, self._holding_n = self._rows[holds], self._anchors[holds], self._holding_n[holds]
 
     def _turning(self, pairs: np.ndarray, levers: np.ndarray, directions: np.ndarray) -> np.ndarray | float:

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from ...bullet.contacts import Contacts
-from ...bullet.snapshots import BodyStates, Snapshot
+from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, Moment, SubstepLoads
@@ -174,7 +174,7 @@ class SubstepRecorder:
             )
         self._is_warming_up = breaking.warm_up_s > 0.0
         if self._is_warming_up:
-            world.hold_connections()
+            world.constraints.hold_thresholds()
         can_move = inventory.masses_kg > 0.0
         self._reader = LoadReader(world, inventory.pairs, can_move, inventory.points_m, inventory.normals)
         self._overloads = None
@@ -182,7 +182,7 @@ class SubstepRecorder:
             self._overloads = Overloads(inventory.faces, can_move, breaking.strength, member_sections)
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, self._reader.normals)
         self._unknown = None if loads else (self._frame.finish().unknown(), FrameWork.unknown(len(inventory.masses_kg)))
-        self._intact = world.intact()
+        self._intact = world.constraints.intact()
         self._waiting: list[_Substep] = []
         self._background = BackgroundWork()
         self._substeps, self._substeps_before = 0, 0
@@ -209,11 +209,12 @@ class SubstepRecorder:
                 self._have_last_loads_written()
             if self._is_warming_up and self._breaking.warm_up_damping:
                 # As Bullet's own damping: a share of the velocity in a second, whatever the step.
-                self._world.slow_down(self._shards, float(power(1.0 - self._breaking.warm_up_damping, substep_s)))
+                left = float(power(1.0 - self._breaking.warm_up_damping, substep_s))
+                self._world.bodies.slow_down(self._shards, left)
             if self._ground:
                 self._ground.before_substep(substep_s)
             self._events.before_substep(self.elapsed_s, substep_s)
-            self._world.scale_thresholds(self._threshold_factor(substep_s))
+            self._world.constraints.scale_thresholds(self._threshold_factor(substep_s))
             if self._reinforcement:
                 self._reinforcement.before_substep(substep_s)
             if self._blast:
@@ -229,7 +230,7 @@ class SubstepRecorder:
         self._begun_substeps += 1
         wanted = self._begun_substeps >= self._expected_substeps
         if wanted != self._loads_are_written:
-            self._world.write_loads(wanted=wanted)
+            self._world.constraints.write_loads(wanted=wanted)
             self._loads_are_written = wanted
 
     def _predict(self, substep_s: float) -> None:
@@ -265,7 +266,7 @@ class SubstepRecorder:
 
     def _let_go(self, rows: np.ndarray, loads: Moment) -> None:
         """Break connections (b,) under loads; their reinforcement holds on."""
-        self._world.break_connections(rows)
+        self._world.constraints.break_rows(rows)
         if not len(rows) or not self._breaking.ductility:
             return
         points_m, axes = loads.connection_points_m[rows], self._reader.section_axes(loads.rotations, rows)
@@ -372,12 +373,12 @@ class SubstepRecorder:
         snapshot = self._snapshot(substep_s) if self._breaking.strength or self._elastic else None
         self._break_overloaded(_Substep(snapshot, substep_s, self.elapsed_s, self._tie_forces(), _NONE))
         self._foreseen = []
-        self._intact = self._world.intact()
+        self._intact = self._world.constraints.intact()
         self._let_collide(self._intact)
 
     def _let_collide(self, intact: np.ndarray) -> None:
         """Let bodies collide that no connection (m,) holds together, nor reinforcement in place of one."""
-        self._world.let_broken_collide(self._elastic.holding(intact) if self._elastic else intact)
+        self._world.constraints.let_broken_collide(self._elastic.holding(intact) if self._elastic else intact)
 
     def _tie_forces(self) -> np.ndarray | None:
         return self._reinforcement.forces_n.copy() if self._reinforcement else None
@@ -421,10 +422,10 @@ class SubstepRecorder:
             if len(self._balls):
                 self._note_balls(bodies, loads, substep, each.end_s)
 
-    def _loads(self, substeps: Sequence[_Substep]) -> tuple[BodyStates, SubstepLoads]:
+    def _loads(self, substeps: Sequence[_Substep]) -> tuple[BodyHistory, SubstepLoads]:
         """Return the states of all bodies after sub-steps, and the loads in these."""
         snapshots = [each.snapshot for each in substeps]
-        bodies = BodyStates.of(snapshots)
+        bodies = BodyHistory.of(snapshots)
         loads = self._reader.loads(snapshots, bodies, np.array([each.substep_s for each in substeps]))
         for substep, each in enumerate(substeps):
             if each.ties_n is not None:
@@ -433,7 +434,7 @@ class SubstepRecorder:
 
     def _add_work(
         self,
-        bodies: BodyStates,
+        bodies: BodyHistory,
         loads: SubstepLoads,
         resultants_n: np.ndarray,
         stored_j: np.ndarray | None,
@@ -471,7 +472,7 @@ class SubstepRecorder:
                 return _NONE
             self._is_warming_up = False
             if not self._elastic:
-                self._world.release_connections()
+                self._world.constraints.release_thresholds()
         if not self._overloads:
             return _NONE
         rows = self._perhaps_overloaded(substep.snapshot.loads)
@@ -494,7 +495,7 @@ class SubstepRecorder:
         parts = self._elastic.parts if self._elastic else None
         return self._overloads.breaking(rows, loads, axes, self._intact, self._events.remaining_strength, parts)
 
-    def _note_balls(self, bodies: BodyStates, loads: SubstepLoads, substep: int, end_s: float) -> None:
+    def _note_balls(self, bodies: BodyHistory, loads: SubstepLoads, substep: int, end_s: float) -> None:
         contacts = loads.contacts_of(substep)
         first, second = loads.contact_pairs[contacts].T
         each = np.ascontiguousarray(loads.contact_impulses_ns[contacts])  # sums follow the order in memory

@@ -40,7 +40,7 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
     def compare(recorder, substep_s):
         before = getattr(recorder, "velocities_before", np.zeros((33, 3)))
         record(recorder, substep_s)
-        after = recorder._world.velocities()
+        after = recorder._world.bodies.velocities()
         one = LoadAccumulator(recorder._inventory.pairs, recorder._inventory.volumes_m3, recorder._reader.normals)
         one.add(recorder._loads(recorder._waiting[-1:])[1])
         masses = recorder._inventory.masses_kg[1:, None]
@@ -100,7 +100,8 @@ def test_loads_of_the_last_substep_alone_are_written(blender, tmp_path, monkeypa
 
     def note(recorder, substep_s):
         prepare(recorder, substep_s)
-        substeps.append((recorder._world.velocities()[1].copy(), recorder._world._feedback.copy(), substep_s))
+        world = recorder._world
+        substeps.append((world.bodies.velocities()[1].copy(), world.constraints.feedback.copy(), substep_s))
 
     monkeypatch.setattr(SubstepRecorder, "before_substep", note)
     start_recording(recording := Recording(blocks.scene, tmp_path, every_substep=False))

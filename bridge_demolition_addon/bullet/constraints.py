@@ -1,0 +1,163 @@
+"""Constraints of a Bullet world that was checked, as arrays over Bullet's own memory: connections, as they hold."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .collision_pairs import CollisionPairs
+from .constraint_rows import ConstraintRows
+from .layout import Layout
+from .memory import Places, gather_doubles, gather_pointers, write_bytes, write_doubles, write_pointers
+from .teardown import Fingerprints
+
+FEEDBACK_DOUBLES = 16
+"""btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
+
+
+class ConstraintTable:
+    """m connections of a world, of which e exist in it, as long as it is bound. Nothing is written until `prepare`.
+
+    Parameters
+    ----------
+    layout
+        Byte offsets.
+    addresses
+        (m,) uint64 of the constraints; 0 for one that does not exist.
+    forbids_collision
+        (m,) whether each keeps its bodies from colliding.
+    collision_pairs
+        How these are let collide; None in a world that is not read.
+    feedback
+        (m, 4, 4) where Bullet is to write the loads of the connections; never to be freed.
+
+    Attributes
+    ----------
+    addresses, feedback
+        As given.
+    exists
+        (m,) whether each exists; kept up to date.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        addresses: np.ndarray,
+        forbids_collision: np.ndarray,
+        collision_pairs: CollisionPairs | None,
+        feedback: np.ndarray,
+    ):
+        self.addresses, self.exists, self.feedback = addresses, addresses != 0, feedback
+        self._layout, self._constraint = layout, layout.constraint
+        self._thresholds = gather_doubles(self._fields(layout.constraint.breaking_threshold))[:, 0]
+        self._threshold_factor, self._holds = 1.0, False
+        self._forbids_collision, self._collision_pairs = forbids_collision, collision_pairs
+        self._pair_rows = np.cumsum(forbids_collision) - 1
+        self._fingerprints = Fingerprints(layout, addresses[self.exists])
+        self._enabled: tuple[np.ndarray, Places] | None = None  # of those that exist
+        self._rows: ConstraintRows | None = None
+
+    def __len__(self) -> int:
+        return len(self.addresses)
+
+    @property
+    def existing(self) -> np.ndarray:
+        """Addresses (e,) of those that exist."""
+        return self.addresses[self.exists]
+
+    def prepare(self) -> None:
+        """Have Bullet write loads to our buffer."""
+        self.feedback[:] = 0.0
+        self.write_loads(wanted=True)
+
+    def write_loads(self, *, wanted: bool) -> None:
+        """Have Bullet write the loads after every sub-step, as it does from `prepare` on, or leave them as they are."""
+        starts = self.feedback.ctypes.data + 8 * FEEDBACK_DOUBLES * np.arange(len(self), dtype=np.uint64)
+        self._point_feedback_at(starts[self.exists] if wanted else np.uint64(0))
+
+    def intact(self) -> np.ndarray:
+        """Whether each connection (m,) exists and has not broken."""
+        if self._enabled is None or not np.array_equal(self.exists, self._enabled[0]):
+            offsets = [self._constraint.enabled]
+            self._enabled = self.exists.copy(), Places(self.existing, offsets, np.uint8)
+        intact = np.zeros(len(self), bool)
+        intact[self.exists] = self._enabled[1].copy()[0] != 0
+        return intact
+
+    def first_bodies(self) -> np.ndarray:
+        """Addresses (e,) of Bullet's body A of those that exist."""
+        return gather_pointers(self._fields(self._constraint.body_a))
+
+    def break_rows(self, rows: np.ndarray) -> None:
+        """Break connections (k,), as Bullet does at their breaking thresholds."""
+        rows = rows[self.exists[rows]]
+        write_bytes(self.addresses[rows] + np.uint64(self._constraint.enabled), 0)
+        self.feedback[rows] = 0.0  # Bullet would leave the last load of one whose bodies are not simulated any more
+
+    def weaken(self, rows: np.ndarray, factor: float) -> None:
+        """Multiply the breaking thresholds of connections (k,)."""
+        rows = rows[self.exists[rows]]
+        self._thresholds[(np.cumsum(self.exists) - 1)[rows]] *= factor
+        self._write_thresholds()
+
+    def hold_thresholds(self) -> None:
+        """Let no connection break at its threshold, until `release_thresholds`."""
+        self._holds = True
+        self._write_thresholds()
+
+    def release_thresholds(self) -> None:
+        """Let connections break at their thresholds again."""
+        self._holds = False
+        self._write_thresholds()
+
+    def scale_thresholds(self, factor: float) -> None:
+        """Let connections break at a multiple of the thresholds that Blender gave them."""
+        if factor != self._threshold_factor:
+            self._threshold_factor = factor
+            self._write_thresholds()
+
+    def let_broken_collide(self, intact: np.ndarray) -> None:
+        """Let the bodies of connections (m,) that broke since the last call, and are not intact now, collide again."""
+        broken = self._forbids_collision & ~intact
+        if broken.any():
+            self._collision_pairs.restore(self._pair_rows[broken])
+            self._forbids_collision[broken] = False
+
+    def elastic_rows(self, names: list[str]) -> ConstraintRows:
+        """What writes to the rows of all connections, which have names and have to exist.
+
+        `restore` leaves them as Blender made them.
+
+        Raises
+        ------
+        LayoutError
+            Memory is not as expected.
+        """
+        self._rows = ConstraintRows(self._layout, self.addresses, names)
+        return self._rows
+
+    def forget_freed(self) -> np.ndarray:
+        """Leave those alone that Blender has freed by now; return whether each that existed (e,) is still there."""
+        alive = self._fingerprints.still_there(self.existing)
+        self.exists[self.exists] = alive
+        return alive
+
+    def restore(self) -> None:
+        """Take our buffer and all that was written to rows out of those that exist."""
+        self.stop_loads()
+        if self._rows:
+            self._rows.restore(np.flatnonzero(self.exists))
+
+    def stop_loads(self) -> None:
+        """Have Bullet write loads nowhere."""
+        self._point_feedback_at(np.uint64(0))
+
+    def _fields(self, offset: int) -> np.ndarray:
+        """Addresses (e,) of a field of the connections that exist."""
+        return self.existing + np.uint64(offset)
+
+    def _write_thresholds(self) -> None:
+        values = np.inf if self._holds else self._thresholds * self._threshold_factor
+        write_doubles(self._fields(self._constraint.breaking_threshold), values)
+
+    def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
+        write_pointers(self._fields(self._constraint.joint_feedback), targets)
