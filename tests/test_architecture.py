@@ -116,11 +116,9 @@ STILL_EQUAL = {
     "Motion",
     "Normal",
     "Outcome",
-    "Place",
     "Progress",
     "Quantity",
     "Row",
-    "Run",
     "Span",
     "Surface",
 }

@@ -46,9 +46,20 @@ SMALLEST_SHADE_PA = 1e4
 NEAR_RINGS_PA = 15e3
 """Rings of less overpressure are left out of the plan near the charges."""
 
-_DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), "-", (0, (1, 3)))
-_WIDTHS = (1.6, 1.6, 1.6, 1.6, 1.6, 1.6, 3.5, 1.6)
-_SHADES = ("0.0", "#2166ac", "#b2182b", "0.35", "#542788", "#b35806", "0.65", "0.0")
+_LINES = tuple(
+    {"color": shade, "linestyle": dash, "linewidth": width_pt}
+    for shade, dash, width_pt in (
+        ("0.0", "-", 1.6),
+        ("#2166ac", "--", 1.6),
+        ("#b2182b", "-.", 1.6),
+        ("0.35", ":", 1.6),
+        ("#542788", (0, (6, 1, 1, 1, 1, 1)), 1.6),
+        ("#b35806", (0, (10, 2)), 1.6),
+        ("0.65", "-", 3.5),
+        ("0.0", (0, (1, 3)), 1.6),
+    )
+)
+"""How lines look; they differ without colour, too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,7 +124,7 @@ def pressure_over_time(settings: ChartSettings) -> Figure:
     times = pulses.arrivals_s + pulses.durations_s * np.linspace(0.0, 1.0, 200)
     pressures = pressure_at(pulses, times) / settings.pressure_unit_pa
     time_unit = cube_root * 1e-3 if settings.scaled else 1e-3
-    for z, time, pressure, style in zip(distances, times, pressures, _line_styles(), strict=False):
+    for z, time, pressure, style in zip(distances, times, pressures, _LINES, strict=False):
         label = f"Z = {z:g} m/kg$^{{1/3}}$" if settings.scaled else f"{_plain(z * cube_root)} m (Z = {z:g})"
         # Up the front first, which takes no time.
         axes.plot(np.append(time[0], time) / time_unit, np.append(0.0, pressure), label=label, **style)
@@ -171,7 +182,7 @@ def charge_for_overpressure(settings: ChartSettings) -> Figure:
     """
     figure, axes = _figure()
     distances = np.geomspace(1.0, 200.0, 100)
-    for target, style in zip(TARGETS_PA, _line_styles(), strict=False):
+    for target, style in zip(TARGETS_PA, _LINES, strict=False):
         at_one_metre = smallest_charge_for_overpressure(target, 1.0, settings.burst, settings.model)
         label = _plain(target / settings.pressure_unit_pa)
         axes.loglog(distances, at_one_metre * distances**3, label=label, **style)
@@ -189,7 +200,7 @@ def two_span_charges(settings: ChartSettings) -> Figure:
     figure, axes = _figure()
     places = _along_the_spans()
     peaks = _pulses_along_bridge(places, settings).peaks_pa
-    for charge, peak, style in zip(settings.pier_charges, peaks.T, _line_styles(), strict=False):
+    for charge, peak, style in zip(settings.pier_charges, peaks.T, _LINES, strict=False):
         axes.semilogy(places / _scale(settings), peak / settings.pressure_unit_pa, label=charge.name, **style)
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of each charge")
     return figure
@@ -244,7 +255,7 @@ def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str
     radii = ring_radii(charges, charges[0].place_m[2], thresholds, settings.model)
     places = np.array([charge.place_m[:2] for charge in charges])
     for axes, nearest in zip(figure.subplots(1, 2), (0.0, NEAR_RINGS_PA), strict=True):
-        for threshold, row, style in zip(thresholds, radii, _line_styles(), strict=True):
+        for threshold, row, style in zip(thresholds, radii, _LINES, strict=True):
             if threshold.overpressure_pa >= nearest:
                 label = f"{_plain(threshold.overpressure_pa / settings.pressure_unit_pa)}: {threshold.damage}"
                 axes.plot(*_circles(places, row), label=label, **style)
@@ -321,11 +332,6 @@ def _blank_figure(width_in: float, height_in: float) -> Figure:
     figure = blank_figure(width_in, height_in, dpi=120, layout="constrained")
     figure.get_layout_engine().set(w_pad=0.15, h_pad=0.1)
     return figure
-
-
-def _line_styles() -> list[dict]:
-    styles = zip(_SHADES, _DASHES, _WIDTHS, strict=True)
-    return [{"color": shade, "linestyle": dash, "linewidth": width} for shade, dash, width in styles]
 
 
 def _levels(values: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ from ..model.blast.damage import distinct_thresholds, ring_radii
 from ..model.blast.receptors import PlaceLoads, peak_overpressures
 from ..model.scenario import Neighbour
 from .plan_maps import LEVEL_GROUND, draw_area, draw_ground
-from .style import DASHES, SHADES, line_style, plain
+from .style import line_style, plain
 
 _CELLS = 240
 _NAME_LETTERS = 28
@@ -55,8 +55,10 @@ def overpressure_map(
     )
     levels = [each.overpressure_pa / 1e3 for each in thresholds]
     order = np.argsort(levels)
-    styles = [DASHES[row % len(DASHES)] for row in range(len(levels))]
-    lines = axes.contour(xs, ys, peaks_kpa, levels=np.array(levels)[order], colors=SHADES[1], linestyles=styles)
+    styles = [line_style(row)["linestyle"] for row in range(len(levels))]
+    lines = axes.contour(
+        xs, ys, peaks_kpa, levels=np.array(levels)[order], colors=line_style(1)["color"], linestyles=styles
+    )
     axes.clabel(lines, fmt=lambda level: f"{level:g} kPa", fontsize=6)
     draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.0, label="bridge")
     axes.plot(*places.T, "k+", markersize=7, label="charge")

@@ -15,13 +15,23 @@ MM_PER_POINT = MM_PER_INCH / POINTS_PER_INCH
 PAGE_WIDTH_MM = 170.0
 """Width between the margins of a page."""
 
-DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (10, 2)), (0, (1, 3)), (0, (3, 1)))
-SHADES = ("0.0", "#b2182b", "#2166ac", "0.45", "#542788", "#b35806", "0.0", "0.45")
+_LINES = (
+    ("-", "0.0"),
+    ("--", "#b2182b"),
+    ("-.", "#2166ac"),
+    (":", "0.45"),
+    ((0, (6, 1, 1, 1, 1, 1)), "#542788"),
+    ((0, (10, 2)), "#b35806"),
+    ((0, (1, 3)), "0.0"),
+    ((0, (3, 1)), "0.45"),
+)
+"""Dash and colour of lines."""
 
 
 def line_style(number: int, width_pt: float = 1.4) -> dict[str, Any]:
     """Return how the line with a number looks; dashes tell lines apart without colour."""
-    return {"linestyle": DASHES[number % len(DASHES)], "color": SHADES[number % len(SHADES)], "linewidth": width_pt}
+    dash, shade = _LINES[number % len(_LINES)]
+    return {"linestyle": dash, "color": shade, "linewidth": width_pt}
 
 
 def blank_figure(

@@ -15,10 +15,10 @@ from ..model.results.force_history import largest_on_a_shard
 from ..model.scenario import Ball
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
-from .run_folder import Run
+from .run_folder import ReportedRun
 
 
-def comparison(runs: Sequence[Run], version: str) -> Document:
+def comparison(runs: Sequence[ReportedRun], version: str) -> Document:
     """Return the main findings of several runs in one table, and their courses in common charts.
 
     Runs without results are named and left out of what needs them.
@@ -45,13 +45,13 @@ def comparison(runs: Sequence[Run], version: str) -> Document:
     return Document(f"Comparison of {len(runs)} runs", f"Bridge Demolition Add-on {version}", tuple(sections))
 
 
-def unique_names(runs: Sequence[Run]) -> list[str]:
+def unique_names(runs: Sequence[ReportedRun]) -> list[str]:
     """Return the names of the runs without what they share, with numbers where two folders are called the same."""
     names = [run.name.removeprefix(shared_beginning(runs)) for run in runs]
     return [f"{name} ({row + 1})" if names.count(name) > 1 else name for row, name in enumerate(names)]
 
 
-def shared_beginning(runs: Sequence[Run]) -> str:
+def shared_beginning(runs: Sequence[ReportedRun]) -> str:
     """Return the whole words that all names of runs begin with: bridge_ of bridge_mid_span and bridge_near_end.
 
     Without it the names are as short as columns and legends want them.
@@ -62,7 +62,7 @@ def shared_beginning(runs: Sequence[Run]) -> str:
     return "" if any(run.name == shared for run in runs) else shared
 
 
-def _differences(run: Run) -> str:
+def _differences(run: ReportedRun) -> str:
     if run.scenario is None:
         return "not known"
     ball, charges = run.scenario.ball, run.scenario.charges
@@ -82,7 +82,7 @@ def _way_of(ball: Ball) -> str:
     return ", then ".join(drops)
 
 
-def _finding_table(runs: Sequence[tuple[str, Run]], debris: Sequence[tuple[str, Debris]]) -> DataTable:
+def _finding_table(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str, Debris]]) -> DataTable:
     by_run = [findings(run, of_it) for (_, run), (_, of_it) in zip(runs, debris, strict=True)]
     columns = (
         Column("", "finding"),
@@ -93,7 +93,7 @@ def _finding_table(runs: Sequence[tuple[str, Run]], debris: Sequence[tuple[str, 
     return DataTable("comparison", "Main findings", columns, rows)
 
 
-def _charts(runs: Sequence[tuple[str, Run]], debris: Sequence[tuple[str, Debris]]) -> list[Block]:
+def _charts(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str, Debris]]) -> list[Block]:
     progress = [(name, run.results.frames.time_s, 100.0 * collapse_progress(run.results)) for name, run in runs]
     broken = [
         (name, run.results.frames.time_s, 100.0 * (~run.results.frames.intact).mean(axis=1))

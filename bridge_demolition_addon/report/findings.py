@@ -9,7 +9,7 @@ import numpy as np
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.force_history import most_loaded
-from .run_folder import Run
+from .run_folder import ReportedRun
 
 IMPACT = "Impact of the ball"
 
@@ -24,7 +24,7 @@ class Finding:
     text: str
 
 
-def findings(run: Run, debris: Debris) -> list[Finding]:
+def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
     """Return the main findings of a run that has results, always in the same order, the value None where unknown."""
     results = run.results
     rest = rest_of(results)
@@ -43,7 +43,7 @@ def findings(run: Run, debris: Debris) -> list[Finding]:
     return [*found, *_throws(run, debris), _largest_load(run)]
 
 
-def _throws(run: Run, debris: Debris) -> list[Finding]:
+def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
     labels = ("95 % of the debris's mass thrown up to", "Largest throw", "Debris beyond the bridge's outline, at most")
     if not len(debris.bodies):
         return [Finding(label, "m", None, "no debris") for label in labels]
@@ -57,7 +57,7 @@ def _throws(run: Run, debris: Debris) -> list[Finding]:
     ]
 
 
-def _largest_load(run: Run) -> Finding:
+def _largest_load(run: ReportedRun) -> Finding:
     results = run.results
     peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if not peaks:

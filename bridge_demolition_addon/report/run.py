@@ -20,7 +20,7 @@ from ..model.stages.standing import StandingBridge
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..system.progress import Progress
 from .document.blocks import Document, Report
-from .run_folder import Run
+from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, add_on_version, cover_section, scenario_section, trust_section
@@ -34,7 +34,7 @@ from .site_plan import write_areas
 
 
 def run_report(
-    run: Run, target: Path, progress: Progress, *, trajectories: bool = False, stages: bool = False
+    run: ReportedRun, target: Path, progress: Progress, *, trajectories: bool = False, stages: bool = False
 ) -> Report:
     """Return the report of a run, and write its site plans.
 
@@ -59,7 +59,7 @@ def run_report(
 
 
 def run_document(
-    run: Run,
+    run: ReportedRun,
     version: str,
     zone: ExclusionZone | None,
     plans: Sequence[str] = (),
@@ -110,7 +110,7 @@ def run_document(
     return Document(run.title, subtitle, tuple(sections))
 
 
-def _work_out_stages(run: Run, target: Path, progress: Progress) -> None:
+def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None:
     """Write the tables of the stages of a run's scenario."""
     if run.scenario is None:
         raise OutputError(f"{run.folder}: has no scenario whose stages could be worked out; leave out --stages")
@@ -121,7 +121,7 @@ def _work_out_stages(run: Run, target: Path, progress: Progress) -> None:
     write_stage_tables(target, found, members, bridge)
 
 
-def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
+def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Path]:
     areas = {
         "exclusion zone": zone.whole,
         "predicted debris": zone.debris,
@@ -132,7 +132,7 @@ def _write_plans(zone: ExclusionZone, run: Run, target: Path) -> list[Path]:
     return write_areas(areas, run.scenario.site, target / DXF_FILE, target / GEOJSON_FILE, contours)
 
 
-def _contours_around(run: Run, zone: ExclusionZone) -> np.ndarray | None:
+def _contours_around(run: ReportedRun, zone: ExclusionZone) -> np.ndarray | None:
     """Contour lines (s, 2, 3) of the ground in and around an exclusion zone, m; None where the ground is flat."""
     terrain = run.results.ground().terrain
     if terrain is None:

@@ -32,7 +32,7 @@ _NO_PICTURE = (OSError, SyntaxError, ValueError, MemoryError, struct.error, zlib
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Run:
+class ReportedRun:
     """A run as far as its folder holds it.
 
     Attributes
@@ -81,7 +81,7 @@ def shown_name(folder: Path) -> str:
     return os.fsencode(folder.resolve().name).decode("utf-8", "backslashreplace")
 
 
-def read_run(folder: Path) -> Run:
+def read_run(folder: Path) -> ReportedRun:
     """Read a run's folder, and say what is missing of it.
 
     Raises
@@ -110,7 +110,7 @@ def read_run(folder: Path) -> Run:
         )
     logged = _logged_forces(folder, shortcomings) if results is None else None
     scenario = _scenario(folder, shortcomings)
-    return Run(
+    return ReportedRun(
         folder=folder,
         scenario=scenario,
         summary=summary,

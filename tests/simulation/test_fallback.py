@@ -39,7 +39,7 @@ def test_net_force_comes_from_the_change_of_momentum(strange_blender, tmp_path):
     assert recording.error is None
     assert "friction" in str(recording.distrust)
     results = recording.results()
-    assert results.reading == "change of momentum between frames"
+    assert results.load_sampling == "change of momentum between frames"
     weight = mass * STANDARD_GRAVITY_M_S2
     assert results.frames.loads.body_forces_n[-1, 3, 2] == pytest.approx(weight, rel=0.01)
     # Over the fall, the impact and the rest, the ground has given the block all the momentum that gravity did.

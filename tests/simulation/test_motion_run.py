@@ -67,7 +67,7 @@ def test_what_was_not_read_is_not_known(both):
 
 def test_contacts_are_kept_where_they_are_asked_for_and_add_up_to_the_loads_of_their_bodies(both):
     (results, _), _ = both
-    if results.reading == "every sub-step":
+    if results.load_sampling == "every sub-step":
         assert results.contacts is None
         return
     contacts, frames = results.contacts, results.frames

@@ -100,7 +100,7 @@ def keep_run(folder, results, scenario=TOLD, *, completed=True):
 def stream_run(folder, results, frames=None):
     """The stream of a run that goes on or was killed, with as many of the frames of these results."""
     contacts = results.contacts
-    stream = FrameStream(folder, results.reading, results.inventory, contacts=contacts is not None)
+    stream = FrameStream(folder, results.load_sampling, results.inventory, contacts=contacts is not None)
     times, balls = results.frames.time_s, results.balls
     for row in range(len(times) if frames is None else frames):
         first, last = np.searchsorted(balls.times_s, [times[max(row - 1, 0)], times[row]], side="right")

@@ -91,7 +91,7 @@ class Results:
 
     Attributes
     ----------
-    reading : str
+    load_sampling : str
         Which sub-steps the loads come from. ``every sub-step``: loads are those of the whole frame. Otherwise they are
         those of its last sub-step.
     inventory : Inventory
@@ -104,7 +104,7 @@ class Results:
         Contacts in the last sub-step of each frame; None where they were not recorded.
     """
 
-    reading: str
+    load_sampling: str
     inventory: Inventory
     frames: FrameSeries
     balls: BallHistory
@@ -142,6 +142,9 @@ class Results:
         # What has one bit in a byte, and what everybody needs as a whole. A frame is read from all else without it.
         packed = {name for name, values in arrays.items() if name in known or np.asarray(values).dtype.kind == "b"}
         write_archive(path, arrays, packed)
+
+
+_STORED_NAMES[Results] = {"load_sampling": "reading"}
 
 
 def load_results(path: Path) -> Results:

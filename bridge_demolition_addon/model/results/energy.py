@@ -58,20 +58,20 @@ def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> 
     """
     masses, frames = results.inventory.masses_kg, results.frames
     potentials = (gravity_m_s2 * frames.positions_m[:, :, 2] * masses).sum(axis=1)
-    spins = transformed_back(frames.rotations, frames.angular_velocities_rad_s)
+    angular_velocities_rad_s = transformed_back(frames.rotations, frames.angular_velocities_rad_s)
     return Energy(
         times_s=frames.time_s,
         potential_j=potentials - potentials.min(),
         translation_j=0.5 * (dot(frames.velocities_m_s, frames.velocities_m_s) * masses).sum(axis=1),
-        rotation_j=0.5 * (np.square(spins) * moments_of_inertia(results)).sum(axis=(1, 2)),
+        rotation_j=0.5 * (np.square(angular_velocities_rad_s) * moments_of_inertia(results)).sum(axis=(1, 2)),
     )
 
 
 def kinetic_energies(frame: Frame, masses_kg: np.ndarray, moments_kg_m2: np.ndarray) -> np.ndarray:
     """Return the kinetic energy (n,) of each body in a frame, J, with what `moments_of_inertia` gives."""
-    spins = transformed_back(frame.rotations, frame.angular_velocities_rad_s)
+    angular_velocities_rad_s = transformed_back(frame.rotations, frame.angular_velocities_rad_s)
     translation = dot(frame.velocities_m_s, frame.velocities_m_s) * masses_kg
-    return 0.5 * (translation + (np.square(spins) * moments_kg_m2).sum(axis=1))
+    return 0.5 * (translation + (np.square(angular_velocities_rad_s) * moments_kg_m2).sum(axis=1))
 
 
 def moments_of_inertia(results: Results) -> np.ndarray:

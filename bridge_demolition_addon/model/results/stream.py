@@ -36,7 +36,7 @@ class FrameStream(Sequence[Frame]):
     ----------
     folder : Path
         Existing folder. What another stream has left in it is replaced.
-    reading : str
+    load_sampling : str
         As that of `Results`.
     inventory : Inventory
         Bodies and connections.
@@ -49,14 +49,14 @@ class FrameStream(Sequence[Frame]):
         The folder cannot be written to.
     """
 
-    def __init__(self, folder: Path, reading: str, inventory: Inventory, *, contacts: bool = False):
-        self._folder, self._reading, self._inventory = folder, reading, inventory
+    def __init__(self, folder: Path, load_sampling: str, inventory: Inventory, *, contacts: bool = False):
+        self._folder, self._load_sampling, self._inventory = folder, load_sampling, inventory
         self._has_contacts = contacts
         self._balls = np.flatnonzero(inventory.body_kinds == "ball")
         self._frames: GrowingTable | None = None
         self._substeps: GrowingTable | None = None
         self._contacts: GrowingTable | None = None
-        known = dict(named_arrays(inventory)) | {"reading": np.array(reading), "balls": self._balls}
+        known = dict(named_arrays(inventory)) | {"reading": np.array(load_sampling), "balls": self._balls}
         with writing(folder):
             for name in (FRAMES_FILE, BALLS_FILE, CONTACTS_FILE):
                 (folder / name).unlink(missing_ok=True)
@@ -96,7 +96,7 @@ class FrameStream(Sequence[Frame]):
         frames, contacts = frames_of(columns(self._frames.rows())), None
         if self._contacts is not None:
             contacts = contacts_until(self._contacts.rows(), frames.number[-1])
-        return Results(self._reading, self._inventory, frames, balls, contacts)
+        return Results(self._load_sampling, self._inventory, frames, balls, contacts)
 
     def remove(self) -> None:
         """Take the files away; what is in them can be read as long as the stream is there."""

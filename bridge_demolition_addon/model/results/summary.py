@@ -42,7 +42,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "connections": _connections(results),
         "impact": impact_of(results, gravity_m_s2),
         "key_frame": {**_moment(results, key), "reason": reason},
-        "reading": results.reading,
+        "reading": results.load_sampling,
         "hits_of_the_ball": hits_of_balls(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),

@@ -13,7 +13,7 @@ SCENARIO_FILE = "scenario_as_run.toml"
 """The scenario of the run. Not ``scenario.toml``, which may be the user's own, with comments in it."""
 
 PICTURE_FOLDER = "frames"
-PICTURES = ("before", "impact", "after")
+PICTURES = BEFORE, IMPACT, AFTER = "before", "impact", "after"
 """Pictures in that folder, PNG."""
 
 FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
@@ -23,7 +23,7 @@ DXF_FILE, GEOJSON_FILE = "exclusion_zone.dxf", "exclusion_zone.geojson"
 TABLE_FOLDER = "tables"
 
 REPORT_FILES = (REPORT_PAGE, REPORT_PDF, DXF_FILE, GEOJSON_FILE)
-"""What a report leaves, besides its tables."""
+"""What a report leaves, without its tables."""
 
 RESULT_FILES = (
     SUMMARY_FILE,

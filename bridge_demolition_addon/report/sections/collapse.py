@@ -12,10 +12,10 @@ from ...model.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_
 from ...model.results.energy import Energy, energy_of
 from ...model.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
-from ..run_folder import Run
+from ..run_folder import ReportedRun
 
 
-def collapse_section(run: Run) -> Section:
+def collapse_section(run: ReportedRun) -> Section:
     """Return how the bridge came down."""
     results = run.results
     bridge = run.scenario.bridge if run.scenario else None  # there is none where all is of files or objects
@@ -100,7 +100,7 @@ def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
     ]
 
 
-def _load_rows(run: Run) -> list[tuple[str, str]]:
+def _load_rows(run: ReportedRun) -> list[tuple[str, str]]:
     """How large each load was when the bridge first gave way under it."""
     results, rows = run.results, []
     broken = np.flatnonzero((~results.frames.intact).any(axis=1))

@@ -17,7 +17,7 @@ from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
-from ..run_folder import Run
+from ..run_folder import ReportedRun
 
 _MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (2, 3))
 """Of an extension inside Blender, and of the project's own folder."""
@@ -70,7 +70,7 @@ def add_on_version() -> str:
         return str(tomllib.loads(found[0].read_text(encoding="utf-8"))["version"]) if found else "unknown"
 
 
-def cover_section(run: Run, version: str, debris: Debris | None) -> Section:
+def cover_section(run: ReportedRun, version: str, debris: Debris | None) -> Section:
     """Return what was run, and whether all of it is there."""
     blocks: list[Block] = [Paragraph(text, is_notice=True) for text in run.shortcomings]
     blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
@@ -99,13 +99,13 @@ def trust_section(scenario: Scenario | None, *more: str) -> Section:
     return Section("What is modelled, and how far to trust it", tuple(blocks))
 
 
-def scenario_section(run: Run, text: str) -> Section:
+def scenario_section(run: ReportedRun, text: str) -> Section:
     """Return the whole scenario, so that the run can be repeated."""
     use = "With this file and the versions above the run can be repeated: the same scenario gives the same logs."
     return Section("The scenario", (Paragraph(use), Listing(text)))
 
 
-def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
+def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
     yield "Scenario", run.title
     yield "Folder", run.name
     summary, results = run.summary or RunSummary({}), run.results
@@ -114,7 +114,7 @@ def _run_facts(run: Run, version: str) -> Iterator[tuple[str, str]]:
         steps = results.frames.substep_s[results.frames.substep_s > 0.0]
         if len(steps):
             yield "Physics step", _range_text(1e3 * steps.min(), 1e3 * steps.max(), "ms")
-        yield "Loads read", results.reading
+        yield "Loads read", results.load_sampling
     elif run.logged_forces is not None:
         yield "Simulated", f"{run.logged_forces.times_s[-1]:.3f} s as far as logged"
     if run.scenario:
@@ -148,7 +148,7 @@ def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
     yield "Connections", str(len(results.inventory.connection_names))
 
 
-def _breaking_text(run: Run) -> str:
+def _breaking_text(run: ReportedRun) -> str:
     settings, joint = run.scenario.connections, run.scenario.joints[0]
     others = "; differently between some members, see the scenario" if settings.between else ""
     if joint.breaking_force_n is not None:
@@ -161,7 +161,7 @@ def _range_text(low: float, high: float, unit: str) -> str:
     return f"{low:.3g} {unit}" if high - low < 1e-3 * high else f"{low:.3g} to {high:.3g} {unit}"
 
 
-def _doubts(run: Run) -> Iterator[str]:
+def _doubts(run: ReportedRun) -> Iterator[str]:
     results = run.results
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
@@ -176,16 +176,16 @@ def _doubts(run: Run) -> Iterator[str]:
             "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
             "what needs them is empty."
         )
-    if results.reading.startswith("last sub-step"):
+    if results.load_sampling.startswith("last sub-step"):
         yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."
 
 
-def _findings(run: Run, debris: Debris) -> Iterator[tuple[str, str]]:
+def _findings(run: ReportedRun, debris: Debris) -> Iterator[tuple[str, str]]:
     has_ball = len(run.results.inventory.of_kind("ball")) > 0
     yield from ((each.label, each.text) for each in findings(run, debris) if has_ball or each.label != IMPACT)
 
 
-def _caption(run: Run, picture: str) -> str:
+def _caption(run: ReportedRun, picture: str) -> str:
     """Return what a picture shows; in summaries of earlier versions there is no key frame."""
     reason = (run.summary and run.summary.key_frame_reason) or "In the course of the run"
     return {"before": "Before", "after": "At the end"}.get(picture, reason)

@@ -21,13 +21,13 @@ from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
 from ...model.terrain.built import facts_from, terrain_summary
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
-from ..run_folder import Run
+from ..run_folder import ReportedRun
 
 NAMED = 10
 """Largest throws in the table."""
 
 
-def debris_section(run: Run, debris: Debris, *, trajectories: bool) -> Section:
+def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> Section:
     """Return where the debris went."""
     results, zones = run.results, run.scenario.zones if run.scenario else ()
     words = (
@@ -45,7 +45,7 @@ def debris_section(run: Run, debris: Debris, *, trajectories: bool) -> Section:
     return Section("Debris", tuple(blocks))
 
 
-def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]) -> Section:
+def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Sequence[str]) -> Section:
     """Return the exclusion zone, or why there is none."""
     if zone is None:
         words = (
@@ -86,7 +86,7 @@ def exclusion_section(zone: ExclusionZone | None, run: Run, files: Sequence[str]
     return Section("Exclusion zone", tuple(blocks))
 
 
-def zone_of(run: Run) -> ExclusionZone | None:
+def zone_of(run: ReportedRun) -> ExclusionZone | None:
     """Return the exclusion zone where the scenario asks for one."""
     if run.results is None or run.scenario is None or run.scenario.exclusion is None:
         return None
@@ -154,7 +154,7 @@ def _debris_blocks(
     ]
 
 
-def terrain_section(run: Run) -> Section | None:
+def terrain_section(run: ReportedRun) -> Section | None:
     """Return what the ground is; None where it is flat and nothing went through it."""
     results = without_removed(run.results)[0]
     under, ground = bodies_under_ground(results), results.ground()
@@ -255,7 +255,7 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
     return DataTable("largest_throws", title, columns, rows)
 
 
-def _zone_blocks(run: Run, zones: Sequence[Zone]) -> list[Block]:
+def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
     if not zones:
         return [Paragraph("The scenario names no zones, such as a road or a power line, to be watched.")]
     results = run.results

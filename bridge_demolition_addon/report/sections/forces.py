@@ -13,7 +13,7 @@ from ...model.results.arrays import Results
 from ...model.results.force_history import Peak, breaking_by_kind, contact_forces, most_loaded
 from ...model.run_folder.logs import LoggedForces
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
-from ..run_folder import Run
+from ..run_folder import ReportedRun
 
 _BEYOND_THE_FORCE = (
     "The force of a connection is the resultant of its three directions. Each direction by itself is held up to the "
@@ -21,7 +21,7 @@ _BEYOND_THE_FORCE = (
 )
 
 
-def force_section(run: Run) -> Section:
+def force_section(run: ReportedRun) -> Section:
     """Return loads, hits and breaking of a run that has results."""
     results = run.results
     known = np.isfinite(results.frames.loads.body_sums_n).any()
@@ -53,7 +53,7 @@ def force_section(run: Run) -> Section:
     return Section("Forces and stresses", tuple(blocks))
 
 
-def logged_section(run: Run) -> Section:
+def logged_section(run: ReportedRun) -> Section:
     """Return what the logs of a killed run still hold of forces and breaking."""
     blocks: list[Block] = []
     forces: LoggedForces | None = run.logged_forces
@@ -116,7 +116,7 @@ def _connection_row(results: Results, peak: Peak) -> tuple:
     )
 
 
-def _hit_blocks(run: Run) -> list[Block]:
+def _hit_blocks(run: ReportedRun) -> list[Block]:
     hits = run.ball.hits_of_the_ball
     if not len(run.results.inventory.of_kind("ball")):
         return [Paragraph("There is no ball in this run.")]
@@ -151,7 +151,7 @@ def _hit_blocks(run: Run) -> list[Block]:
     return [DataTable("hits_of_the_ball", "Hits of the ball", columns, rows), Paragraph(notes)]
 
 
-def _stress_blocks(run: Run) -> list[Block]:
+def _stress_blocks(run: ReportedRun) -> list[Block]:
     results, moments = run.results, []
     if run.ball.impact_s is not None:
         moments.append(
@@ -175,7 +175,7 @@ def _stress_blocks(run: Run) -> list[Block]:
     ]
 
 
-def _breaking_blocks(run: Run) -> list[Block]:
+def _breaking_blocks(run: ReportedRun) -> list[Block]:
     results = run.results
     kinds = breaking_by_kind(results)
     if not kinds:

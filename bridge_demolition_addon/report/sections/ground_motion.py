@@ -17,10 +17,10 @@ from ...model.run_folder.files import GROUND_MOTION_FILE
 from ...model.scenario import Scenario
 from ...model.structure.settlement import settlements
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
-from ..run_folder import Run
+from ..run_folder import ReportedRun
 
 
-def motion_section(run: Run) -> Section | None:
+def motion_section(run: ReportedRun) -> Section | None:
     """How the ground moved and gave way; None where it did neither."""
     if run.scenario is None:
         return None
@@ -32,7 +32,7 @@ def motion_section(run: Run) -> Section | None:
     return Section("Motion of the ground, and foundations", tuple(blocks)) if blocks else None
 
 
-def _motion_blocks(run: Run, motion: GroundMotion) -> list[Block]:
+def _motion_blocks(run: ReportedRun, motion: GroundMotion) -> list[Block]:
     try:
         record, start_s = read_record(run.folder / GROUND_MOTION_FILE)
     except ScenarioError as error:

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ...errors import OutputError
-from ...model.run_folder.files import PICTURE_FOLDER, PICTURES
+from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER
 from ...model.scenario import Scenario
 from ...model.scenario.recording import PictureSettings
 from ...scene.blast.charges import charge_objects, show_never, show_until
@@ -51,11 +51,12 @@ def rendered_pictures(
     OutputError
         The camera is not there, or Blender wrote no picture.
     """
-    paths = [folder.resolve() / PICTURE_FOLDER / f"{name}.png" for name in PICTURES]
+    frames = {BEFORE: START_FRAME, IMPACT: key_frame, AFTER: last_frame}
     with writing(folder):
         (folder / PICTURE_FOLDER).mkdir(parents=True, exist_ok=True)
     with prepared_for_pictures(scene, view):
-        for path, frame in zip(paths, (START_FRAME, key_frame, last_frame), strict=True):
+        for name, frame in frames.items():
+            path = folder.resolve() / PICTURE_FOLDER / f"{name}.png"
             render_picture(scene, frame, path)
             if not path.exists():
                 raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")

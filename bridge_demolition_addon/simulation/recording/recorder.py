@@ -288,7 +288,7 @@ class Recording:
         return self.scene.rigidbody_world.point_cache.frame_start
 
     @property
-    def _reading(self) -> str:
+    def _load_sampling(self) -> str:
         if self.distrust:
             return READING_OF_MOTION
         if not self.has_loads:
@@ -356,7 +356,7 @@ class Recording:
         self.forget()
         self._blast = Blast(self.scene, self._bodies, self.inventory, world) if goes_off(self.scene) else None
         self.built_digest = self._digest()
-        self._stream = FrameStream(self.folder, self._reading, self.inventory, contacts=self._has_contacts)
+        self._stream = FrameStream(self.folder, self._load_sampling, self.inventory, contacts=self._has_contacts)
         if self.has_loads:
             charges = [charge.name for charge in self._blast.charges] if self._blast else ()
             self._logs = Logs(self.folder, self.inventory, charges, self._log_files)

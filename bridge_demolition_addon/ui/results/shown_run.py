@@ -76,7 +76,7 @@ class ShownRun:
             force, throw = summary.largest_force_n, summary.largest_throw_m
             return cls(
                 folder=folder,
-                title=summary.title or "",
+                title=str(summary.values["title"]),
                 summary=summary,
                 fall=self_collapse_text(summary.values),
                 lines=tuple(lines_of(summary.values)),

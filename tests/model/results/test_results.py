@@ -179,7 +179,7 @@ def test_a_file_is_readable_without_us(tmp_path):
 def test_texts_and_series_come_back_as_what_they_were(tmp_path):
     hanging_chain().save(tmp_path / "results.npz")
     again = load_results(tmp_path / "results.npz")
-    assert again.reading == "every sub-step"
+    assert again.load_sampling == "every sub-step"
     assert again.inventory.connection_names.tolist() == ["Connection", "Connection.001"]
     assert again.frames.asleep.dtype == again.frames.intact.dtype == bool
     assert len(again.frames) == 5

@@ -85,7 +85,7 @@ def test_what_is_left_of_a_run_that_was_killed_is_read(tmp_path, cut):
         file.truncate(path.stat().st_size - min(cut, 872 * 2 + 3))
     left = load_results(tmp_path)
     frames = 5 - -(-min(cut, 872 * 2 + 3) // 872)
-    assert len(left.frames) == frames and left.reading == "every sub-step"
+    assert len(left.frames) == frames and left.load_sampling == "every sub-step"
     # Ten sub-steps in each frame but the first.
     assert len(left.balls.times_s) == 10 * (frames - 1) and left.balls.bodies.tolist() == [3]
     assert left.balls.times_s[-1] == pytest.approx(left.frames.time_s[-1])

@@ -443,7 +443,7 @@ def test_fields_need_nothing_of_bullets_memory(strange_blender, tmp_path, step):
     blocks.block((10.0, 0.0, 0.0), MASS_KG)
     set_off(blocks, [charge("a", (0, 0, 0), 8.0)], "fields")
     results = blocks.play(tmp_path, frames_for(blocks, 0.08))
-    assert results.reading == "change of momentum between frames"
+    assert results.load_sampling == "change of momentum between frames"
     assert MASS_KG * results.frames.velocities_m_s[-1, 0, 0] == pytest.approx(2.0 * IMPULSE_AT_5_PA_S, rel=PROMISE)
 
 

@@ -85,7 +85,7 @@ def test_last_substep_alone_is_an_option_and_says_so(blender, tmp_path):
         blocks.scene.frame_set(frame)
     stop_recording()
     results = recording.results()
-    assert results.reading == "last sub-step of each frame"
+    assert results.load_sampling == "last sub-step of each frame"
     assert results.frames.loads.body_forces_n[-1, 1, 2] == pytest.approx(-100.0 * GRAVITY[2], rel=1e-6)
     assert results.frames.time_s[-1] == pytest.approx(23 * blocks.time.step.frame_s)
 
