@@ -19,6 +19,7 @@ from ..model.scenario import Ball, Change, Jackhammer, Load, Scenario
 from ..model.sequence.checked_model import check_actions
 from ..model.structure.model import Model
 from ..model.structure.start_motion import start_motions
+from .as_built import keep_built_bodies
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
 from .blast.settings import keep_blast
@@ -131,6 +132,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
+    keep_built_bodies(scene)
     return shards
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from .as_built import forget_built_bodies
 from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
@@ -44,6 +45,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     keep_breaking(scene, Breaking())
     keep_changes(scene, ())
     keep_loads(scene, ())
+    forget_built_bodies(scene)
     fields = force_collection(scene)
     if fields and not fields.all_objects:
         bpy.data.collections.remove(fields)

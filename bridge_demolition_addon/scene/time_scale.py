@@ -1,17 +1,78 @@
-"""The scene's time scale, animated where frames differ in length."""
+"""How a scene cuts time into frames and sub-steps, and its time scale, animated where frames differ in length."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
 
 import bpy
 import numpy as np
 
 from ..engineering.timing.time_step import TimeStep
 from ..engineering.timing.timeline import Timeline
-from .world import START_FRAME, scene_time_step
+from .world import FIRST_STEP_FRAME, START_FRAME, farthest_per_substep_of, scene_time_step
 
 _PATH = "rigidbody_world.time_scale"
 _SINGLE = 1e-6
 """Relative difference that only comes from Blender's single precision, in which it keeps frame rate and speed."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimeOfScene:
+    """How a run cuts time.
+
+    Attributes
+    ----------
+    settings : dict
+        As `time_settings` returns them.
+    step : TimeStep
+        That of the start frame.
+    farthest_per_substep_m : float or None
+        How far a body may go in one sub-step before frames have more of them; None where they never do.
+    start_frame, last_frame : int
+    is_animated : bool
+        Whether frames may differ in length.
+    frame_lengths_s : (f,) float
+        Simulated time of each frame that is played, from the first that time leads to.
+    """
+
+    settings: dict[str, Any]
+    step: TimeStep
+    farthest_per_substep_m: float | None
+    start_frame: int
+    last_frame: int
+    is_animated: bool
+    frame_lengths_s: np.ndarray
+
+
+def time_of(scene: bpy.types.Scene) -> TimeOfScene:
+    """Read how a scene cuts time."""
+    cache = scene.rigidbody_world.point_cache
+    last_frame, is_animated = min(scene.frame_end, cache.frame_end), time_is_animated(scene)
+    frames = range(FIRST_STEP_FRAME, last_frame + 1)
+    if is_animated:
+        lengths_s = np.array([time_step_at(scene, frame).frame_s for frame in frames], float)
+    else:
+        lengths_s = np.full(len(frames), scene_time_step(scene).frame_s)
+    step, farthest_m = time_step_at(scene, cache.frame_start), farthest_per_substep_of(scene)
+    return TimeOfScene(time_settings(scene), step, farthest_m, cache.frame_start, last_frame, is_animated, lengths_s)
+
+
+def time_settings(scene: bpy.types.Scene) -> dict[str, Any]:
+    """Return how a scene cuts time, by the keys of a scenario; not its speed where that is animated."""
+    world = scene.rigidbody_world
+    settings = {
+        "frames_per_second": scene.render.fps,
+        "frames_per_second_base": scene.render.fps_base,
+        "substeps_per_frame": world.substeps_per_frame,
+        "farthest_per_substep_m": farthest_per_substep_of(scene),
+        "solver_iterations": world.solver_iterations,
+        "split_impulse": world.use_split_impulse,
+        "time_scale": world.time_scale,
+    }
+    if time_is_animated(scene):
+        del settings["time_scale"]
+    return settings
 
 
 def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: int) -> None:

@@ -192,5 +192,6 @@ class RecordedScene:
 
 def _refuse_unplayed_frame(recording: Recording) -> None:
     """A render simulates in copies and a thread of its own; what was played before it plays back."""
-    if not recording.has_frame(recording.scene.frame_current):
+    scene, last = recording.scene, recording.last_frame
+    if scene.frame_current > (scene.rigidbody_world.point_cache.frame_start if last is None else last):
         raise SimulationError("a render went beyond the frames that were recorded: play the timeline, then render it")

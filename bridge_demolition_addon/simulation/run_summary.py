@@ -95,6 +95,7 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "terrain": context.terrain,
         **_on_ground(results),
         "made_by_hand": list(context.made_by_hand),
+        "changed_bodies": recording.changed_bodies,
     }
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
 
@@ -109,7 +110,7 @@ def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
     """Digests of what was built, how it moved and what came out, and what it was calculated with."""
     whole = {"result": result_digest(results)} if recording.has_loads else {}
     return {
-        "built": recording.built_digest,
+        "built": recording.setup.digest,
         "motion": motion_digest(results),
         **whole,
         "processor": _processor(),

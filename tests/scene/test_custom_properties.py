@@ -20,8 +20,7 @@ def read_all(scene):
     from bridge_demolition_addon.scene.connections.breaking_settings import breaking_of
     from bridge_demolition_addon.scene.connections.breaking_thresholds import rewrite_thresholds
     from bridge_demolition_addon.scene.connections.constraints import connections_of
-    from bridge_demolition_addon.scene.inventory import take_inventory
-    from bridge_demolition_addon.scene.structural_changes import events_of
+    from bridge_demolition_addon.scene.run_setup import run_setup_of
     from bridge_demolition_addon.scene.tools.ball import lifts_of
 
     bodies, connections = bodies_of(scene), connections_of(scene)
@@ -30,7 +29,7 @@ def read_all(scene):
     blast_of(scene)
     breaking_of(scene, connections)
     rewrite_thresholds(scene)
-    events_of(scene, bodies, take_inventory(bodies, connections))
+    _ = run_setup_of(scene).events
     for body in bodies:
         lifts_of(body)
 

@@ -16,7 +16,6 @@ import numpy as np
 
 from ...system.array_files.blocks import blocks_of
 from .arrays import Results
-from .inventory import Inventory
 
 SHORT = 8
 """Digits of a digest that are enough to tell runs apart by eye."""
@@ -43,10 +42,10 @@ def digest(parts: Mapping[str, Any]) -> str:
     return found.hexdigest()
 
 
-def built_digest(inventory: Inventory, **more: Any) -> str:
-    """Return the digest of bodies and connections, and of all else that decides what will happen, by names."""
-    known = {each.name: getattr(inventory, each.name) for each in fields(inventory)}
-    return digest({name: values for name, values in known.items() if values is not None} | more)
+def known_parts(record: Any) -> dict[str, Any]:
+    """Return the fields of a dataclass by their names, without those that are None."""
+    parts = {item.name: getattr(record, item.name) for item in fields(record)}
+    return {name: values for name, values in parts.items() if values is not None}
 
 
 def motion_digest(results: Results) -> str:

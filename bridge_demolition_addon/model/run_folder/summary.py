@@ -243,6 +243,7 @@ _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
     "terrain": _is_table_or_none,
     "made_by_hand": _are_texts,
+    "changed_bodies": _are_texts,
     "fell_by_itself": _is_table_or_none,
     "title": _is_text,
     "completed": _is_switch,

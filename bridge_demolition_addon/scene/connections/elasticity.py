@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -16,6 +17,37 @@ _DAMPING_RATIO = "bda_damping_ratio"
 _THICKNESS = "bda_thickness"
 _COUNT = 7
 """Axial, shear along y and z, torsion, and the three numbers of bending about y and z."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ConnectionElasticity:
+    """How m connections are elastic.
+
+    Attributes
+    ----------
+    damping_ratio : float
+        Damping of the first frequency, as a share of the critical one.
+    stiffness : SectionStiffness
+    thicknesses_m : (m,) float
+        Of the members that connections are in; nan where it is not known.
+    """
+
+    damping_ratio: float
+    stiffness: SectionStiffness
+    thicknesses_m: np.ndarray
+
+
+def elasticity_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object]) -> ConnectionElasticity | None:
+    """Return how the connections of a scene are elastic; None where they are rigid.
+
+    Raises
+    ------
+    SimulationError
+        A connection has no stiffness, or one that was edited.
+    """
+    if not is_elastic(scene):
+        return None
+    return ConnectionElasticity(damping_ratio_of(scene), stiffness_of(connections), thicknesses_of(connections))
 
 
 def keep_elasticity(

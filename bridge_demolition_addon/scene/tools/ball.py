@@ -104,6 +104,14 @@ def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]
         raise edited(ball, _LIFTS, "frames, shares and places of lifts") from error
 
 
+def begin_lifts(balls: Sequence[bpy.types.Object], frame: int, depsgraph: bpy.types.Depsgraph) -> None:
+    """Have balls that are lifted from the frame after this one on go up from where they are."""
+    for ball in balls:
+        for lift_frame, shares, end in lifts_of(ball):
+            if frame == lift_frame - 1:
+                lift_from(ball, lift_frame, shares, end, ball.evaluated_get(depsgraph).matrix_world)
+
+
 def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:
     """Make a lift begin where the ball is in the frame before it, as its matrix says.
 

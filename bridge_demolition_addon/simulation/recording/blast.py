@@ -11,20 +11,15 @@ import numpy as np
 
 from ...bullet.field_filter import ignore_fields, let_fields_act
 from ...bullet.world import BulletWorld
-from ...engineering.geometry.hulls import convex_hulls
 from ...engineering.geometry.vectors import length
 from ...errors import LayoutError, SimulationError
 from ...model.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ...model.blast.settings import Apply
-from ...model.results.inventory import Inventory
 from ...scene.blast.charges import charges_of
 from ...scene.blast.field_reach import FieldReach, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
 from ...scene.blast.settings import blast_of
-from ...scene.bodies import scaled_mesh
-
-_ALWAYS_S = 1e6
-"""After this time every pulse is over."""
+from ...scene.run_setup import RunSetup
 
 
 class FieldBlast:
@@ -163,10 +158,8 @@ class Blast:
 
     Parameters
     ----------
-    scene
-        The scene, with charges that go off.
-    bodies, inventory
-        All its bodies.
+    scene, setup
+        The scene, and what decides its run, with charges that go off.
     world
         The bound world; None where Bullet's memory is not to be trusted.
 
@@ -176,25 +169,14 @@ class Blast:
         A charge is not as it should be, a body has no volume, or loads cannot be applied in the way that is asked for.
     """
 
-    def __init__(
-        self,
-        scene: bpy.types.Scene,
-        bodies: Sequence[bpy.types.Object],
-        inventory: Inventory,
-        world: BulletWorld | None,
-    ):
-        settings = blast_of(scene)
-        self.charges = charges_of(scene)
-        self._rows = np.flatnonzero(inventory.masses_kg > 0.0)
-        self._count = len(bodies)
-        pushed = [bodies[row] for row in self._rows]
-        hulls = convex_hulls([scaled_mesh(body).vertices for body in pushed], [body.name for body in pushed])
-        explosion = Explosion(self.charges, hulls, settings)
-        self._unexploded = Explosion(self.charges, hulls, settings)
+    def __init__(self, scene: bpy.types.Scene, setup: RunSetup, world: BulletWorld | None):
+        explosion = setup.explosion()
+        self._rows = setup.pushed_rows
+        self._count = len(setup.bodies)
         self._fields: FieldBlast | None = None
         self._direct: DirectBlast | None = None
-        if settings.apply == Apply.FIELDS:
-            self._fields = FieldBlast(scene, pushed, explosion)
+        if setup.blast.apply == Apply.FIELDS:
+            self._fields = FieldBlast(scene, [setup.bodies.objects[row] for row in self._rows], explosion)
         elif world is not None:
             self._direct = DirectBlast(world, self._rows, explosion)
         else:
@@ -206,11 +188,6 @@ class Blast:
     def left(self) -> int:
         """Return how often a body has left the reach of its field within a frame, and lost a part of its load."""
         return self._fields.left if self._fields else 0
-
-    def whole_impulses(self, places: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Return the impulses (n, 3) that all charges together would give to all bodies at these places, N·s."""
-        loads = self._unexploded.loads(0.0, _ALWAYS_S, places[self._rows], rotations[self._rows])
-        return replace(loads, bodies=self._rows[loads.bodies]).vectors(self._count)
 
     def before_frame(self, start_s: float, frame_s: float, places: np.ndarray, rotations: np.ndarray) -> None:
         """Prepare a frame that begins at a time, is that long, and finds all bodies at these places."""

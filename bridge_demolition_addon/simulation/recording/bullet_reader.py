@@ -15,13 +15,8 @@ from ...engineering.mechanics.member_sections import MemberSections, kinds_of
 from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...errors import LayoutError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
-from ...model.results.inventory import Inventory
-from ...scene.connections.breaking_settings import breaking_of
-from ...scene.connections.elasticity import damping_ratio_of, is_elastic, stiffness_of, thicknesses_of
-from ...scene.connections.soil import soil_of
-from ...scene.structural_changes import events_of, placed_loads_of
-from ...scene.time_scale import time_step_at
-from ...scene.tools.ground_motion import ground_motion_of, rows_on_moving_ground
+from ...scene.run_setup import RunSetup
+from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
 from .elastic_connections import ElasticConnections
 from .events import AppliedEvent, Events
@@ -36,12 +31,10 @@ class BulletReader:
     Parameters
     ----------
     scene : bpy.types.Scene
-    bodies, connections : sequence of bpy.types.Object
-        What is simulated in it.
+    setup : RunSetup
+        All that decides the run.
     world : BulletWorld
         Its world, bound just now, before any time passes.
-    inventory : Inventory
-        The same bodies and connections.
     blast : Blast or None
         What explodes.
     every_substep : bool
@@ -60,29 +53,26 @@ class BulletReader:
     def __init__(
         self,
         scene: bpy.types.Scene,
-        bodies: Sequence[bpy.types.Object],
-        connections: Sequence[bpy.types.Object],
+        setup: RunSetup,
         world: BulletWorld,
-        inventory: Inventory,
         blast: Blast | None,
         *,
         every_substep: bool,
         loads: bool,
     ):
         self._scene, self._world, self._every_substep = scene, world, every_substep
+        inventory, breaking = setup.inventory, setup.breaking
         self._inventory, self._substeps_of_frame = inventory, scene.rigidbody_world.substeps_per_frame
         self.rigid_because: LayoutError | None = None
         self._built_positions_m, self._built_rotations = world.bodies.positions()
-        elastic = self._elastic_connections(bodies, connections) if is_elastic(scene) and connections else None
+        elastic = self._elastic_connections(setup) if setup.elasticity and len(setup.connections) else None
         self.elasticity = elastic.elasticity if elastic else None
-        self._events = Events(world, inventory.pairs, events_of(scene, bodies, inventory))
-        normal_substep_s = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start).substep_s
-        breaking = breaking_of(scene, connections)
+        self._events = Events(world, inventory.pairs, setup.events)
         work = WorkAccumulator(
             inventory.masses_kg,
-            np.array([body.rigid_body.linear_damping for body in bodies]),
-            np.array([body.rigid_body.angular_damping for body in bodies]),
-            np.array(scene.gravity, float),
+            np.array(setup.bodies.rigid["linear_damping"]),
+            np.array(setup.bodies.rigid["angular_damping"]),
+            setup.gravity_m_s2,
             _motion(world.bodies),
         )
         self._substeps = SubstepRecorder(
@@ -91,12 +81,12 @@ class BulletReader:
             breaking,
             self._events,
             blast,
-            Loads(world, placed_loads_of(scene, bodies, inventory)),
-            normal_substep_s,
+            Loads(world, setup.placed_loads),
+            setup.time.step.substep_s,
             work,
             elastic,
-            self._member_sections(connections) if elastic and breaking.strength else None,
-            self._ground_drive(bodies),
+            self._member_sections(setup.elasticity.thicknesses_m) if elastic and breaking.strength else None,
+            self._ground_drive(setup),
             every_substep=every_substep,
             loads=loads,
         )
@@ -113,27 +103,25 @@ class BulletReader:
         """Read nothing any more; what is still worked out is waited for."""
         self._substeps.close()
 
-    def _elastic_connections(
-        self, bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]
-    ) -> ElasticConnections | None:
+    def _elastic_connections(self, setup: RunSetup) -> ElasticConnections | None:
         """Return the connections, None where Bullet's memory does not let them be elastic."""
-        stiffness, ratio = stiffness_of(connections), damping_ratio_of(self._scene)
-        soil = soil_of(connections)
+        bodies, soil = setup.bodies.objects, setup.soil
+        stiffness, ratio = setup.elasticity.stiffness, setup.elasticity.damping_ratio
         try:
             return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, soil)
         except LayoutError as error:
             self.rigid_because = error
             return None
 
-    def _ground_drive(self, bodies: Sequence[bpy.types.Object]) -> GroundDrive | None:
+    def _ground_drive(self, setup: RunSetup) -> GroundDrive | None:
         """Return what moves the ground, None where it rests."""
-        motion = ground_motion_of(self._scene)
-        if motion is None:
+        if setup.ground_motion is None:
             return None
         moves = (self._inventory.body_kinds == "shard") & (self._inventory.masses_kg > 0.0)
-        return GroundDrive(self._world, rows_on_moving_ground(bodies), np.flatnonzero(moves), motion)
+        rows = rows_on_moving_ground(setup.bodies.objects)
+        return GroundDrive(self._world, rows, np.flatnonzero(moves), setup.ground_motion)
 
-    def _member_sections(self, connections: Sequence[bpy.types.Object]) -> MemberSections:
+    def _member_sections(self, thicknesses_m: np.ndarray) -> MemberSections:
         """Return the sections across members, as they were built, that connections are judged by."""
         inventory = self._inventory
         return MemberSections(
@@ -141,7 +129,7 @@ class BulletReader:
             self._built_positions_m,
             inventory.moves,
             kinds_of(inventory.body_members[inventory.pairs]),
-            thicknesses_of(connections),
+            thicknesses_m,
         )
 
     @property

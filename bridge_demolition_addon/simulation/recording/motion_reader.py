@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import bpy
 import numpy as np
@@ -12,11 +13,38 @@ from ...engineering.geometry.rotations import rotation_vectors
 from ...engineering.geometry.vectors import length
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator
 from ...engineering.mechanics.work import FrameWork
+from ...errors import LayoutError, SimulationError
 from ...model.results.frames import Frame
 from ...model.results.inventory import Inventory
+from ...scene.run_setup import RunSetup
 from ...scene.time_scale import time_step_at
 
 READING = "change of momentum between frames"
+
+_NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
+    (lambda setup: setup.start_motion.any(), "velocities to begin with need", "take them out of the scenario"),
+    (lambda setup: setup.loads, "loads need", "take them out of the scenario"),
+    (lambda setup: setup.ground_motion, "a ground that moves needs", "take ground_motion out of the scenario"),
+    (lambda setup: setup.changes, "removals, saw cuts and weakenings need", "take them out of the scenario"),
+)
+"""What of a run needs Blender's memory, and what to do without it."""
+
+
+def check_motion_is_enough(setup: RunSetup, distrust: LayoutError, *, contacts: bool) -> None:
+    """Refuse a run that needs more than the motion of its bodies.
+
+    Raises
+    ------
+    SimulationError
+        It does, and Blender's memory cannot be read for this reason.
+    """
+    needs = [(subject, remedy) for is_needed, subject, remedy in _NEED_MEMORY if is_needed(setup)]
+    if contacts:
+        needs.append(("contacts need", "switch recording.contacts off in the scenario"))
+    for subject, remedy in needs:
+        raise SimulationError(
+            f"{subject} Blender's memory, which is not as expected ({distrust}): {remedy}, or run it in another Blender"
+        )
 
 
 class MomentumReader:

@@ -24,6 +24,10 @@ def check_recordable(scene: bpy.types.Scene) -> None:
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} has no bodies: build a demolition first")
     if not scene.rigidbody_world.enabled:
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
+    if scene.rigidbody_world.point_cache.is_baked:
+        raise SimulationError(
+            f"the simulation of scene {scene.name!r} is baked and only played back: delete the bake first"
+        )
     if scene.rigidbody_world.time_scale == 0.0:
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} has a speed of 0: set it to 1 first")
     unit_scale = scene.unit_settings.scale_length

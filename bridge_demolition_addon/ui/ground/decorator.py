@@ -18,8 +18,8 @@ from ...engineering.geometry.plan_areas import outlines
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of
 from ...scene.bodies import Kind, kind_of
-from ...scene.demolition import FIRST_STEP_FRAME
 from ...scene.time_scale import simulated_time_s
+from ...scene.world import FIRST_STEP_FRAME
 from ..labels import write_at
 from ..scenario.built import shown_site
 from ..view_drawing import ViewDrawing

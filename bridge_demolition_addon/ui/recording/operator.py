@@ -20,8 +20,9 @@ from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
 from ...model.sequence.rest import Rest
 from ...model.sequence.undisturbed import self_collapse_text
-from ...scene.as_run import scenario_as_run
-from ...scene.made_by_hand import made_by_hand
+from ...scene.as_built import manual_edits
+from ...scene.effective_scenario import effective_scenario
+from ...scene.run_setup import run_setup_of
 from ...scene.world import start_over
 from ...simulation.blender_events import running_recording, shown_results, start_recording, stop_recording
 from ...simulation.display.pictures import show_charges
@@ -150,8 +151,9 @@ def _as_run(scene: bpy.types.Scene) -> tuple[Scenario | None, list[str]]:
     to_run = scenario_to_run(scene.bda)
     if to_run is None:
         return None, []
-    scenario, unsaid = scenario_as_run(scene, to_run)
-    return scenario, [*unsaid, *made_by_hand(scene)]
+    setup = run_setup_of(scene)
+    scenario, unsaid = effective_scenario(setup, to_run)
+    return scenario, [*unsaid, *manual_edits(scene, setup)]
 
 
 def _let_go_of(folder: Path, scene: bpy.types.Scene) -> None:

@@ -7,9 +7,9 @@ from ...display.camera_targets import points_to_see
 from ...model.scenario import Scenario
 from ...model.scenario.file import read_scenario, scenario_text
 from ...model.sequence.checked_model import checked_model
+from ...scene.as_built import keep_as_built
 from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
-from ...scene.made_by_hand import keep_as_built
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...scene.rendering.staging import stage
 from ...simulation.blender_events import shown_results

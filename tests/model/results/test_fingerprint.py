@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.sample_results import changed, hanging_chain
 
-from bridge_demolition_addon.model.results.fingerprint import built_digest, digest, result_digest
+from bridge_demolition_addon.model.results.fingerprint import digest, known_parts, result_digest
 
 
 def test_a_digest_is_the_sha_256_of_names_shapes_and_bytes():
@@ -40,12 +40,12 @@ def test_one_bit_of_one_vertex_or_threshold_is_another_model():
     vertices[3, 1] = np.nextafter(vertices[3, 1], np.inf)
     other = changed(hanging_chain(), vertices_m=vertices).inventory
     digests = {
-        built_digest(inventory, thresholds_ns=[5.0, 5.0]),
-        built_digest(other, thresholds_ns=[5.0, 5.0]),
-        built_digest(inventory, thresholds_ns=[5.0, np.nextafter(5.0, 6.0)]),
+        digest(known_parts(inventory) | {"thresholds_ns": [5.0, 5.0]}),
+        digest(known_parts(other) | {"thresholds_ns": [5.0, 5.0]}),
+        digest(known_parts(inventory) | {"thresholds_ns": [5.0, np.nextafter(5.0, 6.0)]}),
     }
     assert len(digests) == 3
-    assert built_digest(inventory, thresholds_ns=[5.0, 5.0]) in digests
+    assert digest(known_parts(inventory) | {"thresholds_ns": [5.0, 5.0]}) in digests
 
 
 def test_results_differ_in_the_last_bit_of_a_load():

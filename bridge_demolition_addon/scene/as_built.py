@@ -1,0 +1,145 @@
+"""What a scene was built as, kept with it, and what was changed by hand since."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import bpy
+import numpy as np
+
+from ..engineering.geometry.vectors import length
+from ..errors import SimulationError
+from ..model.scenario.kept import values_from_text, values_text
+from .bodies import Kind
+from .body_settings import BodySettings, body_settings_of
+from .run_setup import RunSetup, run_setup_of
+
+_AS_BUILT = "bda_as_built"
+_BODIES = "bda_built_bodies"
+
+_SAME_M = 1e-3
+"""How far a body may be from where it was built: Blender has positions in single precision."""
+
+_SAME_ROTATION = 1e-3
+_LEAST_RUBBLE = 3
+_RUBBLE_SHARE = 0.1
+"""A person moves a few shards, or many alike. From so many on that lie each in its own way, it was a simulation."""
+
+
+def keep_as_built(scene: bpy.types.Scene) -> None:
+    """Remember a scene as it has just been built."""
+    scene[_AS_BUILT] = values_text(run_setup_of(scene).compared())
+
+
+def manual_edits(scene: bpy.types.Scene, setup: RunSetup) -> list[str]:
+    """Return what is no longer as it was built, in a few words each; nothing where that is not known."""
+    before = values_from_text(scene.get(_AS_BUILT, ""), {})
+    return [text for text, digest in setup.compared().items() if before.get(text, digest) != digest]
+
+
+def keep_built_bodies(scene: bpy.types.Scene) -> None:
+    """Remember which bodies were built, and where."""
+    bodies = body_settings_of(scene)
+    kept: dict[str, dict[str, list[float]]] = {kind.value: {} for kind in Kind}
+    for name, kind, place in zip(bodies.names, bodies.kinds, bodies.own_matrices[:, :3, 3].tolist(), strict=True):
+        kept[kind.value][name] = place
+    scene[_BODIES] = values_text(kept)
+
+
+def forget_built_bodies(scene: bpy.types.Scene) -> None:
+    """Forget what was built, as it is removed."""
+    if _BODIES in scene:
+        del scene[_BODIES]
+
+
+def changed_bodies(scene: bpy.types.Scene) -> list[str]:
+    """Return in sentences which bodies are missing, were added or moved since a scene was built.
+
+    Raises
+    ------
+    SimulationError
+        Its shards lie where a simulation left them.
+    """
+    kept = values_from_text(scene.get(_BODIES, ""), {})
+    bodies = body_settings_of(scene)
+    built = {name: np.array(place) for places in kept.values() for name, place in places.items()}
+    if built.keys().isdisjoint(bodies.names):  # another demolition, or none that was built here
+        return []
+    return [*_missing(kept, bodies), *_added(built, bodies), *_moved(scene, built, bodies)]
+
+
+def _missing(kept: dict[str, dict[str, list[float]]], bodies: BodySettings) -> Iterator[str]:
+    there = set(bodies.names)
+    for kind, built in kept.items():
+        missing = [name for name in built if name not in there]
+        if kind == Kind.SHARD and missing:
+            yield f"{_count(missing, 'shard')} missing, such as {missing[0]!r}"
+        elif kind != Kind.SHARD and len(bodies.of_kind(Kind(kind))) < len(built):
+            yield f"the {kind} of the scenario is missing: {', '.join(map(repr, missing))}"
+
+
+def _added(built: dict[str, np.ndarray], bodies: BodySettings) -> Iterator[str]:
+    added = [name for name in bodies.names if name not in built]
+    if added:
+        yield f"{_count(added, 'body', 'bodies')} added, such as {added[0]!r}"
+
+
+def _moved(scene: bpy.types.Scene, built: dict[str, np.ndarray], bodies: BodySettings) -> Iterator[str]:
+    rows = [row for row in _free_shards(bodies) if bodies.names[row] in built]
+    if not rows:
+        return
+    places = np.array([built[bodies.names[row]] for row in rows])
+    away_m = length(bodies.own_matrices[rows, :3, 3] - places)
+    moved = np.flatnonzero(away_m > _SAME_M)
+    if not len(moved):
+        return
+    farthest = int(away_m.argmax())
+    example = f"such as {bodies.names[rows[farthest]]!r} by {away_m[farthest]:.2g} m"
+    rotations = bodies.own_matrices[np.array(rows)[moved], :3, :3]
+    like_rubble = np.abs(rotations - rotations[0]).max() > _SAME_ROTATION
+    if like_rubble and len(moved) >= max(_LEAST_RUBBLE, _RUBBLE_SHARE * len(rows)):
+        raise SimulationError(
+            f"scene {scene.name!r} begins with rubble: {len(moved)} of {len(rows)} shards are not where they were "
+            f"built, {example}; undo what moved them, or build the scenario anew"
+        )
+    yield f"{_count(moved, 'shard')} moved, {example}"
+
+
+def check_start(setup: RunSetup, positions_m: np.ndarray) -> None:
+    """See that a simulation begins where the bodies of its scene are.
+
+    Parameters
+    ----------
+    setup
+        What is simulated.
+    positions_m : (n, 3) float
+        Where the simulation has its bodies before any time has passed.
+
+    Raises
+    ------
+    SimulationError
+        It begins with shards elsewhere.
+    """
+    bodies = setup.bodies
+    rows = _free_shards(bodies)
+    away_m = length(positions_m[rows] - bodies.own_matrices[rows, :3, 3])
+    moved = np.flatnonzero(away_m > _SAME_M * np.maximum(1.0, length(positions_m[rows]) * _SAME_M))
+    if len(moved):
+        farthest = int(away_m.argmax())
+        raise SimulationError(
+            f"the simulation begins with {len(moved)} of {len(rows)} shards elsewhere than the scene has them, such as "
+            f"{bodies.names[rows[farthest]]!r} by {away_m[farthest]:.2g} m: go to the start frame and run again, or "
+            "build the scenario anew"
+        )
+
+
+def _free_shards(bodies: BodySettings) -> list[int]:
+    """Return the rows of shards that nothing but their own location places."""
+    rows = bodies.of_kind(Kind.SHARD)
+    is_held = [bool(each.parent or len(each.constraints)) for each in bodies.objects]
+    return [row for row in rows if not (bodies.is_animated[row] or is_held[row])]
+
+
+def _count(items: Sequence[object] | np.ndarray, one: str, many: str = "") -> str:
+    count = len(items)
+    return f"1 {one} is" if count == 1 else f"{count} {many or one + 's'} are"

@@ -1,0 +1,70 @@
+"""Connections as Blender simulates them: between which bodies, of which kind, and when they break."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .breaking_thresholds import kept_breaking_force
+from .constraints import connections_of
+
+_CONSTRAINT = ("type", "enabled", "use_breaking", "breaking_threshold", "disable_collisions")
+"""Blender's properties of a constraint that decide how it holds."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ConstraintSettings:
+    """The m connections of a scene's rigid-body world.
+
+    Attributes
+    ----------
+    objects, names : sequence of length m
+    bodies : sequence of (str, str)
+        Names of the two bodies that each holds together, empty for one that it lacks.
+    positions_m : (m, 3) float
+    constraint : mapping of str to list
+        Properties of its constraint by Blender's names.
+    iterations : (m,) int
+        Iterations of the solver that it has of its own, 0 for none.
+    breaking_forces_n : list of float or None
+        The force that each breaks at, where one is kept.
+    """
+
+    objects: tuple[bpy.types.Object, ...]
+    names: tuple[str, ...]
+    bodies: Sequence[tuple[str, str]]
+    positions_m: np.ndarray
+    constraint: Mapping[str, Sequence[Any]]
+    iterations: Sequence[int]
+    breaking_forces_n: Sequence[float | None]
+
+    def __len__(self) -> int:
+        return len(self.objects)
+
+    def breaks_at(self) -> list[float]:
+        """Return the force, N, of each, or an impulse with a minus sign where no force is kept, N·s."""
+        thresholds = self.constraint["breaking_threshold"]
+        return [-own if kept is None else kept for kept, own in zip(self.breaking_forces_n, thresholds, strict=True)]
+
+
+def constraint_settings_of(scene: bpy.types.Scene) -> ConstraintSettings:
+    """Read the connections of a scene."""
+    connections = connections_of(scene)
+    constraints = [each.rigid_body_constraint for each in connections]
+    return ConstraintSettings(
+        objects=tuple(connections),
+        names=tuple(each.name for each in connections),
+        bodies=[(_name(each.object1), _name(each.object2)) for each in constraints],
+        positions_m=np.array([each.matrix_basis.translation for each in connections], float),
+        constraint={name: [getattr(each, name) for each in constraints] for name in _CONSTRAINT},
+        iterations=[each.solver_iterations if each.use_override_solver_iterations else 0 for each in constraints],
+        breaking_forces_n=[kept_breaking_force(each) for each in connections],
+    )
+
+
+def _name(body: bpy.types.Object | None) -> str:
+    return body.name if body else ""

@@ -1,0 +1,152 @@
+"""The scenario that a scene stands for now, with all that was changed in Blender since it was built."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engineering.single_precision import as_given
+from ..errors import ScenarioError
+from ..model.scenario import Ground, Scenario
+from ..model.schema import Table
+from .bodies import Kind
+from .body_settings import BodySettings
+from .world import START_FRAME
+
+if TYPE_CHECKING:
+    from .run_setup import RunSetup
+
+_DEFAULT_MARGIN_M = 0.04
+"""Collision margin of a body for which none is set (Bullet's CONVEX_DISTANCE_MARGIN)."""
+
+_GROUND = {"friction": "friction", "restitution": "restitution"}
+_BALL = {**_GROUND, "mass_kg": "mass", "angular_damping": "angular_damping"}
+_SHARDS = {
+    **_GROUND,
+    "linear_damping": "linear_damping",
+    "angular_damping": "angular_damping",
+    "use_deactivation": "use_deactivation",
+    "start_deactivated": "use_start_deactivated",
+    "deactivation_linear_velocity_m_s": "deactivate_linear_velocity",
+    "deactivation_angular_velocity_rad_s": "deactivate_angular_velocity",
+}
+"""Keys of a scenario, and Blender's properties of rigid bodies that they set."""
+
+
+def effective_scenario(setup: RunSetup, built: Scenario) -> tuple[Scenario, list[str]]:
+    """Return what a scene that was built from a scenario runs, and in sentences what of it no scenario can say."""
+    scenario, unsaid = built, []
+    for write in setup.writers():
+        try:
+            scenario = write(setup, scenario)
+        except ScenarioError as error:
+            unsaid.append(str(error))
+    return scenario, unsaid
+
+
+def with_bodies(setup: RunSetup, scenario: Scenario) -> Scenario:
+    """Take over mass and surface of ground, ball and shards; of shards what all of them have."""
+    try:
+        return _with_bodies(setup.bodies, scenario)
+    except ScenarioError as error:
+        raise ScenarioError(f"settings of bodies that no scenario can have ({error})") from error
+
+
+def _with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
+    rows = {kind: [row for row in bodies.of_kind(kind) if bodies.is_marked[row]] for kind in Kind}
+    shards = _common(bodies, rows[Kind.SHARD], _SHARDS.items(), scenario.shards)
+    own = zip(bodies.rigid["use_margin"], bodies.rigid["collision_margin"], strict=True)
+    margins = [margin if is_used else _DEFAULT_MARGIN_M for is_used, margin in own]
+    if len(common := {margins[row] for row in rows[Kind.SHARD]}) == 1:
+        shards |= _read({"collision_margin_m": common.pop()}, scenario.shards)
+    if not shards.get("use_deactivation", True):
+        shards["start_deactivated"] = False  # which Blender ignores there
+    scenario = replace(scenario, shards=_replaced(scenario.shards, shards))
+    scenario = replace(scenario, ground=_with_surfaces(bodies, rows[Kind.GROUND], scenario.ground))
+    if scenario.ball is None:
+        return scenario
+    ball = _common(bodies, rows[Kind.BALL], _BALL.items(), scenario.ball)
+    return replace(scenario, ball=_replaced(scenario.ball, ball))
+
+
+def _with_surfaces(bodies: BodySettings, rows: Sequence[int], ground: Ground) -> Ground:
+    """Take over the surface of the ground, and of each surface on it."""
+    named: dict[str, list[int]] = {}
+    for row in rows:
+        named.setdefault(bodies.members[row], []).append(row)
+    surfaces = tuple(
+        _replaced(surface, _common(bodies, named.get(surface.name, ()), _GROUND.items(), surface))
+        for surface in ground.surfaces
+    )
+    ground = _replaced(ground, _common(bodies, named.get("", ()), _GROUND.items(), ground))
+    return ground if surfaces == ground.surfaces else replace(ground, surfaces=surfaces)
+
+
+def with_time_step(setup: RunSetup, scenario: Scenario) -> Scenario:
+    """Take over frame rate, sub-steps, solver and speed. What is animated keeps its frames, and its times change."""
+    try:
+        return _with_time_step(setup, scenario)
+    except ScenarioError as error:
+        text = "frames of another length than what is planned and animated allows"
+        raise ScenarioError(f"{text} ({error})") from error
+
+
+def _with_time_step(setup: RunSetup, scenario: Scenario) -> Scenario:
+    time = _replaced(scenario.time, _read(setup.time.settings, scenario.time))
+    factor = time.step.frame_s / scenario.time.step.frame_s
+    if time == scenario.time:
+        return scenario
+    if factor == 1.0:
+        return replace(scenario, time=time)
+    if setup.time.is_animated:
+        raise ScenarioError("slow motion was animated for frames of another length")
+    time = replace(time, duration_s=scenario.time.duration_s * factor)
+    return replace(scenario, time=time, **scenario.actions_scaled_in_time(factor))
+
+
+def with_duration(setup: RunSetup, scenario: Scenario) -> Scenario:
+    """Take over the last frame."""
+    lengths = setup.time.frame_lengths_s
+    if len(lengths) == len(scenario.timeline):
+        return scenario
+    try:
+        return replace(scenario, time=replace(scenario.time, duration_s=float(lengths.sum())))
+    except ScenarioError as error:
+        text = f"the last frame, {setup.time.last_frame}, which is before all that is planned"
+        raise ScenarioError(f"{text} ({error})") from error
+
+
+def with_speed(setup: RunSetup, scenario: Scenario) -> Scenario:
+    """Refuse frames that are not as long as planned, as far as they are played; Blender has single precision."""
+    lengths, planned = setup.time.frame_lengths_s, scenario.timeline.frame_lengths_s
+    count = min(len(lengths), len(planned))
+    if not np.allclose(lengths[:count], planned[:count], rtol=1e-6, atol=0.0):
+        raise ScenarioError("the speed of the simulation, which is animated")
+    return scenario
+
+
+def with_first_frame(setup: RunSetup, scenario: Scenario) -> Scenario:
+    """Refuse another start frame than that of all that is built."""
+    if setup.time.start_frame != START_FRAME:
+        raise ScenarioError(f"the first frame, {setup.time.start_frame}")
+    return scenario
+
+
+def _common(
+    bodies: BodySettings, rows: Sequence[int], names: Iterable[tuple[str, str]], given: Table
+) -> dict[str, Any]:
+    """Return the values that all of some bodies have in common, by the keys of their table."""
+    values = {key: bodies.common(name, rows) for key, name in names}
+    return _read({key: common[0] for key, common in values.items() if len(common) == 1}, given)
+
+
+def _read(values: Mapping[str, Any], given: Table) -> dict[str, Any]:
+    """Return values as Blender holds them in the decimals that the table was given, where it holds just those."""
+    return {name: as_given(value, getattr(given, name)) for name, value in values.items()}
+
+
+def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
+    return replace(table, **values) if any(getattr(table, name) != value for name, value in values.items()) else table

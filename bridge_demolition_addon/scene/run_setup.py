@@ -1,0 +1,415 @@
+"""All that decides a run, read from its scene once.
+
+What decides a run is a field of `RunSetup`. Each says what of it goes into the digest of what was built, what is
+compared with the scene as it was built, and how a scenario says it, or in a sentence why not. The digest, manual edits,
+the scenario of a run and its recording follow from the fields.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import astuple, dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..engineering.foundations.footings import SoilSprings
+from ..engineering.geometry.hulls import ConvexHulls, convex_hulls
+from ..engineering.geometry.vectors import transformed
+from ..model.blast.charges import Charge
+from ..model.blast.explosion import Explosion
+from ..model.blast.settings import BlastSettings
+from ..model.results.fingerprint import digest, known_parts
+from ..model.results.inventory import Inventory
+from ..model.scenario import Change, Load, Scenario
+from ..model.sequence.events import Event, Structure, recorded_structure, schedule
+from ..model.sequence.loads import PlacedLoad, placed_loads
+from .blast.charges import charges_of
+from .blast.settings import blast_of
+from .bodies import Kind
+from .body_settings import BodySettings, body_settings_of
+from .connections.breaking_settings import Breaking, breaking_of
+from .connections.constraint_settings import ConstraintSettings, constraint_settings_of
+from .connections.elasticity import ConnectionElasticity, elasticity_of
+from .connections.soil import soil_of
+from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
+from .inventory import take_inventory
+from .start_motion import start_motion_of
+from .structural_changes import changes_of, loads_of
+from .time_scale import TimeOfScene, time_of
+from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
+
+Parts = Mapping[str, Any]
+"""Arrays, numbers and texts by names, as `digest` takes them."""
+
+Writer = Callable[["RunSetup", Scenario], Scenario]
+"""Returns a scenario that says what a setup has; raises `ScenarioError` with what no scenario can say."""
+
+_ALWAYS_S = 1e6
+"""After this time every pulse of a blast is over."""
+
+_NOT_IN_DIGEST = "fingerprints of earlier runs do not have it"
+_NO_KEY = "a scenario has no key for it"
+_SAME_KEY = "the scenario that was built says it"
+_BY_KEY = "the scenario of the run says it"
+
+
+def _decides(
+    *,
+    hashed: Callable[[RunSetup], Parts] | str,
+    compared: Mapping[str, Callable[[RunSetup], Parts]] | str,
+    written: Sequence[Writer] | str,
+) -> dict[str, Any]:
+    """Say what follows from a field of `RunSetup`, or in a sentence why nothing does.
+
+    Parameters
+    ----------
+    hashed
+        What of it is in the digest of what was built.
+    compared
+        What of it is compared with the scene as it was built, by what the user is told where it differs.
+    written
+        How it is written into the scenario of a run.
+    """
+    return {"hashed": hashed, "compared": compared, "written": written}
+
+
+def _elastic_parts(setup: RunSetup) -> Parts:
+    elasticity, breaking = setup.elasticity, setup.breaking
+    if elasticity is None:
+        return {}
+    parts = known_parts(elasticity.stiffness)
+    parts |= {"damping_ratio": elasticity.damping_ratio, "thicknesses_m": elasticity.thicknesses_m}
+    return parts | ({"steel": np.array(astuple(breaking.steel))} if breaking.ductility else {})
+
+
+def _soil_parts(setup: RunSetup) -> Parts:
+    """Soil gives under elastic connections alone."""
+    if setup.elasticity is None or setup.soil is None:
+        return {}
+    return {f"soil {name}": values for name, values in known_parts(setup.soil).items()}
+
+
+def _breaking_parts(setup: RunSetup) -> Parts:
+    breaking = setup.breaking
+    strength, ductility = (astuple(each) if each else () for each in (breaking.strength, breaking.ductility))
+    parts = {"strength_pa": np.array(strength, float), "ductility": np.array(ductility, float)}
+    bars = breaking.bars
+    return parts | ({"bars": np.column_stack((bars.yield_n, bars.offsets_m))} if bars else {})
+
+
+def _load_parts(setup: RunSetup) -> Parts:
+    parts: dict[str, Any] = {}
+    for number, placed in enumerate(setup.placed_loads):
+        load = placed.load
+        course = np.array((*load.direction, *load.times_s, *load.forces_n, *(load.point_m or ())))
+        parts |= {f"load {number}": course, f"load {number} bears": np.stack((placed.bodies, placed.shares))}
+    return parts
+
+
+def _ground_motion_parts(setup: RunSetup) -> Parts:
+    motion = setup.ground_motion
+    if motion is None:
+        return {}
+    times = motion.start_s + motion.record.times_s
+    return {"ground_motion": np.column_stack((times, motion.record.accelerations_m_s2))}
+
+
+def _time_parts(setup: RunSetup) -> Parts:
+    step, farthest_m = setup.time.step, setup.time.farthest_per_substep_m
+    return {"step": [step.frame_s, step.substep_s, *([] if farthest_m is None else [farthest_m])]}
+
+
+def _blast_parts(setup: RunSetup) -> Parts:
+    """Return the impulses that all charges together would give to all bodies as they were built."""
+    if not setup.goes_off:
+        return {"blast_impulses_ns": np.zeros(0)}
+    positions_m, rotations = setup.bodies.positions_m, setup.bodies.rotations
+    rows = setup.pushed_rows
+    loads = setup.explosion().loads(0.0, _ALWAYS_S, positions_m[rows], rotations[rows])
+    return {"blast_impulses_ns": replace(loads, bodies=rows[loads.bodies]).vectors(len(setup.bodies))}
+
+
+def _unlike(bodies: BodySettings, name: str) -> list[Any]:
+    """Return a property of all shards where it is not the same for all: a scenario can only say the same."""
+    values = [bodies.rigid[name][row] for row in bodies.of_kind(Kind.SHARD)]
+    return values if len(set(values)) > 1 else []
+
+
+def _shape_parts(setup: RunSetup) -> Parts:
+    bodies = setup.bodies
+    places = bodies.own_matrices[~bodies.is_animated]
+    return {"places": places if len(places) else [], "vertices": bodies.vertex_counts, "boxes": bodies.boxes_m}
+
+
+def _mass_parts(setup: RunSetup) -> Parts:
+    """Return masses without that of the ball, which has a key."""
+    bodies = setup.bodies
+    return {"kg": [kg for kg, kind in zip(bodies.rigid["mass"], bodies.kinds, strict=True) if kind != Kind.BALL]}
+
+
+def _contact_parts(setup: RunSetup) -> Parts:
+    bodies = setup.bodies
+    return {
+        "types": bodies.rigid["type"],
+        "shapes": bodies.rigid["collision_shape"],
+        "enabled": bodies.rigid["enabled"],
+        "layers": bodies.layers,
+        **{name: _unlike(bodies, name) for name in ("friction", "restitution", "linear_damping", "angular_damping")},
+    }
+
+
+def _pair_parts(setup: RunSetup) -> Parts:
+    connections = setup.connections
+    return {
+        "names": connections.names,
+        "places": connections.positions_m,
+        "first": [first for first, _ in connections.bodies],
+        "second": [second for _, second in connections.bodies],
+    }
+
+
+def _joint_parts(setup: RunSetup) -> Parts:
+    connections, breaking, elasticity = setup.connections, setup.breaking, setup.elasticity
+    ratio = elasticity.damping_ratio if elasticity else 0.0
+    return {
+        "types": connections.constraint["type"],
+        "enabled": connections.constraint["enabled"],
+        "breaking": connections.constraint["use_breaking"],
+        "breaking at": connections.breaks_at(),
+        "collisions": connections.constraint["disable_collisions"],
+        "iterations": connections.iterations,
+        "elasticity": [str(elasticity is not None), str(ratio)],
+        "strength": [] if breaking.strength is None else np.broadcast_arrays(*astuple(breaking.strength)),
+        "others": repr(replace(breaking, strength=None)),
+    }
+
+
+def _record_parts(setup: RunSetup) -> Parts:
+    if setup.ground_motion is None:
+        return {}
+    record = setup.ground_motion.record
+    return {"record": np.column_stack((record.times_s, record.accelerations_m_s2))}
+
+
+@dataclass(frozen=True, eq=False)
+class RunSetup:
+    """All that decides a run, as its scene has it.
+
+    Attributes
+    ----------
+    gravity_m_s2, has_gravity : (3,) float, bool
+    bodies, connections : BodySettings, ConstraintSettings
+    inventory : Inventory
+        What of these stays the same throughout a run.
+    breaking : Breaking
+    elasticity : ConnectionElasticity or None
+    start_motion : (n, 6) float
+        Velocities, m/s, and angular velocities, rad/s, with which bodies begin.
+    changes : tuple of Change
+        Removals, saw cuts and weakenings.
+    loads : tuple of Load
+    ground_motion : GroundMotionOfScene or None
+    soil : SoilSprings or None
+        What footings stand on.
+    blast : BlastSettings
+    charges : tuple of Charge
+    time : TimeOfScene
+    """
+
+    gravity_m_s2: np.ndarray = field(
+        metadata=_decides(
+            hashed=_NOT_IN_DIGEST,
+            compared={"gravity": lambda setup: {"m_s2": setup.gravity_m_s2, "used": setup.has_gravity}},
+            written=_NO_KEY,
+        )
+    )
+    has_gravity: bool = field(
+        metadata=_decides(hashed=_NOT_IN_DIGEST, compared="compared with gravity_m_s2", written=_NO_KEY)
+    )
+    bodies: BodySettings = field(
+        metadata=_decides(
+            hashed=lambda setup: {"positions_m": setup.bodies.positions_m, "rotations": setup.bodies.rotations},
+            compared={
+                "which bodies there are": lambda setup: {"names": setup.bodies.names},
+                "places, shapes or sizes of bodies": _shape_parts,
+                "masses of bodies": _mass_parts,
+                "how bodies move and touch": _contact_parts,
+                "animation of bodies": lambda setup: {"keys": setup.bodies.keys},
+            },
+            written=(with_bodies,),
+        )
+    )
+    connections: ConstraintSettings = field(
+        metadata=_decides(
+            hashed=lambda setup: {
+                "thresholds_ns": setup.connections.constraint["breaking_threshold"],
+                "breaks": setup.connections.constraint["use_breaking"],
+            },
+            compared={
+                "which connections there are, and between which bodies": _pair_parts,
+                "kinds and strengths of connections": _joint_parts,
+            },
+            written=_NO_KEY,
+        )
+    )
+    inventory: Inventory = field(
+        metadata=_decides(
+            hashed=lambda setup: known_parts(setup.inventory),
+            compared="compared with bodies and connections",
+            written="written with bodies",
+        )
+    )
+    breaking: Breaking = field(
+        metadata=_decides(hashed=_breaking_parts, compared="compared with connections", written=_SAME_KEY)
+    )
+    elasticity: ConnectionElasticity | None = field(
+        metadata=_decides(hashed=_elastic_parts, compared="compared with connections", written=_SAME_KEY)
+    )
+    start_motion: np.ndarray = field(
+        metadata=_decides(
+            hashed=lambda setup: {"start_motion": setup.start_motion} if setup.start_motion.any() else {},
+            compared={"velocities that bodies begin with": lambda setup: {"start_motion": setup.start_motion}},
+            written=_SAME_KEY,
+        )
+    )
+    changes: tuple[Change, ...] = field(
+        metadata=_decides(
+            hashed=_NOT_IN_DIGEST,
+            compared={"removals, saw cuts and weakenings": lambda setup: {"planned": repr(setup.changes)}},
+            written=_SAME_KEY,
+        )
+    )
+    loads: tuple[Load, ...] = field(
+        metadata=_decides(
+            hashed=_load_parts,
+            compared={"loads": lambda setup: {"planned": repr(setup.loads)}},
+            written=_SAME_KEY,
+        )
+    )
+    ground_motion: GroundMotionOfScene | None = field(
+        metadata=_decides(
+            hashed=_ground_motion_parts, compared={"the motion of the ground": _record_parts}, written=_SAME_KEY
+        )
+    )
+    soil: SoilSprings | None = field(
+        metadata=_decides(
+            hashed=_soil_parts,
+            compared={"soil under footings": lambda setup: known_parts(setup.soil) if setup.soil else {}},
+            written=_SAME_KEY,
+        )
+    )
+    blast: BlastSettings = field(
+        metadata=_decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
+    )
+    charges: tuple[Charge, ...] = field(
+        metadata=_decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
+    )
+    time: TimeOfScene = field(
+        metadata=_decides(
+            hashed=_time_parts,
+            compared=_BY_KEY,
+            written=(with_time_step, with_duration, with_speed, with_first_frame),
+        )
+    )
+
+    @property
+    def digest(self) -> str:
+        """Digest of all that decides what will happen."""
+        parts: dict[str, Any] = {}
+        for hashed in self._metadata("hashed"):
+            parts |= hashed(self)
+        return digest(parts)
+
+    def compared(self) -> dict[str, str]:
+        """Return the digest of all that is compared with the scene as it was built, by what the user is told."""
+        return {
+            text: digest(parts(self)) for compared in self._metadata("compared") for text, parts in compared.items()
+        }
+
+    @classmethod
+    def writers(cls) -> Iterator[Writer]:
+        """Give what writes a setup into a scenario, in this order."""
+        for written in cls._metadata("written"):
+            yield from written
+
+    @classmethod
+    def _metadata(cls, name: str) -> list[Any]:
+        return [item.metadata[name] for item in fields(cls) if not isinstance(item.metadata[name], str)]
+
+    @property
+    def goes_off(self) -> bool:
+        """Whether anything explodes: the explosion is asked for, and some charge has a mass."""
+        return self.blast.explosion and any(charge.mass_kg > 0.0 for charge in self.charges)
+
+    @cached_property
+    def pushed_rows(self) -> np.ndarray:
+        """Rows of the bodies that a blast can push."""
+        return np.flatnonzero(self.inventory.masses_kg > 0.0)
+
+    def explosion(self) -> Explosion:
+        """Return the explosion of all charges on the bodies that it can push, before anything goes off."""
+        return Explosion(self.charges, self._hulls, self.blast)
+
+    @cached_property
+    def _hulls(self) -> ConvexHulls:
+        inventory = self.inventory
+        vertices_m = np.split(inventory.vertices_m, np.cumsum(inventory.vertex_counts)[:-1])
+        rows = self.pushed_rows.tolist()
+        return convex_hulls([vertices_m[row] for row in rows], [self.bodies.names[row] for row in rows])
+
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        """Changes as events on bodies and connections, in order of time."""
+        return schedule(self.changes, self._structure) if self.changes else ()
+
+    @cached_property
+    def placed_loads(self) -> tuple[PlacedLoad, ...]:
+        """Loads on the bodies that carry them."""
+        if not self.loads:
+            return ()
+        bodies = self.bodies
+        corners = transformed(bodies.rotations[:, None], bodies.boxes_m) + bodies.positions_m[:, None]
+        boxes_m = np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
+        return placed_loads(self.loads, self._structure, self.inventory.masses_kg, boxes_m)
+
+    @property
+    def _structure(self) -> Structure:
+        return recorded_structure(self.inventory, self.bodies.positions_m)
+
+
+def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> RunSetup:
+    """Read all that decides a run from its scene.
+
+    Parameters
+    ----------
+    scene
+        With a rigid-body world.
+    with_connections
+        Whether the inventory has connections; a run of which motion alone can be read has none.
+
+    Raises
+    ------
+    BlastError, ScenarioError, SimulationError
+        What the scene keeps was edited to something that cannot be, or a connection lacks a body.
+    """
+    bodies, connections = body_settings_of(scene), constraint_settings_of(scene)
+    return RunSetup(
+        gravity_m_s2=np.array(scene.gravity, float),
+        has_gravity=scene.use_gravity,
+        bodies=bodies,
+        connections=connections,
+        inventory=take_inventory(bodies.objects, connections.objects if with_connections else ()),
+        breaking=breaking_of(scene, connections.objects),
+        elasticity=elasticity_of(scene, connections.objects),
+        start_motion=np.column_stack(start_motion_of(bodies.objects)),
+        changes=changes_of(scene),
+        loads=loads_of(scene),
+        ground_motion=ground_motion_of(scene),
+        soil=soil_of(connections.objects),
+        blast=blast_of(scene),
+        charges=charges_of(scene),
+        time=time_of(scene),
+    )
