@@ -1,4 +1,4 @@
-"""Lines on the ground and in the air of a view: zones, rings, places, ways, flashes."""
+"""Lines on the ground and in the air of a view: zones, rings, ways, flashes; and how likely debris is where."""
 
 from __future__ import annotations
 
@@ -8,20 +8,28 @@ from collections.abc import Sequence
 import numpy as np
 from manifold3d import CrossSection
 
+from ..engineering.geometry.plan_areas import outlines
 from ..engineering.geometry.proximity import ranges
 from ..engineering.geometry.vectors import length
+from ..engineering.statistics.probability_map import ProbabilityMap
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.debris.exclusion import ExclusionZone, widened, widened_around
 from ..model.scenario import Exclusion, Zone
-from .study_map import outline_lines
+from .colour_scale import ColourMap, colours
 
 FLASH_S = 0.25
 """How long a flash is seen; the light of a detonation itself lasts some milliseconds, less than a frame."""
 
 _FADING_S = 0.08
 _ABOVE_M = 0.02
+"""Height above the ground of all that is drawn, so that it is not half hidden in it."""
 _RAYS = 8
 _DRAPED_M = 2.0
+
+COLOUR_MAP = ColourMap.VIRIDIS
+OPACITY = 0.6
+
+_TWO_TRIANGLES = (0, 1, 2, 0, 2, 3)
 
 
 def zone_lines(zone: Zone) -> np.ndarray:
@@ -96,3 +104,28 @@ def flash_lines(place_m: Sequence[float], radius_m: float) -> np.ndarray:
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
     place = np.asarray(place_m, float)
     return np.stack((place + 0.15 * radius_m * rays, place + radius_m * rays), axis=1).reshape(-1, 3)
+
+
+def map_triangles(map_of_hits: ProbabilityMap) -> tuple[np.ndarray, np.ndarray]:
+    """Return triangles (6 k, 3) float, m, and colours (6 k, 4) at their corners, for the k cells that any run hit.
+
+    The colour is by the share of the runs that hit the cell, from 0 to 1.
+    """
+    rows, columns = np.nonzero(map_of_hits.hits)
+    xs, ys = map_of_hits.cells.xs_m, map_of_hits.cells.ys_m
+    left, right, low, high = xs[columns], xs[columns + 1], ys[rows], ys[rows + 1]
+    heights = np.full(len(rows), _ABOVE_M)
+    corners = np.stack(
+        [np.column_stack([x, y, heights]) for x, y in ((left, low), (right, low), (right, high), (left, high))], axis=1
+    )
+    screen = np.column_stack((colours(COLOUR_MAP, map_of_hits.shares[rows, columns]), np.full(len(rows), OPACITY)))
+    return corners[:, _TWO_TRIANGLES].reshape(-1, 3), np.repeat(screen, len(_TWO_TRIANGLES), axis=0)
+
+
+def outline_lines(area: CrossSection) -> np.ndarray:
+    """Return the outlines of an area as lines (2 k, 3) float, m, from corner to corner."""
+    lines = [np.zeros((0, 2, 2))]
+    for ring in outlines(area):
+        lines.append(np.stack((ring, np.roll(ring, -1, axis=0)), axis=1))
+    flat = np.concatenate(lines).reshape(-1, 2)
+    return np.column_stack((flat, np.full(len(flat), _ABOVE_M)))

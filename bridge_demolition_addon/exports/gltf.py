@@ -12,8 +12,7 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh
 from ..model.results.arrays import Results
 from ..system.progress import Progress
-from .colours import colour_of, coloured_by
-from .shapes import body_meshes, needed_keys, quaternions
+from .shapes import body_meshes, colour_of, coloured_by, needed_keys, quaternions
 
 _MAGIC, _VERSION, _JSON, _BINARY = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
 _FLOAT, _INTEGER = 5126, 5125

@@ -11,8 +11,7 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import MissingLibraryError
 from ..model.results.arrays import Results
-from .colours import colour_of, coloured_by
-from .shapes import body_meshes, needed_keys, quaternions
+from .shapes import body_meshes, colour_of, coloured_by, needed_keys, quaternions
 
 _ROOT = "/Run"
 _FRAMES_PER_SECOND = 24.0

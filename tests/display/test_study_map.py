@@ -5,7 +5,7 @@ import pytest
 from manifold3d import CrossSection
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours
-from bridge_demolition_addon.display.study_map import OPACITY, map_triangles, outline_lines
+from bridge_demolition_addon.display.ground_lines import OPACITY, map_triangles, outline_lines
 from bridge_demolition_addon.engineering.statistics.probability_map import probability_map
 
 SQUARE = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)])

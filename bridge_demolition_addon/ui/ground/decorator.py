@@ -12,8 +12,7 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...display.ground_lines import cross_lines, draped, flash_lines, flash_share, way_lines, zone_lines
-from ...display.study_map import outline_lines
+from ...display.ground_lines import cross_lines, draped, flash_lines, flash_share, outline_lines, way_lines, zone_lines
 from ...engineering.geometry.plan_areas import outlines
 from ...scene.blast.charges import charges_of
 from ...scene.blast.settings import blast_of

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...display.study_map import map_triangles, outline_lines
+from ...display.ground_lines import map_triangles, outline_lines
 from ...errors import DemolitionError, text_of
 from ...model.study.conclusions import sentences
 from ...model.study.file import Study
