@@ -51,5 +51,6 @@ class ContourError(DemolitionError):
 
 def text_of(error: Exception) -> str:
     """Return what an error says: of the system's, which file and why, without its number."""
-    named = isinstance(error, OSError) and error.filename is not None and error.strerror
-    return f"{error.filename}: {error.strerror}" if named else str(error)
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)

@@ -1,5 +1,6 @@
 """Types of arrays, by what they hold."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -8,3 +9,6 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.integer[Any]]
 BoolArray = npt.NDArray[np.bool_]
+
+Rows = Sequence[int] | IntArray
+"""Numbers of rows, such as of some bodies."""

@@ -56,8 +56,7 @@ def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
         whole = Path(name) / "bridge"
         (whole / MESH_FOLDER).mkdir(parents=True)
         for file, mesh in bridge.meshes.items():
-            content = exported(mesh, ".obj")
-            (whole / file).write_bytes(content.encode() if isinstance(content, str) else content)
+            (whole / file).write_bytes(exported(mesh, ".obj"))
         (whole / SCENARIO_FILE).write_text(tables_text(bridge.scenario, defaults=False), encoding="utf-8")
         lines = list(_report(bridge, _cut_off(whole)))
         write_whole_text(whole / ELEMENTS_FILE, _table(bridge), newline="")

@@ -11,12 +11,15 @@ from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache
 from numbers import Integral, Real
 from types import NoneType
-from typing import Any, ClassVar, get_args, get_origin
+from typing import Any, ClassVar, TypeVar, get_args, get_origin
 from unicodedata import category
 
 import numpy as np
 
 from ..errors import ScenarioError
+
+_Value = TypeVar("_Value")
+_Table = TypeVar("_Table", bound="Table")
 
 Scalar = bool | int | float | str
 """Type of a value that may be any of these."""
@@ -117,6 +120,7 @@ class Table:
     """
 
     __slots__ = ()
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     table: ClassVar[str]
 
     def __post_init__(self) -> None:
@@ -132,10 +136,18 @@ class Table:
         return ScenarioError(f"{self.table}.{name} is {shown(getattr(self, name))}: expected {wanted}")
 
 
-def numbered_tables(table_class: type[Table], given: Iterable[Any], make: Callable[[Any], Table]) -> tuple[Table, ...]:
+def given(value: _Value | None) -> _Value:
+    """Return a value that may be missing elsewhere; the check of its table has made sure that it is there."""
+    assert value is not None
+    return value
+
+
+def numbered_tables(
+    table_class: type[Table], values: Iterable[_Value], make: Callable[[_Value], _Table]
+) -> tuple[_Table, ...]:
     """Make the tables of a list; an error gives the number of the table that it is about."""
     tables = []
-    for number, each in enumerate(given, start=1):
+    for number, each in enumerate(values, start=1):
         try:
             tables.append(make(each))
         except ScenarioError as error:
@@ -143,58 +155,58 @@ def numbered_tables(table_class: type[Table], given: Iterable[Any], make: Callab
     return tuple(tables)
 
 
-def key_fields(table_class: type[Table]) -> Iterator[Field]:
+def key_fields(table_class: type[Table]) -> Iterator[Field[Any]]:
     """Return the fields of a table that hold plain values."""
     return (item for item in fields(table_class) if subtable_class(item) is None)
 
 
-def subtable_fields(table_class: type[Table]) -> Iterator[Field]:
+def subtable_fields(table_class: type[Table]) -> Iterator[Field[Any]]:
     """Return the fields of a table that hold tables."""
     return (item for item in fields(table_class) if subtable_class(item) is not None)
 
 
-def key_name(table_class: type[Table], item: Field) -> str:
+def key_name(table_class: type[Table], item: Field[Any]) -> str:
     """Return the name of a key or table as it stands in a scenario, such as ``bridge.deck.width_m``."""
     inner = subtable_class(item)
     return inner.table if inner else f"{table_class.table}.{item.name}"
 
 
-def key_of(item: Field) -> Key:
+def key_of(item: Field[Any]) -> Key:
     """Return what `key` was given for a field that holds a plain value."""
     return item.metadata["key"]
 
 
-def is_required(item: Field) -> bool:
+def is_required(item: Field[Any]) -> bool:
     """Return whether a scenario has to name this key or table."""
     return item.default is MISSING and item.default_factory is MISSING
 
 
 @cache
-def is_optional(item: Field) -> bool:
+def is_optional(item: Field[Any]) -> bool:
     """Return whether the value may be None, which leaves a key or table out."""
     return NoneType in get_args(item.type)
 
 
 @cache
-def value_type(item: Field) -> Any:
+def value_type(item: Field[Any]) -> Any:
     """Return the type of a field's value where it is given: ``float`` for ``float | None``."""
     return next(kind for kind in get_args(item.type) if kind is not NoneType) if is_optional(item) else item.type
 
 
 @cache
-def holds_many(item: Field) -> bool:
+def holds_many(item: Field[Any]) -> bool:
     """Return whether a field holds a list, of tables or of values."""
     return get_origin(value_type(item)) is tuple
 
 
 @cache
-def subtable_class(item: Field) -> type[Table] | None:
+def subtable_class(item: Field[Any]) -> type[Table] | None:
     """Return the dataclass of the table or tables that a field holds, None for a field with a plain value."""
     kind = get_args(value_type(item))[0] if holds_many(item) else value_type(item)
     return kind if isinstance(kind, type) and issubclass(kind, Table) else None
 
 
-def checked(item: Field, name: str, value: Any) -> Any:
+def checked(item: Field[Any], name: str, value: Any) -> Any:
     """Check the value of a key or table and return it as it is kept.
 
     Raises
@@ -204,14 +216,15 @@ def checked(item: Field, name: str, value: Any) -> Any:
     """
     if value is None and is_optional(item):
         return None
-    if subtable_class(item) and holds_many(item):
-        if not isinstance(value, list | tuple) or not all(isinstance(each, subtable_class(item)) for each in value):
+    table_class = subtable_class(item)
+    if table_class and holds_many(item):
+        if not isinstance(value, list | tuple) or not all(isinstance(each, table_class) for each in value):
             raise _unexpected(item, name, value)
         return tuple(value)
     return _checked(item, name, value_type(item), value)
 
 
-def _checked(item: Field, name: str, kind: Any, value: Any) -> Any:
+def _checked(item: Field[Any], name: str, kind: Any, value: Any) -> Any:
     """Check a value, or an element of a list, that is to be of a kind."""
     if get_origin(kind) is tuple:
         length = _list_length(kind)
@@ -228,7 +241,7 @@ def _checked(item: Field, name: str, kind: Any, value: Any) -> Any:
     return value
 
 
-def _checked_number(item: Field, name: str, kind: type, value: Any) -> int | float:
+def _checked_number(item: Field[Any], name: str, kind: type, value: Any) -> int | float:
     if isinstance(value, bool) or not isinstance(value, Integral if kind is int else Real):
         raise _unexpected(item, name, value)
     try:
@@ -263,11 +276,11 @@ def check_exactly_one(table: Table, *names: str) -> None:
         raise ScenarioError(f"{listed} are {state}: expected exactly one of {', '.join(names)}")
 
 
-def _unexpected(item: Field, name: str, value: Any) -> ScenarioError:
+def _unexpected(item: Field[Any], name: str, value: Any) -> ScenarioError:
     return ScenarioError(f"{name} is {shown(value)}: expected {expected(item)}")
 
 
-def expected(item: Field) -> str:
+def expected(item: Field[Any]) -> str:
     """Return what a key takes, in words, such as ``a number above 0 (m)``."""
     if subtable_class(item):
         return "tables" if holds_many(item) else "a table"
@@ -312,7 +325,7 @@ def shown(value: Any) -> str:
         return "missing"
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, Integral) and abs(value) > 2**63:
+    if isinstance(value, Integral) and abs(int(value)) > 2**63:
         return "a whole number of more than 64 bits"
     if isinstance(value, str):
         letters = value.encode(errors="backslashreplace").decode()  # halves of letters cannot be written

@@ -18,6 +18,7 @@ from ..system.reading import MEGABYTE, file_text
 from .schema import (
     Table,
     expected,
+    given,
     holds_many,
     is_required,
     key_fields,
@@ -123,12 +124,12 @@ def _key_values(table_class: type[Table], values: dict[str, Any]) -> dict[str, A
     return {item.name: values[item.name] for item in key_fields(table_class) if item.name in values}
 
 
-def _subtables(root: type[Table], table_class: type[Table], values: dict[str, Any]) -> dict[str, Table]:
+def _subtables(root: type[Table], table_class: type[Table], values: dict[str, Any]) -> dict[str, Any]:
     for item in subtable_fields(table_class):
         if is_required(item) and item.name not in values:
             raise ScenarioError(f"{key_name(table_class, item)} is missing: expected a table")
     return {
-        item.name: (_tables if holds_many(item) else _table)(root, subtable_class(item), values[item.name])
+        item.name: (_tables if holds_many(item) else _table)(root, given(subtable_class(item)), values[item.name])
         for item in subtable_fields(table_class)
         if item.name in values
     }

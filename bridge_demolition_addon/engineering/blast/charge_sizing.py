@@ -28,8 +28,8 @@ _DIVISIONS = 6
 def stand_off_for_overpressure(
     overpressure_pa: float,
     tnt_kg: float,
-    burst: Burst = Burst.AIR,
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    burst: Burst | str = Burst.AIR,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> float:
     """Return the farthest stand-off at which a charge gives a peak incident overpressure, m; 0 for no charge.
 
@@ -55,8 +55,8 @@ def stand_off_for_overpressure(
 def smallest_charge_for_overpressure(
     overpressure_pa: float,
     stand_off_m: float,
-    burst: Burst = Burst.AIR,
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    burst: Burst | str = Burst.AIR,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> float:
     """Return the smallest charge that gives a peak incident overpressure at a stand-off, kg of TNT.
 
@@ -71,8 +71,8 @@ def smallest_charge_for_overpressure(
 def smallest_charge_for_impulse(
     impulse_pa_s: float,
     stand_off_m: float,
-    burst: Burst = Burst.AIR,
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    burst: Burst | str = Burst.AIR,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> float:
     """Return the smallest charge that gives an incident impulse per area (Pa·s) at a stand-off (m), kg of TNT.
 

@@ -7,6 +7,7 @@ suction that follows, the negative phase, is not modelled.
 from math import factorial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..arithmetic import exponential
 from ..arrays import FloatArray
@@ -26,7 +27,7 @@ _SERIES = [
 _MOST_STEPS = 50
 
 
-def pressure(peak: FloatArray, duration: FloatArray, decay: FloatArray, time: FloatArray) -> FloatArray:
+def pressure(peak: FloatArray, duration: FloatArray, decay: FloatArray, time: float | FloatArray) -> FloatArray:
     """Return the overpressure at times since the front arrived; 0 before that and after the positive phase.
 
     Parameters
@@ -135,8 +136,8 @@ def _closed_moments(exponent: FloatArray, count: int) -> list[FloatArray]:
     return moments
 
 
-def _part_of_phase(time: FloatArray, duration: FloatArray) -> FloatArray:
+def _part_of_phase(time: ArrayLike, duration: ArrayLike) -> FloatArray:
     """Return time as part of the positive phase; a pulse without duration is over at once."""
-    time, duration = np.broadcast_arrays(np.asarray(time, float), np.asarray(duration, float))
-    part: FloatArray = np.divide(time, duration, out=np.full(time.shape, np.inf), where=duration > 0.0)
+    times, durations = np.broadcast_arrays(np.asarray(time, float), np.asarray(duration, float))
+    part: FloatArray = np.divide(times, durations, out=np.full(times.shape, np.inf), where=durations > 0.0)
     return part

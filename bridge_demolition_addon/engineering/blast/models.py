@@ -27,8 +27,8 @@ _UNIT_WAVES = {
 def blast_wave(
     stand_off_m: ArrayLike,
     tnt_kg: ArrayLike,
-    burst: Burst = Burst.AIR,
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    burst: Burst | str = Burst.AIR,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> Wave:
     """Return the waves of charges at stand-offs.
 

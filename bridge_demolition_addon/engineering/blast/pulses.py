@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import BlastError
 from ..arrays import BoolArray, FloatArray, IntArray
@@ -74,13 +75,13 @@ class Pulses:
 
 
 def blast_pulses(
-    stand_offs_m: FloatArray,
-    tnt_kg: FloatArray,
-    delays_s: FloatArray,
-    bursts: Sequence[Burst],
+    stand_offs_m: ArrayLike,
+    tnt_kg: ArrayLike,
+    delays_s: ArrayLike,
+    bursts: Sequence[Burst | str],
     *,
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
-    loading: Loading = Loading.INCIDENT,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
+    loading: Loading | str = Loading.INCIDENT,
     constant_decay: float | None = None,
     pressure_factor: float = 1.0,
 ) -> Pulses:
@@ -151,7 +152,7 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
     )
 
 
-def pressure_at(pulses: Pulses, time_s: FloatArray) -> FloatArray:
+def pressure_at(pulses: Pulses, time_s: float | FloatArray) -> FloatArray:
     """Return the overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it.
 
     Instead of one time there can be an array of them that broadcasts with (n, c).
@@ -159,7 +160,9 @@ def pressure_at(pulses: Pulses, time_s: FloatArray) -> FloatArray:
     return friedlander.pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
 
 
-def _check_shapes(stand_offs: FloatArray, masses: FloatArray, delays: FloatArray, bursts: Sequence[Burst]) -> None:
+def _check_shapes(
+    stand_offs: FloatArray, masses: FloatArray, delays: FloatArray, bursts: Sequence[Burst | str]
+) -> None:
     count = stand_offs.shape[1] if stand_offs.ndim == 2 else None
     if not masses.shape == delays.shape == (len(bursts),) == (count,):
         raise BlastError(

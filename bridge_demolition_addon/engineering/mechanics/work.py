@@ -14,6 +14,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
@@ -84,8 +85,11 @@ class PairImpulses:
         return [slice(start, end) for start, end in itertools.pairwise(ends.tolist())]
 
 
+_Energy = TypeVar("_Energy", float, FloatArray)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class FrameWork:
+class FrameWork(Generic[_Energy]):
     """Work in one frame, J.
 
     Attributes
@@ -107,22 +111,22 @@ class FrameWork:
         The same energy by the body that got it.
     """
 
-    gravity_j: float | FloatArray
-    loads_j: float | FloatArray
-    tools_j: float | FloatArray
-    damping_j: float | FloatArray
-    dissipated_j: float | FloatArray
-    made_by_connections_j: float | FloatArray
-    made_by_contacts_j: float | FloatArray
-    made_by_lifting_j: float | FloatArray
+    gravity_j: _Energy
+    loads_j: _Energy
+    tools_j: _Energy
+    damping_j: _Energy
+    dissipated_j: _Energy
+    made_by_connections_j: _Energy
+    made_by_contacts_j: _Energy
+    made_by_lifting_j: _Energy
     made_j: FloatArray
 
     @classmethod
-    def unknown(cls, *shape: int) -> FrameWork:
+    def unknown(cls, *shape: int) -> FrameWork[Any]:
         """Return work of which nothing is known, nan throughout, on n bodies in one frame, or in frames (k, n)."""
-        return cls(
-            **{item.name: np.full(shape if item.name == "made_j" else shape[:-1], np.nan) for item in fields(cls)}
-        )
+        shapes = {item.name: shape[:-1] for item in fields(cls)} | {"made_j": shape}
+        values: dict[str, Any] = {name: np.full(of_values, np.nan) for name, of_values in shapes.items()}
+        return cls(**values)
 
 
 class WorkAccumulator:
@@ -160,7 +164,7 @@ class WorkAccumulator:
         self._made_by = np.zeros(3)
         self._made_j = np.zeros(len(self._masses))
 
-    def finish(self) -> FrameWork:
+    def finish(self) -> FrameWork[float]:
         """Return the work of the frame; the next one begins."""
         by_connections_j, by_contacts_j, by_lifting_j = self._made_by.tolist()
         work = FrameWork(

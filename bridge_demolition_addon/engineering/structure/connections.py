@@ -49,8 +49,8 @@ class Connections:
     def __len__(self) -> int:
         return len(self.pairs)
 
-    def only(self, kept: BoolArray) -> Connections:
-        """Those connections (m,) that are kept."""
+    def only(self, kept: BoolArray | IntArray) -> Connections:
+        """Those connections (m,) that are kept, or of these rows (k,)."""
         return Connections(self.pairs[kept], self.points[kept], self.areas[kept], self.normals[kept])
 
 

@@ -42,7 +42,7 @@ class Levelled:
 
 def levelled(
     grid: Grid, members: Sequence[tuple[str, TriangleMesh]], heights_at: Callable[[FloatArray], FloatArray]
-) -> tuple[Grid, FloatArray, tuple[Levelled, ...]]:
+) -> tuple[Grid, BoolArray, tuple[Levelled, ...]]:
     """Return a grid whose ground is level under feet and reaches into no member.
 
     A member stands on the ground where that reaches up to the middle of its lowest face. There the ground is filled up

@@ -8,7 +8,7 @@ from typing import ClassVar
 from ...engineering.blast.wave import Burst
 from ...errors import BlastError, ScenarioError
 from ..actions import Fact, Plan, PlannedAction, Worksite
-from ..schema import key, shown
+from ..schema import given, key, shown
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
 SWISDAK_PRESSURE = "air blast, pressure only; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
@@ -119,7 +119,7 @@ class Charge(PlannedAction):
         worth = "" if self.explosive == "TNT" else f" = {self.tnt_kg:.3g} kg of TNT"
         detonation_s = site.plan.detonation_s(self.delay_s)
         when = f", {detonation_s:.4g} s" if math.isfinite(detonation_s) else ""
-        yield self.name, f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({place}) m{when}"
+        yield given(self.name), f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({place}) m{when}"
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it detonates within the run, if at all."""

@@ -47,7 +47,7 @@ def ring_radii(
     charges: Sequence[Charge],
     level_m: float = 0.0,
     thresholds: Sequence[Threshold] = THRESHOLDS,
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     pressure_factor: float = 1.0,
 ) -> np.ndarray:
     """Return the radii of the rings around the charges, on plan at a level, within which a threshold is reached.

@@ -67,7 +67,7 @@ class PlaceLoads:
 def loads_at(
     place_m: Sequence[float],
     charges: Sequence[Charge],
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     pressure_factor: float = 1.0,
 ) -> PlaceLoads:
     """Return the loads of charges, at least one of them above 0 kg, at a position (3,), m.
@@ -81,10 +81,10 @@ def loads_at(
     bursts = [charge.burst for charge in charges]
     by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
     by_impulse = np.array([charge.tnt_kg for charge in charges])
-    settings = {"model": model, "pressure_factor": pressure_factor}
-    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, **settings)
+    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, model=model, pressure_factor=pressure_factor)
     times = _times(pulses)
-    impulses = blast_pulses(stand_offs, by_impulse, delays, bursts, **settings).impulses_pa_s
+    of_impulse = blast_pulses(stand_offs, by_impulse, delays, bursts, model=model, pressure_factor=pressure_factor)
+    impulses = of_impulse.impulses_pa_s
     pressures = pressure_at(pulses, times[:, None]).sum(axis=1)
     return PlaceLoads(
         distance_m=float(stand_offs.min()),
@@ -100,7 +100,7 @@ def loads_at(
 def peak_overpressures(
     points_m: np.ndarray,
     charges: Sequence[Charge],
-    model: BlastModel = BlastModel.KINGERY_BULMASH,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     pressure_factor: float = 1.0,
 ) -> np.ndarray:
     """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.

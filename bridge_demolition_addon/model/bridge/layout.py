@@ -12,6 +12,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.vectors import transformed
 from ..scenario import Bridge
+from ..schema import given
 
 
 def pier_axes(bridge: Bridge) -> np.ndarray:
@@ -22,7 +23,7 @@ def pier_axes(bridge: Bridge) -> np.ndarray:
 def deck_underside(bridge: Bridge) -> float:
     """Height above the ground of what lies on piers and abutments, m: slab, girders or box girder."""
     if bridge.piers is None:
-        return bridge.abutments.height_m
+        return given(given(bridge.abutments).height_m)
     cap_height = bridge.pier_caps.height_m if bridge.pier_caps else 0.0
     return bridge.piers.height_m + cap_height
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ..schema import given
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +49,12 @@ class Member:
     @property
     def mass_kg(self) -> float:
         """Mass of the member, kg."""
-        return self.volume_m3 * self.density_kg_m3
+        return self.volume_m3 * given(self.density_kg_m3)
 
 
 def mean_density(members: Sequence[Member]) -> float:
     """Mass of all members over their volume, kg/m³; to the last bit the density of all where they have the same."""
     densities = {member.density_kg_m3 for member in members}
     if len(densities) == 1:
-        return densities.pop()
+        return given(densities.pop())
     return sum(member.mass_kg for member in members) / sum(member.volume_m3 for member in members)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from ...engineering.geometry.vectors import transformed
 from ...errors import GeometryError, ScenarioError, UnreadableError
 from ..mesh_reading import MESH_FILES, from_y_up, read_mesh
 from ..scenario import Geometry
-from ..schema import FARTHEST_M, SHORTEST_LENGTH_M
+from ..schema import FARTHEST_M, SHORTEST_LENGTH_M, given
 from .member import Member
 
 _BELOW_GROUND_M = 1e-3
@@ -88,7 +89,8 @@ def exported(mesh: TriangleMesh, suffix: str) -> bytes:
     """The mesh as the content of a file whose name ends in that suffix, such as ``.stl``."""
     import trimesh
 
-    return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(file_type=suffix[1:])
+    content: Any = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(file_type=suffix[1:])
+    return content.encode() if isinstance(content, str) else content
 
 
 def _file_mesh(path: Path) -> TriangleMesh:
@@ -126,7 +128,7 @@ def _check_above_ground(solid: TriangleMesh, name: str) -> None:
 def _member(tables: Sequence[Geometry], solids: Sequence[TriangleMesh]) -> Member:
     first = tables[0]
     if len(tables) == 1:
-        density = first.density_kg_m3 or first.mass_kg / solids[0].volume
+        density = first.density_kg_m3 or given(first.mass_kg) / solids[0].volume
         return Member(first.name, first.kind, solids[0], density)
     for other in tables[1:]:
         if first.density_kg_m3 is None or (other.kind, other.density_kg_m3) != (first.kind, first.density_kg_m3):

@@ -11,6 +11,8 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import union
 from ...errors import ScenarioError
 from ..scenario import Bridge
+from ..scenario.bridge import Abutments, Deck, Girders, PierCaps, Piers
+from ..schema import given
 from .layout import deck_top, deck_underside, slab_underside
 from .member import Member
 from .substructure import GroundHeight, level_ground, substructure
@@ -56,23 +58,25 @@ def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
             f"bridge.mass_kg is {bridge.mass_kg}: expected bridge.density_kg_m3 instead, as every member has a density "
             f"of its own; together they weigh {known_kg:.6g} kg"
         )
-    if known_kg >= bridge.mass_kg:
+    mass_kg = given(bridge.mass_kg)
+    if known_kg >= mass_kg:
         raise ScenarioError(
             f"bridge.mass_kg is {bridge.mass_kg}: expected more than {known_kg:.6g} (kg), which the members with a "
             "density of their own weigh"
         )
-    return (bridge.mass_kg - known_kg) / rest
+    return (mass_kg - known_kg) / rest
 
 
 def _own_density(bridge: Bridge, kind: str) -> float | None:
-    parts = {
+    parts: dict[str, Deck | Girders | PierCaps | Piers | Abutments | None] = {
         "deck": bridge.deck,
         "girder": bridge.girders,
         "pier cap": bridge.pier_caps,
         "pier": bridge.piers,
         "abutment": bridge.abutments,
     }
-    return parts[kind].density_kg_m3 if kind in parts else None
+    part = parts.get(kind)
+    return part.density_kg_m3 if part else None
 
 
 def _merged(bridge: Bridge, solids: Sequence[TriangleMesh]) -> TriangleMesh:

@@ -10,6 +10,7 @@ import numpy as np
 from ...engineering.geometry.overlap import separated
 from ...errors import GeometryError, ScenarioError
 from ..scenario import Scenario
+from ..schema import given
 from ..terrain.built import check_under
 from ..terrain.placed import Terrain, terrain_of
 from . import bridge_members
@@ -49,7 +50,7 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
 
 
 def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...]:
-    bridge = scenario.weighed_bridge
+    bridge = given(scenario.weighed_bridge)
     if terrain is None:
         return bridge_members(bridge)
     check_under(terrain, [(each.name, each.solid) for each in bridge_members(bridge)])

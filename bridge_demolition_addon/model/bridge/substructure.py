@@ -10,6 +10,8 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box
 from ...errors import GeometryError
 from ..scenario import Bridge
+from ..scenario.bridge import Abutments, PierCaps
+from ..schema import given
 from .layout import deck_underside, pier_axes, skewed, turned_with_axis
 from .member import Member
 
@@ -38,12 +40,12 @@ def substructure(bridge: Bridge, ground: GroundHeight = level_ground) -> list[Me
     axes = pier_axes(bridge)
     if bridge.abutments is None:
         return _piers(bridge, axes, ground)
-    return [*_abutments(bridge, (axes[0], axes[-1]), ground), *_piers(bridge, axes[1:-1], ground)]
+    ends = _abutments(bridge, bridge.abutments, (axes[0], axes[-1]), ground)
+    return [*ends, *_piers(bridge, axes[1:-1], ground)]
 
 
-def _abutments(bridge: Bridge, axes: tuple[float, float], ground: GroundHeight) -> list[Member]:
-    abutments, top = bridge.abutments, deck_underside(bridge)
-    parts = []
+def _abutments(bridge: Bridge, abutments: Abutments, axes: tuple[float, float], ground: GroundHeight) -> list[Member]:
+    top, parts = deck_underside(bridge), []
     for number, axis in enumerate(axes, start=1):
         name = f"abutment {number}"
         foot = _foot(name, axis, 0.0, top, ground)
@@ -67,20 +69,19 @@ def _piers(bridge: Bridge, axes: np.ndarray, ground: GroundHeight) -> list[Membe
     parts = []
     for number, axis in enumerate(axes, start=1):
         if bridge.pier_caps:
-            parts.append(Member(f"pier {number} cap", "pier cap", _pier_cap(bridge, axis)))
+            parts.append(Member(f"pier {number} cap", "pier cap", _pier_cap(bridge, bridge.pier_caps, axis)))
         parts += _columns(bridge, number, axis, ground)
     return parts
 
 
-def _pier_cap(bridge: Bridge, axis: float) -> TriangleMesh:
-    cap = bridge.pier_caps
-    middle = (axis, 0.0, bridge.piers.height_m + cap.height_m / 2.0)
+def _pier_cap(bridge: Bridge, cap: PierCaps, axis: float) -> TriangleMesh:
+    middle = (axis, 0.0, given(bridge.piers).height_m + cap.height_m / 2.0)
     return skewed(bridge, box((cap.length_m, cap.width_m, cap.height_m), middle))
 
 
 def _columns(bridge: Bridge, number: int, axis: float, ground: GroundHeight) -> list[Member]:
     """Columns of one pier, each in the middle of its share of the width that they carry, or its wall."""
-    piers = bridge.piers
+    piers = given(bridge.piers)
     parts = []
     for column in range(piers.columns):
         across = bridge.carried_width_m * ((column + 0.5) / piers.columns - 0.5)

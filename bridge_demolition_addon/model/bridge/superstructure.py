@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
+from ..schema import given
 from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside
 from .member import Member
 
@@ -40,7 +41,7 @@ def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
 
 
 def _girder(bridge: Bridge, begin: float, end: float, girder: int) -> TriangleMesh:
-    girders = bridge.girders
+    girders = given(bridge.girders)
     across = bridge.girder_spacing_m * (girder - (girders.number - 1) / 2.0)
     middle = ((begin + end) / 2.0, across, deck_underside(bridge) + girders.depth_m / 2.0)
     return box((end - begin, girders.width_m, girders.depth_m), middle)
@@ -48,7 +49,7 @@ def _girder(bridge: Bridge, begin: float, end: float, girder: int) -> TriangleMe
 
 def _box_girder(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
     """Slab and box in one, with the cells cut out; what is united overlaps, so that no two faces coincide."""
-    girder, bottom, top = bridge.box_girder, deck_underside(bridge), deck_top(bridge)
+    girder, bottom, top = given(bridge.box_girder), deck_underside(bridge), deck_top(bridge)
     middle, length = (begin + end) / 2.0, end - begin
     into_slab = (slab_underside(bridge) + top) / 2.0
     body = box((length, girder.width_m, into_slab - bottom), (middle, 0.0, (into_slab + bottom) / 2.0))
@@ -65,7 +66,7 @@ def _box_girder(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
 
 def _plates(bridge: Bridge, begin: float, end: float) -> list[TriangleMesh]:
     """The slab, the webs and the bottom slab, which together are the box girder."""
-    girder, bottom, ceiling = bridge.box_girder, deck_underside(bridge), slab_underside(bridge)
+    girder, bottom, ceiling = given(bridge.box_girder), deck_underside(bridge), slab_underside(bridge)
     middle, length, floor = (begin + end) / 2.0, end - begin, bottom + girder.bottom_thickness_m
     spacing = girder.cell_width_m + girder.web_thickness_m
     webs = [
@@ -80,6 +81,6 @@ def _plates(bridge: Bridge, begin: float, end: float) -> list[TriangleMesh]:
 
 
 def _cell_axes(bridge: Bridge) -> list[float]:
-    girder = bridge.box_girder
+    girder = given(bridge.box_girder)
     spacing = girder.cell_width_m + girder.web_thickness_m
     return [spacing * (cell - (girder.cells - 1) / 2.0) for cell in range(girder.cells)]

@@ -69,7 +69,7 @@ def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
 
 def widened_around(area: CrossSection, distance_m: float) -> CrossSection:
     """Return an area with everything nearer to it than a distance, and up to 0.13 % of that more: never less."""
-    return widened(area, distance_m / cosine(math.pi / _CIRCLE_SEGMENTS))
+    return widened(area, distance_m / float(cosine(math.pi / _CIRCLE_SEGMENTS)))
 
 
 def widened(area: CrossSection, distance_m: float) -> CrossSection:

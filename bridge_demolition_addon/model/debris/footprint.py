@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 from manifold3d import CrossSection, OpType
 
+from ...engineering.arrays import Rows
 from ...engineering.geometry.plan_areas import united
 from ...engineering.geometry.vectors import transformed
 from ...errors import OutputError
@@ -20,7 +20,7 @@ _STRAIGHT_M = 0.01
 """How far corners may stray from a place, or from a straight way, whose hull is then too large by no more."""
 
 
-def corners_at(results: Results, step: int, bodies: Sequence[int]) -> list[np.ndarray]:
+def corners_at(results: Results, step: int, bodies: Rows) -> list[np.ndarray]:
     """Vertices (v, 3) of each of the bodies in the world at a recorded step, m."""
     if not len(bodies):
         return []
@@ -32,12 +32,12 @@ def corners_at(results: Results, step: int, bodies: Sequence[int]) -> list[np.nd
     return np.split(turned + results.frames.positions_m[step][of], np.cumsum(counts)[:-1])
 
 
-def footprint(results: Results, bodies: Sequence[int], step: int) -> CrossSection:
+def footprint(results: Results, bodies: Rows, step: int) -> CrossSection:
     """What the convex hulls of bodies cover in plan at a recorded step; where they overlap it counts once."""
     return united(plan_hulls(results, bodies, step))
 
 
-def plan_hulls(results: Results, bodies: Sequence[int], step: int) -> list[CrossSection]:
+def plan_hulls(results: Results, bodies: Rows, step: int) -> list[CrossSection]:
     """What the convex hull of each of the bodies covers in plan at a recorded step."""
     return [CrossSection.hull_points(corners[:, :2]) for corners in corners_at(results, step, bodies)]
 
@@ -55,7 +55,7 @@ def check_covers_ground(results: Results) -> None:
         raise OutputError("vertices_m: expected shards that cover an area in plan, found lines and points")
 
 
-def swept_footprint(results: Results, bodies: Sequence[int]) -> CrossSection:
+def swept_footprint(results: Results, bodies: Rows) -> CrossSection:
     """What the convex hulls of bodies cover in plan at any time.
 
     Between two recorded steps the hull of both positions is taken: all that a body sweeps which keeps its direction,

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from manifold3d import CrossSection
 
+from ...engineering.arrays import Rows
 from ...engineering.geometry.plan_areas import distances_outside
 from ...engineering.geometry.vectors import distance
 from ..results.arrays import Results
@@ -20,7 +19,7 @@ def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:
     return bodies[distance(places, places[0]).max(axis=0, initial=0.0) > MOVED_M]
 
 
-def reaches_on_the_way(results: Results, bodies: Sequence[int], plan: CrossSection) -> np.ndarray:
+def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np.ndarray:
     """Return how far each body sticks out of a plan at any recorded time, at most, m (b,); 0 where it stays within.
 
     Raises

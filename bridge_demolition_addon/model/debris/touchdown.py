@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...engineering.arithmetic import cube_root, power
 from ...engineering.geometry.vectors import distance
@@ -118,18 +119,18 @@ def landings(results: Results) -> Landings:
     return Landings(*(each[order] for each in found))
 
 
-def shaking_at(place_m: np.ndarray, landed: Landings) -> Shaking | None:
+def shaking_at(place_m: ArrayLike, landed: Landings) -> Shaking | None:
     """Return what shakes the ground most at a place (3,), m; None where nothing landed."""
     return max((_shaking(place_m, landed, each) for each in landed.together()), key=_velocity, default=None)
 
 
-def touchdown_velocity(distance_m: np.ndarray, energy_j: np.ndarray) -> np.ndarray:
+def touchdown_velocity(distance_m: ArrayLike, energy_j: ArrayLike) -> np.ndarray:
     """Return the peak particle velocity, m/s, at distances, m, from what lands together with energies, J."""
     scaled = np.asarray(distance_m, float) / cube_root(np.asarray(energy_j, float) / 1e3 / _STRENGTH_MPA)
     return VELOCITY_M_S * power(scaled, -EXPONENT)
 
 
-def _shaking(place_m: np.ndarray, landed: Landings, together: slice) -> Shaking:
+def _shaking(place_m: ArrayLike, landed: Landings, together: slice) -> Shaking:
     energies = landed.energies_j[together]
     middle = (energies[:, None] * landed.places_m[together]).sum(axis=0) / energies.sum()
     distance_m = max(float(distance(np.asarray(place_m, float)[:2], middle[:2])), _NEAREST_M)

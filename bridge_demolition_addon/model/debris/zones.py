@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -11,6 +10,7 @@ import numpy as np
 from manifold3d import CrossSection, Manifold
 
 from ...engineering.arithmetic import cosine
+from ...engineering.arrays import Rows
 from ...engineering.geometry.plan_areas import signed_area
 from ...engineering.geometry.rotations import rotated, rotation_vectors
 from ...engineering.geometry.solids import hull
@@ -68,7 +68,7 @@ class ZoneWatch:
     mass_within_kg: float
 
 
-def watch_zone(results: Results, zone: Zone, bodies: Sequence[int]) -> ZoneWatch:
+def watch_zone(results: Results, zone: Zone, bodies: Rows) -> ZoneWatch:
     """Follow bodies through a whole run.
 
     Between two recorded steps a body is taken to move and turn evenly. Touching is not entering: some volume has to be
@@ -134,7 +134,7 @@ def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:
     places = results.frames.positions_m[:, body]
     low = np.minimum(places[:-1], places[1:]) - radius
     high = np.maximum(places[:-1], places[1:]) + radius
-    for step in np.flatnonzero(prism.may_meet(low, high)):
+    for step in np.flatnonzero(prism.may_meet(low, high)).tolist():
         time_s = _entry_between(_Motion.of(results, step, body, corners), prism, 0.0, 1.0)
         if time_s is not None:
             return time_s
@@ -167,7 +167,7 @@ class _Motion:
     def bulge_m(self, share: float) -> float:
         """How far a corner's path between two positions so many shares apart leaves the straight line, at most."""
         angle = min(share * float(length(self.turn)), math.pi)
-        return float(length(self.corners).max()) * (1.0 - cosine(angle / 2.0))
+        return float(length(self.corners).max()) * (1.0 - float(cosine(angle / 2.0)))
 
 
 def _entry_between(motion: _Motion, prism: _Prism, first: float, last: float) -> float | None:

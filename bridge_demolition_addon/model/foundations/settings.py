@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.foundations.soils import HORIZONTAL_SHARE, SOILS, Soil
-from ..schema import SIZE, Table, key
+from ..schema import SIZE, Table, given, key
 
 _NEWTON_PER_MEGANEWTON = 1e6
 _PASCAL_PER_KILOPASCAL = 1e3
@@ -54,11 +54,11 @@ class Foundation(Table):
     @property
     def ground(self) -> Soil:
         """Return stiffness and friction."""
-        of_class = SOILS.get(self.soil)
+        of_class = SOILS[self.soil] if self.soil else None
         stiffness = None if self.stiffness_mn_m3 is None else _NEWTON_PER_MEGANEWTON * self.stiffness_mn_m3
         return Soil(
-            of_class.stiffness_n_m3 if stiffness is None else stiffness,
-            of_class.friction if self.friction is None else self.friction,
+            given(of_class).stiffness_n_m3 if stiffness is None else stiffness,
+            given(of_class).friction if self.friction is None else self.friction,
         )
 
     @property

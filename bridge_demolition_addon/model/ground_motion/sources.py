@@ -9,6 +9,7 @@ import numpy as np
 from ...engineering.ground_motion.record import LARGEST_ACCELERATION_M_S2, GroundRecord, corrected
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ..schema import given
 from .accelerogram_file import accelerogram_from_file
 from .settings import DIRECTIONS, GroundMotion
 from .spectral_record import spectral_record
@@ -41,8 +42,8 @@ def _accelerations(motion: GroundMotion, seed: int) -> tuple[np.ndarray, np.ndar
         random = np.random.Generator(np.random.PCG64(seed))
         made = [spectral_record(motion.spectrum, random) for _ in range(count)]
         return made[0][0], np.column_stack([values for _, values in made])
-    times, values = accelerogram_from_file(Path(motion.file), count)
-    values = _IN_M_S2[motion.unit] * values
+    times, values = accelerogram_from_file(Path(given(motion.file)), count)
+    values = _IN_M_S2[given(motion.unit)] * values
     largest = float(abs(values).max())
     if largest == 0.0:
         raise ScenarioError(f"{motion.file}: all accelerations are 0: expected an accelerogram")

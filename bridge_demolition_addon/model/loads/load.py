@@ -46,8 +46,9 @@ class Load(Part):
     @property
     def unit_direction(self) -> tuple[float, float, float]:
         """Return the direction, 1 long."""
-        size = sqrt(sum(each * each for each in self.direction))
-        return tuple(each / size for each in self.direction)
+        x, y, z = self.direction
+        size = sqrt(sum(component * component for component in self.direction))
+        return x / size, y / size, z / size
 
     def begins_s(self, plan: Plan) -> float:
         for (time_s, force_n), (_, next_n) in pairwise([*zip(self.times_s, self.forces_n, strict=True), (0.0, 0.0)]):

@@ -90,7 +90,8 @@ def moduli(materials: Iterable[Material], name: str) -> ElasticModuli:
     own = {each.name: each for each in materials}
     if name not in own:
         return ELASTIC_MODULI[name]
-    if own[name].moduli is None:
+    found = own[name].moduli
+    if found is None:
         wanted = 'it with connections.stiffness "elastic", where no connections give their own'
         raise own[name].unexpected("elastic_modulus_n_mm2", wanted)
-    return own[name].moduli
+    return found

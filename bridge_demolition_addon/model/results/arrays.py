@@ -5,9 +5,9 @@ from __future__ import annotations
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import Field, dataclass, fields, is_dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 
@@ -30,7 +30,12 @@ FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.n
 CONTACTS_FILE = "results_contacts.npy"
 """Files that grow during a run. They are deleted once the results are whole; a run that is killed leaves them."""
 
-_Part = TypeVar("_Part")
+
+class _Dataclass(Protocol):
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+
+_Part = TypeVar("_Part", bound=_Dataclass)
 
 _OF_FRAMES = {
     "number": "frames",
@@ -212,7 +217,7 @@ def contacts_until(rows: np.ndarray, frame: int) -> ContactHistory:
 
 def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
     """Return the arrays (k, …) of rows (k,) by their names."""
-    return {name: rows[name] for name in rows.dtype.names}
+    return {name: rows[name] for name in rows.dtype.names or ()}
 
 
 def _left_arrays(path: Path) -> dict[str, np.ndarray]:

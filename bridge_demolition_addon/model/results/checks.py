@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 
@@ -123,7 +124,7 @@ def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
     bodies = len(arrays["body_names"])
     for name, least, most in (("pairs", -1, bodies), ("balls", 0, bodies), ("vertex_counts", 0, 2**31)):
         wanted = f"whole numbers from {least} to {most - 1}"
-        _expect(name, arrays[name], lambda each, low=least, high=most: (each >= low) & (each < high), wanted)
+        _expect(name, arrays[name], partial(_is_within, least, most), wanted)
     total = int(arrays["vertex_counts"].sum())
     if total != len(arrays["vertices_m"]):
         raise OutputError(f"vertex_counts: add up to {total}, expected {len(arrays['vertices_m'])}, as in vertices_m")
@@ -199,6 +200,10 @@ def _check_order(arrays: Mapping[str, np.ndarray]) -> None:
 def _are_rotations(matrices: np.ndarray) -> np.ndarray:
     turned = product(matrices, np.swapaxes(matrices, -1, -2))
     return np.abs(turned - np.eye(3)) < _ROTATION_SLACK
+
+
+def _is_within(least: int, most: int, values: np.ndarray) -> np.ndarray:
+    return (values >= least) & (values < most)
 
 
 def _expect(name: str, array: np.ndarray, holds: Callable[[np.ndarray], np.ndarray], wanted: str) -> None:

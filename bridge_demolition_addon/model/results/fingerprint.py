@@ -8,7 +8,7 @@ arithmetic differs.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -30,8 +30,9 @@ def digest(parts: Mapping[str, Any]) -> str:
     for name in sorted(parts):
         values = np.asarray(parts[name])
         if values.dtype.kind == "U":
-            contents = ["\0".join(values.ravel().tolist()).encode()]
-            size = len(contents[0])
+            text = "\0".join(values.ravel().tolist()).encode()
+            contents: Iterable[bytes] = [text]
+            size = len(text)
         else:
             kept = _KEPT_AS.get(values.dtype.kind, np.dtype("u1"))
             contents = (block.astype(kept).tobytes() for block in blocks_of(values))

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from ...engineering.arrays import FloatArray, IntArray
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.work import FrameWork
 
+_Count = TypeVar("_Count", int, IntArray)
+_Number = TypeVar("_Number", float, FloatArray)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Frame:
+class _Recorded(Generic[_Count, _Number]):
     """n bodies and m connections at the end of a frame, and the loads in it. All vectors are in the world's axes.
 
     Attributes
@@ -39,9 +43,9 @@ class Frame:
         Work in the frame.
     """
 
-    number: int
-    time_s: float
-    substep_s: float
+    number: _Count
+    time_s: _Number
+    substep_s: _Number
     positions_m: np.ndarray
     rotations: np.ndarray
     velocities_m_s: np.ndarray
@@ -50,10 +54,16 @@ class Frame:
     intact: np.ndarray
     blast_impulses_ns: np.ndarray
     loads: FrameLoads
-    work: FrameWork
+    work: FrameWork[_Number]
 
 
-class FrameSeries(Frame):
+class Frame(_Recorded[int, float]):
+    """One frame."""
+
+    __slots__ = ()
+
+
+class FrameSeries(_Recorded[IntArray, FloatArray]):
     """k frames: every array of `Frame`, also of its loads, with one more axis in front, such as `time_s` (k,)."""
 
     __slots__ = ()
@@ -148,7 +158,7 @@ def _stacked(parts: Sequence[Any]) -> Any:
     """Numbers, arrays, or dataclasses of them: the same with one more axis in front."""
     if not is_dataclass(parts[0]):
         return np.array(parts)
-    kind = type(parts[0])
+    kind: type[Any] = type(parts[0])
     return kind(*(_stacked([getattr(part, each.name) for part in parts]) for each in fields(kind)))
 
 
@@ -156,4 +166,5 @@ def _row(series: Any, row: int) -> Any:
     """One entry of what `_stacked` gave."""
     if not is_dataclass(series):
         return series[row]
-    return type(series)(*(_row(getattr(series, each.name), row) for each in fields(series)))
+    kind: type[Any] = type(series)
+    return kind(*(_row(getattr(series, each.name), row) for each in fields(kind)))

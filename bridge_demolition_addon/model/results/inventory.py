@@ -88,7 +88,7 @@ class Inventory:
 
     def triangles_of(self, body: int) -> np.ndarray:
         """Triangles (t, 3) of a body, in rows of its vertices; none of one that is its convex hull."""
-        if self.triangle_counts is None:
+        if self.triangle_counts is None or self.triangles is None:
             return np.zeros((0, 3), int)
         first = int(self.triangle_counts[:body].sum())
         return self.triangles[first : first + self.triangle_counts[body]]

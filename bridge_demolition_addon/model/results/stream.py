@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 
@@ -65,11 +66,19 @@ class FrameStream(Sequence[Frame]):
     def __len__(self) -> int:
         return 0 if self._frames is None else len(self._frames)
 
+    @overload
+    def __getitem__(self, row: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, row: slice) -> list[Frame]: ...
+
     def __getitem__(self, row: int | slice) -> Frame | list[Frame]:
         """Return a frame as it is kept, or several."""
         if isinstance(row, slice):
             return [self[each] for each in range(len(self))[row]]
-        return frames_of(columns(self._frames.row(range(len(self))[row])))[0]
+        number = range(len(self))[row]
+        assert self._frames is not None  # it has a row
+        return frames_of(columns(self._frames.row(number)))[0]
 
     def append(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
         """Add a frame, what hit the balls in its sub-steps, and its contacts, where there are any and they are kept.
@@ -80,16 +89,16 @@ class FrameStream(Sequence[Frame]):
             They cannot be written. Those before them stay.
         """
         arrays = {name: np.asarray(values)[None] for name, values in named_arrays(frame)}
-        if self._frames is None:
-            self._begin(arrays)
-        if len(balls.times_s):  # first, so that no whole frame is without them
+        frames = self._begin(arrays) if self._frames is None else self._frames
+        if len(balls.times_s) and self._substeps is not None:  # first, so that no whole frame is without them
             self._substeps.append(_rows(_substeps(balls), self._substeps.row_type))
         if self._contacts is not None and contacts:
             self._contacts.append(_rows(dict(named_arrays(contacts)), self._contacts.row_type))
-        self._frames.append(_rows(arrays, self._frames.row_type))
+        frames.append(_rows(arrays, frames.row_type))
 
     def results(self) -> Results:
         """Return everything so far, mapped: only what is looked at is read. There has to be a frame."""
+        assert self._frames is not None
         balls = BallHistory.unknown()
         if self._substeps:
             balls = balls_of(columns(self._substeps.rows()) | {"balls": self._balls})
@@ -110,7 +119,7 @@ class FrameStream(Sequence[Frame]):
         for table in self._tables:
             table.discard()
 
-    def _begin(self, arrays: Mapping[str, np.ndarray]) -> None:
+    def _begin(self, arrays: Mapping[str, np.ndarray]) -> GrowingTable:
         """Make all files with the first frame: the folder may be moved later, and they with it."""
         if len(self._balls):
             nothing = np.zeros((0, len(self._balls), 3))
@@ -120,6 +129,7 @@ class FrameStream(Sequence[Frame]):
             row_type = _row_type(dict(named_arrays(ContactHistory.none())), _FRACTIONS)
             self._contacts = GrowingTable(self._folder / CONTACTS_FILE, row_type)
         self._frames = GrowingTable(self._folder / FRAMES_FILE, _row_type(arrays, _FRACTIONS))
+        return self._frames
 
     def _remove_inventory(self) -> None:
         if self._frames is not None and self._frames.is_in_place:  # or the folder is elsewhere, or another one

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -89,7 +89,7 @@ def hits_of_balls(
     found = []
     for column, ball in enumerate(results.balls.bodies):
         mass = results.inventory.masses_kg[ball]
-        radius = cube_root(0.75 / np.pi * results.inventory.volumes_m3[ball])
+        radius = float(cube_root(0.75 / np.pi * results.inventory.volumes_m3[ball]))
         contact = Contact.between(STEEL, CONCRETE, mass, radius)
         resting_force = RESTING_WEIGHTS * mass * length(gravity_m_s2)
         velocities = results.balls.velocities_m_s[:, column]
@@ -156,6 +156,10 @@ def _blast(results: Results) -> dict[str, Any] | None:
     }
 
 
+@overload
+def _moment(results: Results, step: int) -> dict[str, Any]: ...
+@overload
+def _moment(results: Results, step: int | None) -> dict[str, Any] | None: ...
 def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
     if step is None:
         return None

@@ -13,7 +13,7 @@ from ...engineering.timing.timeline import Timeline
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import GeometryError, ScenarioError
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
-from ..schema import FARTHEST_M, SIZE, Table, expected, key
+from ..schema import FARTHEST_M, SIZE, Table, expected, given, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +43,8 @@ class BallCable(Table):
         angle, azimuth = math.radians(self.angle_degrees), math.radians(self.azimuth_degrees)
         aside = self.length_m * sine(angle)
         offset = (aside * cosine(azimuth), aside * sine(azimuth), -self.length_m * cosine(angle))
-        return tuple((np.array(self.crane_point_m) + offset).tolist())
+        x, y, z = (np.array(self.crane_point_m) + offset).tolist()
+        return x, y, z
 
     @property
     def lowest_point_m(self) -> tuple[float, float, float]:
@@ -78,16 +79,19 @@ class _Drop(Table):
     """Base of the tables of a ball that falls from a height above the deck."""
 
     __slots__ = ()
+    release_time_s: float
+    target_m: tuple[float, float] | None
+    drop_height_m: float | None
 
     @property
     def fall_time_s(self) -> float:
         """Return the time from release to the deck in free fall, s."""
-        return math.sqrt(2.0 * self.drop_height_m / STANDARD_GRAVITY_M_S2)
+        return math.sqrt(2.0 * given(self.drop_height_m) / STANDARD_GRAVITY_M_S2)
 
     @property
     def impact_speed_m_s(self) -> float:
         """Return the speed at the deck after free fall, m/s."""
-        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.drop_height_m)
+        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * given(self.drop_height_m))
 
     def check_release(self, plan: Plan) -> None:
         """Check that it is let go within the run."""
@@ -186,13 +190,13 @@ class Ball(_Drop, PlannedAction):
         """Return the middle of the ball before it is let go, above a deck of a height, m."""
         if self.cable:
             return self.cable.start_m
-        return (*self.target_m, deck_top_m + self.drop_height_m + self.diameter_m / 2.0)
+        return (*given(self.target_m), deck_top_m + given(self.drop_height_m) + self.diameter_m / 2.0)
 
     def largest_height_m(self, deck_top_m: float) -> float:
         """Return the largest height above the ground that the ball is let go from, over a deck of a height, m."""
         if self.cable:
             return self.cable.start_m[2]
-        return deck_top_m + max(drop.drop_height_m for drop in self.drops)
+        return deck_top_m + max(given(drop.drop_height_m) for drop in self.drops)
 
     @property
     def density_kg_m3(self) -> float:
@@ -242,15 +246,16 @@ class Ball(_Drop, PlannedAction):
         return replace(self, release_time_s=self.release_time_s * factor, hits=hits)
 
     def targets(self) -> Iterator[tuple[str, Place]]:
-        return ((f"{drop.table}.target_m", drop.target_m) for drop in self.drops)
+        return ((f"{drop.table}.target_m", given(drop.target_m)) for drop in self.drops)
 
     def starts_above(self) -> tuple[Place, ...]:
-        return tuple(drop.target_m for drop in self.drops)
+        return tuple(given(drop.target_m) for drop in self.drops)
 
     def points_of_interest(self, height_at: HeightAt) -> Iterator[Point]:
         """Yield where it is let go, and the tip of the crane."""
         for drop in self.drops:
-            yield (*drop.target_m, height_at(drop.target_m) + drop.drop_height_m + self.diameter_m)
+            target = given(drop.target_m)
+            yield (*target, height_at(target) + given(drop.drop_height_m) + self.diameter_m)
         if self.cable:
             yield self.cable.start_m
             yield self.cable.crane_point_m
@@ -307,10 +312,11 @@ class Ball(_Drop, PlannedAction):
 
     def check_swing(self, ground_m: float) -> None:
         """Make sure that a ball on a cable swings above ground of a height, m."""
-        lowest_m = self.cable.lowest_point_m[2] - self.diameter_m / 2.0
+        cable = given(self.cable)
+        lowest_m = cable.lowest_point_m[2] - self.diameter_m / 2.0
         if lowest_m <= ground_m:
             wanted = f"a ball that swings above the ground, its lowest point is at {lowest_m:.6g} (m)"
-            raise self.cable.unexpected("length_m", wanted)
+            raise cable.unexpected("length_m", wanted)
 
 
 def lift_path(start_m: np.ndarray, end_m: np.ndarray, shares: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
 from ...errors import ScenarioError
-from ..schema import FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, key
+from ..schema import FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 
@@ -213,7 +213,8 @@ class Bridge(Table):
     @property
     def girder_spacing_m(self) -> float:
         """Distance between the axes of two girders, m."""
-        return self.girders.spacing_m or self.deck.width_m / self.girders.number
+        girders = given(self.girders)
+        return girders.spacing_m or self.deck.width_m / girders.number
 
     @property
     def carried_width_m(self) -> float:
@@ -236,7 +237,7 @@ class Bridge(Table):
         self._check_room_along()
         self._check_joints()
         if self.piers:
-            self._check_room_across()
+            self._check_room_across(self.piers)
         if self.merge:
             self._check_one_density()
 
@@ -274,11 +275,11 @@ class Bridge(Table):
     @property
     def _column_turn(self) -> float:
         """What a column's length along the road is, as part of the room it takes there once it is turned."""
-        return float(cosine(math.radians(self.skew_deg))) if self.piers.kind == "columns" else 1.0
+        return float(cosine(math.radians(self.skew_deg))) if given(self.piers).kind == "columns" else 1.0
 
     def _check_room_along(self) -> None:
         shortest = min(self.span_lengths_m)
-        supports = []
+        supports: list[tuple[Table, str, float]] = []
         if self.piers:
             supports.append((self.piers, "column_length_m", self._column_turn))
         if self.pier_caps:
@@ -289,42 +290,42 @@ class Bridge(Table):
                 raise part.unexpected(name, f"less than {limit}")
         if self.abutments:
             lengths = [getattr(part, name) / turn for part, name, turn in supports]
-            self._check_room_beside_abutments(max(lengths, default=self.abutments.length_m))
+            self._check_room_beside_abutments(self.abutments, max(lengths, default=self.abutments.length_m))
 
-    def _check_room_beside_abutments(self, next_length: float) -> None:
+    def _check_room_beside_abutments(self, abutments: Abutments, next_length: float) -> None:
         shortest = min(self.span_lengths_m[0], self.span_lengths_m[-1])
-        if (self.abutments.length_m + next_length) / 2.0 >= shortest:
+        if (abutments.length_m + next_length) / 2.0 >= shortest:
             wanted = f"less, so that the abutments do not overlap the next support in a span of {shortest} (m)"
-            raise self.abutments.unexpected("length_m", wanted)
+            raise abutments.unexpected("length_m", wanted)
 
     def _check_joints(self) -> None:
         """Both decks at a joint have to lie on the pier under it."""
         if self.deck.joint_gap_m <= 0.0 or len(self.span_lengths_m) == 1:
             return
-        support = self.pier_caps.length_m if self.pier_caps else self.piers.column_length_m
+        support = self.pier_caps.length_m if self.pier_caps else given(self.piers).column_length_m
         if self.deck.joint_gap_m >= support:
             wanted = f"less than {support} (m), the length of the pier or pier cap that carries both decks"
             raise self.deck.unexpected("joint_gap_m", wanted)
 
-    def _check_room_across(self) -> None:
+    def _check_room_across(self, piers: Piers) -> None:
         carried = self.pier_caps or self.box_girder or self.deck
-        widest = self.carried_width_m / self.piers.columns
-        if self.piers.kind == "columns" and self.piers.column_width_m > widest * (1.0 + ROUNDING):
+        widest = self.carried_width_m / piers.columns
+        if piers.kind == "columns" and piers.column_width_m > widest * (1.0 + ROUNDING):
             wanted = f"at most {widest:.6g} (m), so that the columns fit into {carried.table}.width_m"
-            raise self.piers.unexpected("column_width_m", wanted)
+            raise piers.unexpected("column_width_m", wanted)
         if self.girders and not self.pier_caps:
-            self._check_columns_under_girders(widest)
+            self._check_columns_under_girders(piers, self.girders, widest)
 
-    def _check_columns_under_girders(self, column_spacing: float) -> None:
+    def _check_columns_under_girders(self, piers: Piers, girders: Girders, column_spacing: float) -> None:
         """Without pier caps a column between two girders would carry nothing."""
-        columns, girders = self.piers.columns, self.girders.number
-        reach = (self.piers.column_width_m + self.girders.width_m) / 2.0
+        columns, number = piers.columns, girders.number
+        reach = (piers.column_width_m + girders.width_m) / 2.0
         for column in range(columns):
             place = (column - (columns - 1) / 2.0) * column_spacing
-            apart = [abs(place - (girder - (girders - 1) / 2.0) * self.girder_spacing_m) for girder in range(girders)]
+            apart = [abs(place - (girder - (number - 1) / 2.0) * self.girder_spacing_m) for girder in range(number)]
             if min(apart) >= reach * (1.0 - ROUNDING):
-                wanted = f"as many as bridge.girders.number, {girders}, or bridge.pier_caps"
-                raise self.piers.unexpected(
+                wanted = f"as many as bridge.girders.number, {number}, or bridge.pier_caps"
+                raise piers.unexpected(
                     "columns", f"{wanted}, as a column stands between two girders and carries nothing"
                 )
 

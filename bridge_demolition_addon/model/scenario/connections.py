@@ -11,7 +11,7 @@ from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLI
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..materials.materials import MODULUS, POISSON, Material, moduli, strengths
-from ..schema import LARGEST_INTEGER, Table, check_exactly_one, expected, key
+from ..schema import LARGEST_INTEGER, Table, check_exactly_one, expected, given, key
 
 _SPRINGS = {
     "move": ("stiffness_n_m", "damping_ns_m"),
@@ -24,8 +24,23 @@ _SPRING_KEYS = (*_SPRINGS["move"], *_SPRINGS["turn"])
 _STIFFENED = "Bullet softens what is stiffer than a 16th of the body's {} by the square of the sub-step."
 
 
+class _Breaking(Table):
+    """Base of the tables of connections that break by a force."""
+
+    __slots__ = ()
+    breaking_force_n: float | None
+    breaking_force_kgf: float | None
+
+    @property
+    def breaking_force_newton(self) -> float | None:
+        """Return the force that breaks it, N; None where none was given."""
+        if self.breaking_force_kgf is not None:
+            return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
+        return self.breaking_force_n
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class JointSettings(Table):
+class JointSettings(_Breaking):
     """The type of a connection, what is free in it, and its springs; each table of these also has a breaking force."""
 
     type: str | None = key("Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES)
@@ -49,13 +64,6 @@ class JointSettings(Table):
         above=0,
     )
     turning_damping_nms_rad: float | None = key("Damping with it.", default=None, unit="N·m·s/rad", at_least=0)
-
-    @property
-    def breaking_force_newton(self) -> float | None:
-        """Return the force that breaks it, N; None where none was given."""
-        if self.breaking_force_kgf is not None:
-            return self.breaking_force_kgf * STANDARD_GRAVITY_M_S2
-        return self.breaking_force_n
 
     @property
     def springs(self) -> Springs:
@@ -340,7 +348,7 @@ class ConnectionSettings(JointSettings):
             self.free or (),
             self.springs,
             _times(factor, self.breaking_force_newton),
-            known.get(self.material),
+            known[self.material] if self.material else None,
             _moduli(self, materials) if self.is_elastic else None,
         )
         return (own, *(_joint_between(own, rule, factor, known, materials) for rule in self.between))
@@ -359,16 +367,21 @@ class ConnectionSettings(JointSettings):
         return self
 
     @property
+    def _tables(self) -> "tuple[ConnectionSettings | ConnectionBetween, ...]":
+        """These settings and those of the rules."""
+        return (self, *self.between)
+
+    @property
     def _has_strength(self) -> bool:
         return any(getattr(self, name) is not None for name in STRENGTH_KEYS)
 
     def _check_together(self) -> None:
         if self._has_strength:
             check_exactly_one(self, *STRENGTH_KEYS)
-        for each in (self, *self.between):
+        for each in self._tables:
             if each.material is not None and self.method != "face":
                 raise each.unexpected("material", f'method "face" with it, found "{self.method}"')
-            if each is self or each.changes_joint:
+            if isinstance(each, ConnectionSettings) or each.changes_joint:
                 each.check_type(each.type or self.type)
         if self.ductile_share > 0.0 and self.material is None:
             raise self.unexpected("ductile_share", "0 where connections.material is not given")
@@ -389,21 +402,21 @@ class ConnectionSettings(JointSettings):
             if getattr(self, name) is not None and not (self.is_elastic and self.ductile_elongation_m is not None):
                 wanted = 'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m'
                 raise self.unexpected(name, wanted)
-        given = self.ductile_rupture_strain is not None
-        rupture = self.ductile_rupture_strain if given else USUAL_STEEL.rupture_strain
+        is_given = self.ductile_rupture_strain is not None
+        rupture = USUAL_STEEL.rupture_strain if self.ductile_rupture_strain is None else self.ductile_rupture_strain
         yield_pa = USUAL_STEEL.yield_pa
         if self.ductile_yield_n_mm2 is not None:
             yield_pa = self.ductile_yield_n_mm2 * NEWTON_PER_SQUARE_MILLIMETRE
         if rupture <= yield_pa / MODULUS_PA:
             wanted = f"less: by 200 000 N/mm² it would be a strain above that at rupture, {rupture:g}"
-            if given:
+            if is_given:
                 wanted = f"more than {yield_pa / MODULUS_PA:.3g}, the strain at which the reinforcement yields"
-            raise self.unexpected("ductile_rupture_strain" if given else "ductile_yield_n_mm2", wanted)
+            raise self.unexpected("ductile_rupture_strain" if is_given else "ductile_yield_n_mm2", wanted)
 
     def _check_elastic(self) -> None:
         """Check that what only elastic connections have goes with them, and that these have all that they need."""
         names = ("elastic_modulus_n_mm2", "poisson_ratio", "damping_ratio")
-        for each in (self, *self.between):
+        for each in self._tables:
             for name in names:
                 if not self.is_elastic and getattr(each, name, None) is not None:
                     raise each.unexpected(name, 'none where connections.stiffness is "rigid"')
@@ -416,7 +429,7 @@ class ConnectionSettings(JointSettings):
                 'connections.material is missing: expected it with stiffness "elastic"; elastic connections break by '
                 "stress, not by one force"
             )
-        for each in (self, *self.between):
+        for each in self._tables:
             kind = each.type or self.type
             if kind not in ELASTIC_TYPES and not getattr(each, "none", False):
                 raise each.unexpected("type", f'one of {", ".join(ELASTIC_TYPES)} with stiffness "elastic"')
@@ -427,7 +440,7 @@ class ConnectionSettings(JointSettings):
                 )
 
     def _check_materials(self, known: Collection[str]) -> None:
-        for each in (self, *self.between):
+        for each in self._tables:
             if each.material is not None and each.material not in known:
                 item = next(item for item in fields(each) if item.name == "material")
                 raise each.unexpected("material", expected(item))
@@ -448,7 +461,7 @@ def _joint_between(
 ) -> Joint:
     kind = rule.type or own.type
     free, springs = (rule.free or (), rule.springs) if rule.changes_joint else (own.free, own.springs)
-    force, strength = _times(factor, rule.breaking_force_newton), known.get(rule.material)
+    force, strength = _times(factor, rule.breaking_force_newton), known[rule.material] if rule.material else None
     if force is None and strength is None:
         force, strength = own.breaking_force_n, own.strength
     own_moduli = _moduli(rule, materials, own.moduli) if own.moduli else None
@@ -470,6 +483,6 @@ def _moduli(
         return ElasticModuli(young * NEWTON_PER_SQUARE_MILLIMETRE, poisson)
     known = moduli(materials, settings.material) if settings.material else others
     return ElasticModuli(
-        known.young_pa if young is None else young * NEWTON_PER_SQUARE_MILLIMETRE,
-        known.poisson if poisson is None else poisson,
+        given(known).young_pa if young is None else young * NEWTON_PER_SQUARE_MILLIMETRE,
+        given(known).poisson if poisson is None else poisson,
     )

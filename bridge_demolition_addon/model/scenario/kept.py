@@ -7,10 +7,12 @@ without a value is left out where each has a property of its own.
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
-from typing import Any
+from typing import Any, TypeVar
 
 from ...errors import ScenarioError
 from ..schema import Table, key_fields, shown, value_type
+
+_Table = TypeVar("_Table", bound=Table)
 
 
 def tables_text(tables: Iterable[Table]) -> str:
@@ -39,7 +41,7 @@ def table_values(table: Table) -> dict[str, Any]:
     return {item.name: getattr(table, item.name) for item in key_fields(type(table))}
 
 
-def table_from_values(table_class: type[Table], values: Mapping[str, Any]) -> Table:
+def table_from_values(table_class: type[_Table], values: Mapping[str, Any]) -> _Table:
     """Return the table with some values, and the defaults of keys that have none.
 
     Raises

@@ -8,7 +8,17 @@ from collections.abc import Iterator
 from dataclasses import Field
 from pathlib import Path
 
-from ..schema import Table, expected, holds_many, is_required, key_fields, key_of, subtable_class, subtable_fields
+from ..schema import (
+    Table,
+    expected,
+    given,
+    holds_many,
+    is_required,
+    key_fields,
+    key_of,
+    subtable_class,
+    subtable_fields,
+)
 from ..toml_tables import toml_value
 from .scenario import Scenario
 
@@ -61,7 +71,7 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
     yield from map(_row, key_fields(table_class))
     yield ""
     for item in subtable_fields(table_class):
-        yield from _section(subtable_class(item), required=is_required(item), many=holds_many(item))
+        yield from _section(given(subtable_class(item)), required=is_required(item), many=holds_many(item))
 
 
 def _row(item: Field) -> str:
@@ -75,7 +85,7 @@ def _default(item: Field) -> str:
 
 
 def _meaning(table_class: type[Table]) -> str:
-    return " ".join(table_class.__doc__.split())
+    return " ".join((table_class.__doc__ or "").split())
 
 
 if __name__ == "__main__":

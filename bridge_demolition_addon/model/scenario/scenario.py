@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import cache
 from itertools import chain
 from typing import Any, ClassVar
 
@@ -20,7 +19,17 @@ from ..ground_motion.sources import ground_record
 from ..loads.load import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
-from ..schema import LARGEST_INTEGER, ROUNDING, Table, check_exactly_one, key, shown, subtable_class, subtable_fields
+from ..schema import (
+    LARGEST_INTEGER,
+    ROUNDING,
+    Table,
+    check_exactly_one,
+    given,
+    key,
+    shown,
+    subtable_class,
+    subtable_fields,
+)
 from .ball import Ball
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
@@ -97,7 +106,7 @@ class Scenario(Table):
     @property
     def _material_density_kg_m3(self) -> float | None:
         named = {each.name: each.density_kg_m3 for each in self.materials}
-        return named.get(self.connections.material)
+        return named.get(self.connections.material) if self.connections.material else None
 
     @property
     def ground_record(self) -> GroundRecord | None:
@@ -108,7 +117,7 @@ class Scenario(Table):
         ScenarioError
             As `ground_record`, of a file.
         """
-        return self.ground_motion and ground_record(self.ground_motion, self.seed)
+        return ground_record(self.ground_motion, self.seed) if self.ground_motion else None
 
     @property
     def steel(self) -> Steel:
@@ -204,7 +213,7 @@ class Scenario(Table):
     def _check_slow_motion(self) -> None:
         blast = self.blast
         slow_s = sum(motion.duration_s for motion in blast.slow_motions(self.charges, self.time.step.frame_s))
-        if slow_s and slow_s / blast.slow_frame_ms * 1000.0 + self.time.frames > MOST_FRAMES:
+        if slow_s and slow_s / given(blast.slow_frame_ms) * 1000.0 + self.time.frames > MOST_FRAMES:
             raise ScenarioError(
                 f"blast.slow_frame_ms is {blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"
             )
@@ -213,9 +222,10 @@ class Scenario(Table):
         if self.geometry:
             return  # what lies there is only known once the members are read
         along, across = point
-        overhang, half_width = self.bridge.deck.overhang_m, self.bridge.deck.width_m / 2.0
-        skewed_by = across * self.bridge.shift_across
-        deck = ((skewed_by - overhang, skewed_by + self.bridge.spans_m + overhang), (-half_width, half_width))
+        bridge = given(self.bridge)
+        overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
+        skewed_by = across * bridge.shift_across
+        deck = ((skewed_by - overhang, skewed_by + bridge.spans_m + overhang), (-half_width, half_width))
         for place, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True)):
             slack = ROUNDING * (highest - lowest)
             if not lowest - slack <= position <= highest + slack:
@@ -225,7 +235,6 @@ class Scenario(Table):
                 )
 
 
-@cache
 def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
     """Return the names of the fields that hold actions."""
     return tuple(

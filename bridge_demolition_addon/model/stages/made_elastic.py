@@ -1,6 +1,7 @@
 """A scenario with elastic connections, of one whose connections are rigid."""
 
 from dataclasses import replace
+from typing import Any
 
 from ...errors import ScenarioError
 from ..scenario import Scenario
@@ -20,7 +21,7 @@ def made_elastic(scenario: Scenario) -> Scenario:
     between = tuple(
         replace(each, breaking_force_n=None, breaking_force_kgf=None) for each in scenario.connections.between
     )
-    changes = {"stiffness": "elastic", "between": between}
+    changes: dict[str, Any] = {"stiffness": "elastic", "between": between}
     if scenario.connections.material is None and scenario.connections.method == "face":
         changes |= {"breaking_force_n": None, "breaking_force_kgf": None, "material": MATERIAL_OF_LARGE_MODELS}
     try:

@@ -87,7 +87,7 @@ class StandingBridge:
         self._moves = np.append(~model.fixed, False)
         self._pairs = model.connections.pairs % len(self._moves)
         sections = member_sections_of(model)
-        self._judges = [each.strength and overloads_of(model, each.strength, sections) for each in joints]
+        self._judges = [overloads_of(model, each.strength, sections) if each.strength else None for each in joints]
 
     def rest(
         self,
@@ -176,14 +176,12 @@ class StandingBridge:
         """Return which of `DIRECTIONS` uses most of each connection (m,); empty where one is gone."""
         found = np.full(len(standing.alone), "", dtype=object)
         there = np.isfinite(standing.alone) & self.model.breakable
-        for number, joint in enumerate(self._joints):
+        for number, judge in enumerate(self._judges):
             rows = np.flatnonzero(there & (self.model.joint_of_connection == number))
-            if joint.strength is None:
+            if judge is None:
                 found[rows] = FORCE
             elif len(rows):
-                found[rows] = _directions(
-                    self._judges[number], rows, standing.loads.in_sections(rows, self._axes[rows])
-                )
+                found[rows] = _directions(judge, rows, standing.loads.in_sections(rows, self._axes[rows]))
         return found
 
     def parts(self, intact: np.ndarray) -> np.ndarray:
@@ -202,12 +200,11 @@ class StandingBridge:
         breakable = intact & self.model.breakable
         alone[intact & ~breakable] = 0.0
         largest = np.maximum(abs(loads.forces_n).max(axis=1), abs(loads.moments_nm).max(axis=1))
-        for number, joint in enumerate(self._joints):
+        for number, (joint, judge) in enumerate(zip(self._joints, self._judges, strict=True)):
             rows = np.flatnonzero(breakable & (self.model.joint_of_connection == number))
             if not len(rows):
                 continue
-            if joint.strength is not None:
-                judge = self._judges[number]
+            if judge is not None:
                 alone[rows] = judge.alone(rows, loads, self._axes[rows], left)
                 judged = rows if every_section else rows[alone[rows] > 1.0]
                 if len(judged):

@@ -18,6 +18,7 @@ from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.mechanics.strength import Strength
 from ...engineering.structure.connections import GROUND, Connections
 from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ..schema import given
 from .model import Model
 
 
@@ -97,7 +98,7 @@ def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
     """
     masses = np.where(model.fixed, 0.0, model.masses_kg)
     held = held_motions(model, joints)
-    return at_rest(model.connections, model.stiffness, masses, inertias_of(model), model.centres_m, held)
+    return at_rest(model.connections, given(model.stiffness), masses, inertias_of(model), model.centres_m, held)
 
 
 def held_motions(model: Model, joints: Sequence[Joint]) -> np.ndarray:

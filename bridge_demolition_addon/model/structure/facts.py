@@ -13,6 +13,7 @@ from ..actions import Fact
 from ..materials.bar_layers import AXES, SIDES
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
+from ..schema import given
 from .equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
 from .face_bars import layers_of_members
 from .model import Model
@@ -50,9 +51,9 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         is_usual = is_large and connections.material == MATERIAL_OF_LARGE_MODELS
         usual = f", as in all models of {LARGE_MODEL} shards or more that give no strength" if is_usual else ""
         yield "strength of", f"{connections.material}{usual}"
-        yield from _strength_facts(scenario.joints[0].strength)
+        yield from _strength_facts(given(scenario.joints[0].strength))
     else:
-        force = scenario.joints[0].breaking_force_n
+        force = given(scenario.joints[0].breaking_force_n)
         yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
         yield "breaking impulse", f"{scenario.time.step.impulse(force):.4g} N·s in a sub-step"
         if is_large:
@@ -65,9 +66,9 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield the moments at which sections with layers of bars yield."""
-    strength = scenario.joints[0].strength
     for group in layers_of_members(scenario.reinforcement, model.members):
-        section = group.section(strength.compression_pa, scenario.connections.strength_factor)
+        compression_pa = float(given(scenario.joints[0].strength).compression_pa)
+        section = group.section(compression_pa, scenario.connections.strength_factor)
         along, across, _ = group.axes
         sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
         moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
@@ -103,7 +104,7 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield how footings press on their soil by the bridge's own weight."""
-    rest, soil = model_at_rest(model, scenario.joints), model.soil
+    rest, soil = model_at_rest(model, scenario.joints), given(model.soil)
     forces_n = np.abs(rest.loads[2, soil.rows])
     areas = model.connections.areas[soil.rows]
     members = model.member_of_shard[model.connections.pairs[soil.rows, 0]]

@@ -20,7 +20,7 @@ from ...errors import GeometryError, ScenarioError
 from ..bridge.member import Member
 from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
-from ..schema import SHORTEST_LENGTH_M
+from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
 
 _DENSITY_SAMPLES = 4000
@@ -140,8 +140,9 @@ def _density(settings: FractureSettings) -> PointDensity | None:
     """Where the points lie closer: around places, and where it is painted."""
     found = []
     if settings.finer:
-        columns = ([getattr(each, name) for each in settings.finer] for name in ("place_m", "radius_m", "factor"))
-        found.append(density_around(*columns))
+        places = np.array([place.place_m for place in settings.finer])
+        radii, factors = [place.radius_m for place in settings.finer], [place.factor for place in settings.finer]
+        found.append(density_around(places, radii, factors))
     if settings.painted_file is not None:
         found.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
     return densest(found) if found else None
@@ -173,9 +174,10 @@ def _fractured_in_parts(member: Member, count: int, seed: int, options: Fracture
 
 
 def _masses(member: Member, part: Fracture, mass: str) -> np.ndarray:
+    density = given(member.density_kg_m3)
     if mass == "uniform":
-        return np.full(len(part), member.density_kg_m3 * part.volumes.sum() / len(part))
-    return member.density_kg_m3 * part.volumes
+        return np.full(len(part), density * part.volumes.sum() / len(part))
+    return density * part.volumes
 
 
 def _recursion(settings: FractureSettings) -> Recursion | None:

@@ -20,6 +20,7 @@ from ..bridge.extent import room_around
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..scenario import ConnectionSettings, Scenario
+from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .connection_rules import rules_of_pairs
 from .face_bars import face_bars
@@ -158,7 +159,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             fractured.member_of_shard,
             fixed,
         )
-    if soil:
+    if soil and stiffness:
         connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)
         moments[soil.rows] = second_moments_of(soil)
     return Model(
@@ -200,11 +201,11 @@ def _connections(
         case "face":
             pairs, distances = connecting.neighbours_by_face(faces)
         case "centre":
-            pairs, distances = connecting.neighbours_by_centre(centres, settings.search_radius_m)
+            pairs, distances = connecting.neighbours_by_centre(centres, given(settings.search_radius_m))
         case "vertex":
-            pairs, distances = connecting.neighbours_by_vertex(shards, settings.search_radius_m)
+            pairs, distances = connecting.neighbours_by_vertex(shards, given(settings.search_radius_m))
         case "nearest":
-            pairs, distances = connecting.neighbours_by_count(centres, settings.neighbours)
+            pairs, distances = connecting.neighbours_by_count(centres, given(settings.neighbours))
     kept = allowed(pairs)
     between = connecting.connect(centres, faces, pairs[kept], distances[kept], settings.limit_per_shard)
     if not settings.foundation:

@@ -61,7 +61,7 @@ def fixed_shards(
                 f"{', '.join(known)}"
             )
         for index in chosen:
-            own = np.flatnonzero(member_of_shard == index)
+            own = np.flatnonzero(member_of_shard == index).tolist()
             if support.face == "all":
                 fixed[own] = True
             else:

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from ...errors import ScenarioError
 from ..scenario import Scenario
-from ..schema import Table, key, shown
+from ..schema import Table, given, key, shown
 from ..toml_tables import dotted
 
 COLLAPSED = "collapsed_share"
@@ -39,32 +39,32 @@ KINDS = {
     "collapsed": CriterionKind((), lambda _: COLLAPSED, lambda value, asked: value >= asked.limit_share, 0.5),
     "span down": CriterionKind(
         ("span",),
-        lambda asked: span_output(asked.span, "lost_share"),
+        lambda asked: span_output(given(asked.span), "lost_share"),
         lambda value, asked: value >= asked.limit_share,
         0.5,
     ),
     "span stands": CriterionKind(
         ("span",),
-        lambda asked: span_output(asked.span, "most_lost_share"),
+        lambda asked: span_output(given(asked.span), "most_lost_share"),
         lambda value, asked: value <= asked.limit_share,
         0.1,
     ),
     "zone not entered": CriterionKind(
-        ("zone",), lambda asked: zone_output(asked.zone, "entered"), lambda value, _: not value
+        ("zone",), lambda asked: zone_output(given(asked.zone), "entered"), lambda value, _: not value
     ),
     "pressure below": CriterionKind(
         ("neighbour", "limit_kpa"),
-        lambda asked: neighbour_output(asked.neighbour, "pressure_kPa"),
+        lambda asked: neighbour_output(given(asked.neighbour), "pressure_kPa"),
         lambda value, asked: value < asked.limit_kpa,
     ),
     "vibration below": CriterionKind(
         ("neighbour", "limit_mm_s"),
-        lambda asked: neighbour_output(asked.neighbour, "vibration_mm_s"),
+        lambda asked: neighbour_output(given(asked.neighbour), "vibration_mm_s"),
         lambda value, asked: value < asked.limit_mm_s,
     ),
     "touchdown below": CriterionKind(
         ("neighbour", "limit_mm_s"),
-        lambda asked: neighbour_output(asked.neighbour, "touchdown_mm_s"),
+        lambda asked: neighbour_output(given(asked.neighbour), "touchdown_mm_s"),
         lambda value, asked: value < asked.limit_mm_s,
     ),
 }

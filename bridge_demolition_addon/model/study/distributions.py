@@ -226,12 +226,14 @@ class Normal:
     @cached_property
     def _below(self) -> tuple[float, float]:
         """Probabilities of the whole distribution below the lowest and below the highest value."""
-        return tuple(normal_probability((end - self.mean) / self.deviation) for end in (self.lowest, self.highest))
+        low, high = (normal_probability((end - self.mean) / self.deviation) for end in (self.lowest, self.highest))
+        return low, high
 
     @cached_property
     def _above(self) -> tuple[float, float]:
         """Probabilities above them: a small one is known to more digits than its difference from 1."""
-        return tuple(normal_probability((self.mean - end) / self.deviation) for end in (self.lowest, self.highest))
+        low, high = (normal_probability((self.mean - end) / self.deviation) for end in (self.lowest, self.highest))
+        return low, high
 
 
 @dataclass(frozen=True)

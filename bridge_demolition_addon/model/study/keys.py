@@ -106,7 +106,7 @@ def _way_to_a_value(item: Field) -> str | None:
 def _parts(name: str) -> list[str]:
     """Return the parts of a dotted name, which is written as TOML has it."""
     try:
-        inner = tomllib.loads(f"{name} = {json.dumps(_LEAF)}")
+        inner: Any = tomllib.loads(f"{name} = {json.dumps(_LEAF)}")
     except (ValueError, RecursionError) as error:
         raise ScenarioError(f"{shown(name)} is no name of a key: expected one such as ball.drop_height_m") from error
     parts = []
@@ -154,7 +154,7 @@ def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str
     if not chosen and first.isascii() and first.isdigit() and 1 <= int(first[:9]) <= len(tables):
         chosen = [int(first) - 1]
     if not chosen and first in [item.name for item in fields(tables[0])]:
-        chosen, rest = range(len(tables)), parts
+        chosen, rest = list(range(len(tables))), parts
     if not chosen:
         raise ScenarioError(f"{name} is not in the scenario: [[{before}]] has {', '.join(map(shown, names))}")
     if not rest:
@@ -196,7 +196,7 @@ def _changed(value: Any, changes: Mapping[tuple, Any]) -> Any:
     """Return a table, a list or a value with changes, each by the way to it."""
     if () in changes:
         return changes[()]
-    inner: dict[str | int, dict[tuple, Any]] = {}
+    inner: dict[Any, dict[tuple[Any, ...], Any]] = {}
     for (first, *rest), each in changes.items():
         inner.setdefault(first, {})[tuple(rest)] = each
     if isinstance(value, tuple):

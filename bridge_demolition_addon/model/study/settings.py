@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from .. import schema
-from ..schema import LARGEST_INTEGER, Scalar, Table
+from ..schema import LARGEST_INTEGER, Scalar, Table, given
 from .criteria import Criterion
 from .distributions import Choice, Distribution, Lognormal, Normal, Triangular, Uniform
 
@@ -65,15 +65,15 @@ class Vary(Table):
         ends = {name: getattr(self, name) for name in ("lowest", "highest") if getattr(self, name) is not None}
         match self.distribution:
             case "normal":
-                return Normal(self.mean, self.deviation, **ends)
+                return Normal(given(self.mean), given(self.deviation), **ends)
             case "lognormal":
-                return Lognormal(self.median, self.variation, **ends)
+                return Lognormal(given(self.median), given(self.variation), **ends)
             case "uniform":
-                return Uniform(self.lowest, self.highest)
+                return Uniform(given(self.lowest), given(self.highest))
             case "triangular":
-                return Triangular(self.lowest, self.most_likely, self.highest)
+                return Triangular(given(self.lowest), given(self.most_likely), given(self.highest))
             case _:
-                return Choice(self.values)
+                return Choice(given(self.values))
 
     def _check_together(self) -> None:
         for name in ("mean", "deviation", "median", "variation", "lowest", "most_likely", "highest", "values"):
@@ -90,7 +90,7 @@ class Vary(Table):
     def _check_order(self) -> None:
         if self.lowest is not None and self.highest is not None and not self.lowest < self.highest:
             raise self.unexpected("highest", f"more than vary.lowest, {self.lowest:g}")
-        if self.most_likely is not None and not self.lowest <= self.most_likely <= self.highest:
+        if self.most_likely is not None and not given(self.lowest) <= self.most_likely <= given(self.highest):
             raise self.unexpected("most_likely", f"a number from vary.lowest to vary.highest, {self.highest:g}")
         if self.distribution == "lognormal" and self.lowest is not None and self.lowest < 0.0:
             raise self.unexpected("lowest", "at least 0 with a lognormal distribution")

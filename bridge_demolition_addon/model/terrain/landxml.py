@@ -43,12 +43,16 @@ def read_landxml(path: Path, scale: float) -> Surface:
     if _name(root) != "LandXML":
         raise GeometryError(f"is no LandXML: it begins with {_name(root)!r}")
     _check_units(root, scale)
-    surfaces = [each for each in root.iter() if _name(each) == "Surface" and _child(each, "Definition") is not None]
+    surfaces = [
+        (surface, definition)
+        for surface in root.iter()
+        if _name(surface) == "Surface" and (definition := _child(surface, "Definition")) is not None
+    ]
     if len(surfaces) != 1:
-        names = ", ".join(repr(each.get("name", "")) for each in surfaces)
+        names = ", ".join(repr(surface.get("name", "")) for surface, _ in surfaces)
         found = f"holds {len(surfaces)} surfaces, {names}" if surfaces else "holds no surface"
         raise GeometryError(f"{found}: expected one; export it alone")
-    return Surface(_triangles(_child(surfaces[0], "Definition")))
+    return Surface(_triangles(surfaces[0][1]))
 
 
 def _triangles(definition: ElementTree.Element) -> TriangleMesh:

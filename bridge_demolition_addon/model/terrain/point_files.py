@@ -44,10 +44,10 @@ def read_points(path: Path, no_data: float | None) -> Raster | Surface:
 
 def on_grid(points: np.ndarray) -> Raster | None:
     """Return points (n, 3) as a grid; None where they lie on none."""
-    axes = [_regular(points[:, axis]) for axis in (0, 1)]
-    if any(each is None for each in axes):
+    along_x, along_y = (_regular(points[:, axis]) for axis in (0, 1))
+    if along_x is None or along_y is None:
         return None
-    (columns, first_x, dx), (rows, first_y, dy) = axes
+    (columns, first_x, dx), (rows, first_y, dy) = along_x, along_y
     shape = int(rows.max()) + 1, int(columns.max()) + 1
     if min(shape) < 2 or shape[0] * shape[1] >= _CELLS_PER_POINT * len(points):
         return None

@@ -14,6 +14,7 @@ from ...engineering.geometry.solids import from_manifold, to_manifold
 from ...engineering.terrain.surface import Surface
 from ...errors import GeometryError
 from ..scenario import GroundSurface, Scenario
+from ..schema import given
 from .placed import surface_mesh
 
 THICKNESS_M = 1.0
@@ -77,8 +78,9 @@ def built_surfaces(
 def _level(settings: GroundSurface, members: Sequence[tuple[str, TriangleMesh]]) -> TriangleMesh:
     corners = np.array(settings.corners_m)
     area = CrossSection([corners if signed_area(corners) > 0.0 else corners[::-1]])
-    bottom = settings.height_m - THICKNESS_M
-    standing = [_plan_between(solid, name, bottom, settings.height_m) for name, solid in members]
+    height = given(settings.height_m)
+    bottom = height - THICKNESS_M
+    standing = [_plan_between(solid, name, bottom, height) for name, solid in members]
     room = [each.offset(_GAP_M, JoinType.Miter) for each in standing if not each.is_empty()]
     area -= united(room)
     if area.is_empty():

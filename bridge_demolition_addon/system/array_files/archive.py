@@ -41,14 +41,14 @@ def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Containe
     packed : container of str
         Names of those to pack, besides the small ones. A packed array has to be read as a whole.
     """
-    with whole_file(path) as part, zipfile.ZipFile(part, "w") as archive:
+    with whole_file(path) as part, part.open("w+b") as written, zipfile.ZipFile(written, "w") as archive:
         for name, values in arrays.items():
             values = np.asanyarray(values)
             member = zipfile.ZipInfo(f"{name}{_ENDING}")
             if name in packed or values.nbytes < _MAPPED_FROM:
                 member.compress_type = zipfile.ZIP_DEFLATED
             else:
-                before = archive.fp.tell() + _LOCAL_HEADER + len(member.filename.encode()) + _SIZES + _PADDING
+                before = written.tell() + _LOCAL_HEADER + len(member.filename.encode()) + _SIZES + _PADDING
                 padding = -before % _ALIGNMENT
                 member.extra = struct.pack("<HH", _PADDING_MARK, padding) + bytes(padding)
             with archive.open(member, "w", force_zip64=True) as file:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 import shutil
 import tempfile
-from typing import BinaryIO
+from typing import IO, Literal
 
 import numpy as np
 
 _BLOCK = 1 << 20
 
 
-def mapped_copy(content: BinaryIO, dtype: np.dtype, shape: tuple[int, ...], *, is_fortran: bool = False) -> np.ndarray:
+def mapped_copy(content: IO[bytes], dtype: np.dtype, shape: tuple[int, ...], *, is_fortran: bool = False) -> np.ndarray:
     """Copy a file from where it stands to its end, and return the array that this is, mapped: it takes no memory.
 
     The copy has no name, and goes with the array. A mapped file that another program cuts short or empties would end
@@ -25,7 +25,8 @@ def mapped_copy(content: BinaryIO, dtype: np.dtype, shape: tuple[int, ...], *, i
     ValueError
         The content is less than the array.
     """
-    order, start = "F" if is_fortran else "C", content.tell()
+    order: Literal["F", "C"] = "F" if is_fortran else "C"
+    start = content.tell()
     try:
         with tempfile.TemporaryFile() as copy:
             shutil.copyfileobj(content, copy, _BLOCK)
