@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from types import ModuleType
 
 import pytest
+from support.processes import end_started
 
 import bridge_demolition_addon
 from bridge_demolition_addon.cli.process_end import end_process
@@ -18,6 +19,13 @@ pytest.register_assert_rewrite("support.falling_pair", "support.example_claims")
 
 _session = pytest.StashKey[pytest.Session]()
 _user_folder = pytest.StashKey[str]()
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_left_running() -> Iterator[None]:
+    """End the processes that a test started, which it may have left running as it failed."""
+    yield
+    end_started()
 
 
 @pytest.fixture

@@ -36,7 +36,7 @@ def test_one_case_runs_and_is_met(blender, tmp_path):
     """The cheapest: friction stops a block where Coulomb says."""
     import sliding_block
 
-    times, way = sliding_block._course(tmp_path, 0.6)
+    times, way = sliding_block.course(tmp_path, 0.6)
     expected = sliding_block.SPEED_M_S**2 / (2.0 * 0.6 * sliding_block.G)
     assert way[-1] == pytest.approx(expected, rel=0.02)
     assert times[-1] == pytest.approx(2.5, abs=0.05)

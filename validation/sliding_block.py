@@ -15,7 +15,7 @@ FRICTIONS, SPEED_M_S = (0.3, 0.6, 0.9), 5.0
 
 def run(folder: Path) -> Found:
     """Let it slide with each friction."""
-    courses = {friction: _course(folder, friction) for friction in FRICTIONS}
+    courses = {friction: course(folder, friction) for friction in FRICTIONS}
     comparisons = [
         Comparison(f"way with friction {friction}", "m", SPEED_M_S**2 / (2.0 * friction * G), float(way[-1]), 0.02)
         for friction, (_, way) in courses.items()
@@ -32,7 +32,7 @@ def run(folder: Path) -> Found:
     return Found(comparisons, draw)
 
 
-def _course(folder: Path, friction: float) -> tuple[np.ndarray, np.ndarray]:
+def course(folder: Path, friction: float) -> tuple[np.ndarray, np.ndarray]:
     scenario = f"""
 [scenario]
 title = "block that slides, friction {friction}"

@@ -17,7 +17,7 @@ from ..errors import LayoutError
 from ..scene.world import evaluated_scenes
 from .memory import read, read_pointer, write_pointers
 
-_INFLUENCES = (
+INFLUENCES = (
     *("all", "force", "vortex", "magnetic", "wind", "curve_guide", "texture", "harmonic"),
     *("charge", "lennardjones", "boid", "turbulence", "drag", "smokeflow", "gravity"),
 )
@@ -56,8 +56,8 @@ def _limit(scene: bpy.types.Scene, collection: int) -> None:
     weights = scene.rigidbody_world.effector_weights
     address = weights.as_pointer()  # the structure begins with the pointer
     limited_to = weights.collection.as_pointer() if weights.collection else 0
-    raw = read(address + 8, 4 * len(_INFLUENCES)) or b""
-    shown = np.array([getattr(weights, name) for name in _INFLUENCES], np.float32)
+    raw = read(address + 8, 4 * len(INFLUENCES)) or b""
+    shown = np.array([getattr(weights, name) for name in INFLUENCES], np.float32)
     if read_pointer(address) != limited_to or raw != shown.tobytes():
         raise LayoutError("the limit of the rigid-body world's force fields is not where it is expected")
     write_pointers(address, collection)

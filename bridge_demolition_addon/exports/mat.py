@@ -11,7 +11,7 @@ from ..errors import OutputError
 from ..model.results.arrays import Results
 from ..system.progress import Progress
 
-_MOST_BYTES = 2**31 - 1
+MOST_BYTES = 2**31 - 1
 """Of an array in such a file."""
 
 
@@ -26,7 +26,7 @@ def write_mat(results: Results, path: Path, progress: Progress) -> None:
     arrays = {name: np.asarray(values) for name, values in results.arrays().items()}
     progress.stage(f"writing {len(arrays)} arrays")
     for name, values in arrays.items():
-        if values.nbytes > _MOST_BYTES:
+        if values.nbytes > MOST_BYTES:
             raise OutputError(f"{path}: {name} takes {values.nbytes / 1e9:.1f} GB, and a MAT file can hold 2.1 of each")
     texts = {name: values.astype(object) for name, values in arrays.items() if values.dtype.kind == "U" and values.ndim}
     with path.open("wb") as file:

@@ -79,7 +79,7 @@ def test_memory_that_is_not_as_expected_is_not_written(pushed, monkeypatch, act)
     weights = scene.view_layers[0].depsgraph.scene_eval.rigidbody_world.effector_weights
     before = weights.collection
     scene.view_layers[0].depsgraph.scene_eval.rigidbody_world.effector_weights.wind = 0.5
-    monkeypatch.setattr(field_filter, "_INFLUENCES", field_filter._INFLUENCES[::-1])
+    monkeypatch.setattr(field_filter, "INFLUENCES", field_filter.INFLUENCES[::-1])
     with pytest.raises(LayoutError, match="not where it is expected"):
         act(scene)
     assert weights.collection == before

@@ -31,7 +31,7 @@ def test_every_array_is_in_it_to_the_bit(tmp_path):
 
 
 def test_an_array_that_does_not_fit_is_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(mat, "_MOST_BYTES", 1000)
+    monkeypatch.setattr(mat, "MOST_BYTES", 1000)
     with pytest.raises(OutputError, match="a MAT file can hold"):
         write_mat(turning_run(), tmp_path / "run.mat", Silence())
     assert not (tmp_path / "run.mat").exists()

@@ -87,7 +87,7 @@ def inner_panels(person: Person, panels: Panels) -> Steps:
 def film(person: Person) -> Steps:
     person.scene.bda.film_directory = str(person.folder / "film")
     person.scene.bda.film_width, person.scene.bda.film_height = 640, 360
-    with person._in_sidebar():
+    with person.in_sidebar():
         bpy.ops.bda.render_contours("INVOKE_DEFAULT")
     file = person.folder / "film" / "contours.mp4"
     yield 5.0
@@ -102,7 +102,7 @@ def load_in_the_middle_of_a_film(person: Person) -> Steps:
     file = person.folder / "before_the_film.blend"
     person.scene.bda.film_directory = str(person.folder / "cut_short")
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
-    with person._in_sidebar():
+    with person.in_sidebar():
         bpy.ops.bda.render_contours("INVOKE_DEFAULT")
     rendered = (person.folder / "cut_short").glob
     yield from person.wait_for("there are pictures", lambda: len(list(rendered("*.png"))) > 3, 60.0)

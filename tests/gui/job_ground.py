@@ -61,7 +61,7 @@ def dust(person: Person) -> Steps:
 
 def draw_zone(person: Person) -> Steps:
     view = person.view
-    with person._in_sidebar():
+    with person.in_sidebar():
         bpy.ops.bda.draw_zone("INVOKE_DEFAULT")
     yield 0.3
     for x, y in ((0.20, 0.25), (0.35, 0.25), (0.35, 0.40), (0.20, 0.40)):

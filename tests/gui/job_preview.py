@@ -85,7 +85,7 @@ def drag_height(person: Person) -> Steps:
 
 def drag_charge(person: Person) -> Steps:
     person.scene.cursor.location = (1.0, -1.0, 1.0)
-    with person._in_sidebar():
+    with person.in_sidebar():
         bpy.ops.bda.add_source_point("INVOKE_DEFAULT")
         bpy.ops.ed.undo_push(message="Charge added")  # which Blender leaves out where a script does it
     yield 0.5

@@ -62,7 +62,7 @@ def call(person: Person, button: str) -> Steps:
     import bpy
 
     group, name = button.split(".")
-    with person._in_sidebar():
+    with person.in_sidebar():
         getattr(getattr(bpy.ops, group), name)("INVOKE_DEFAULT")
     yield
 

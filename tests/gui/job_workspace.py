@@ -18,7 +18,7 @@ def steps(person: Person) -> Steps:
     yield from person.wait_for("it runs", recording_runs, 20.0)
     yield from person.wait_for("it is over", lambda: not something_goes_on(), 120.0)
     yield 0.5
-    with person._in_sidebar():
+    with person.in_sidebar():
         bpy.ops.bda.draw_charts("INVOKE_DEFAULT")
     yield from person.wait_for("the chart is drawn", lambda: module("ui.task_progress").going_on() is None, 60.0)
     yield from person.click("bda.make_workspace")

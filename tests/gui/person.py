@@ -159,7 +159,7 @@ class Person:
     def refusal(self, operator: str) -> str:
         """Why a button is greyed: what its tooltip says. Empty where it is not."""
         group, name = operator.split(".")
-        with self._in_sidebar():
+        with self.in_sidebar():
             call = getattr(getattr(bpy.ops, group), name)
             if call.poll():
                 return ""
@@ -346,7 +346,7 @@ class Person:
     def _sidebar_place(self) -> Place:
         return Place(self.window, self.view, self.sidebar)
 
-    def _in_sidebar(self) -> Any:
+    def in_sidebar(self) -> Any:
         return bpy.context.temp_override(window=self.window, area=self.view, region=self.sidebar)
 
     def _under_mouse(self, place: Place, of: str) -> str:

@@ -260,7 +260,7 @@ def test_names_that_are_alike_or_mean_a_kind_get_numbers(tmp_path):
 def test_a_round_column_has_the_volume_of_its_polygon(tmp_path):
     """Chords leave the circle of 0.6 m by at most 1 mm: less than 2/3 of 1 mm / 0.6 m of its area, twice, is lost."""
     made = whole_bridge()
-    profile = made.file.create_entity("IfcCircleProfileDef", "AREA", None, made._flat(), 0.6)
+    profile = made.file.create_entity("IfcCircleProfileDef", "AREA", None, made.flat(), 0.6)
     (column,) = made.file.by_type("IfcColumn")
     column.Representation.Representations[0].Items[0].SweptArea = profile
     volume = member(read(made, tmp_path), "Column").volume_m3

@@ -5,14 +5,12 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import sys
 import time
 from collections import Counter
 
 import pytest
-from support.checkout import ROOT, TESTS
-from support.processes import outcome
+from support.processes import outcome, start_program
 from support.run_programs import begun
 from support.study_files import study_file, tables_in
 
@@ -25,16 +23,7 @@ DEEDS = ("nothing", "take time", "crash if shared", "crash", "fail", "refuse")
 def start(study, output, log, *arguments, largest=0):
     """Start a study whose draws do what is drawn for them, and note in a log what they begin."""
     log.touch()
-    program = [sys.executable, str(TESTS / "programs" / "bda_study.py"), str(log), str(largest)]
-    return subprocess.Popen(
-        [*program, str(study), "--output", str(output), *arguments],
-        cwd=ROOT,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (TESTS, ROOT)))},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        encoding="utf-8",
-    )
+    return start_program("bda_study", log, largest, study, "--output", output, *arguments)
 
 
 @pytest.fixture(scope="module")

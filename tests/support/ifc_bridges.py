@@ -119,7 +119,7 @@ class IfcBridge:
         """An upright box: its size, and the middle of its underside."""
         make = self.file.create_entity
         profile = make(
-            "IfcRectangleProfileDef", "AREA", None, self._flat(), size_m[0] / self.metre, size_m[1] / self.metre
+            "IfcRectangleProfileDef", "AREA", None, self.flat(), size_m[0] / self.metre, size_m[1] / self.metre
         )
         at = make("IfcAxis2Placement3D", self.point(*place_m), self.direction(0, 0, 1), self.direction(1, 0, 0))
         return make("IfcExtrudedAreaSolid", profile, at, self.direction(0, 0, 1), size_m[2] / self.metre)
@@ -219,7 +219,7 @@ class IfcBridge:
         self.file.write(str(path))
         return path
 
-    def _flat(self):
+    def flat(self):
         make = self.file.create_entity
         return make("IfcAxis2Placement2D", make("IfcCartesianPoint", (0.0, 0.0)))
 

@@ -1,11 +1,19 @@
-"""Programs of the tests and the command line, each in a process of its own."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Programs of the tests and the command line, each in a process of its own.
+
+They heed Ctrl-C, SIGTERM and SIGHUP, also where pytest ignores them, as in the background of a shell or after `nohup`.
+What a test leaves running ends with the test.
+"""
 
 import os
+import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import IO
 
 from support.checkout import ROOT, TESTS
 
@@ -14,16 +22,13 @@ TIMEOUT_S = 300
 
 def run_program(name: str, *arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
     """Run a program of `tests/programs`, which finds the modules of the tests, to its end."""
-    return subprocess.run(
-        _command(name, *arguments),
-        cwd=ROOT,
-        env=_environment(environment),
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=TIMEOUT_S,
-        check=False,
-    )
+    process = start_program(name, *arguments, **environment)
+    return subprocess.CompletedProcess(process.args, *outcome(process))
+
+
+def start_program(name: str, *arguments: object, **environment: str) -> subprocess.Popen[str]:
+    """Start a program of `tests/programs`."""
+    return start(_command(name, *arguments), **_environment(environment))
 
 
 class ProgramAtWork:
@@ -35,15 +40,8 @@ class ProgramAtWork:
     def __init__(self, name: str, complaints: Path, **environment: str):
         self._complaints = complaints
         with complaints.open("wb") as file:
-            self._process = subprocess.Popen(
-                _command(name),
-                cwd=ROOT,
-                env=_environment(environment),
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=file,
-                text=True,
-                encoding="utf-8",
+            self._process = start(
+                _command(name), stdin=subprocess.PIPE, stderr=file, outlives_test=True, **_environment(environment)
             )
 
     def ask(self, line: str, answer: str) -> tuple[str, str]:
@@ -73,20 +71,57 @@ def _command(name: str, *arguments: object) -> list[str]:
 
 
 def _environment(more: dict[str, str]) -> dict[str, str]:
-    return os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (TESTS, ROOT)))} | more
+    return {"PYTHONPATH": os.pathsep.join(map(str, (TESTS, ROOT)))} | more
+
+
+_started: list[subprocess.Popen[str]] = []
+
+
+def start(
+    command: Sequence[str],
+    *,
+    stdin: int | None = None,
+    stderr: int | IO = subprocess.PIPE,
+    outlives_test: bool = False,
+    **environment: str,
+) -> subprocess.Popen[str]:
+    """Start a command in a process that heeds signals, and that ends with the test unless it is to outlive it."""
+    process = subprocess.Popen(
+        list(command),
+        cwd=ROOT,
+        env=os.environ | environment,
+        stdin=stdin,
+        stdout=subprocess.PIPE,
+        stderr=stderr,
+        text=True,
+        encoding="utf-8",
+        preexec_fn=_heed_signals if os.name == "posix" else None,
+    )
+    if not outlives_test:
+        _started.append(process)
+    return process
+
+
+def _heed_signals() -> None:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def end_started() -> None:
+    """End what was started since and still runs."""
+    while _started:
+        process = _started.pop()
+        if process.poll() is None:
+            process.kill()
+        for stream in (process.stdin, process.stdout, process.stderr):
+            if stream:
+                stream.close()
+        process.wait()
 
 
 def start_bda(*arguments: object, **environment: str) -> subprocess.Popen[str]:
     """Start the command line where Ctrl-C can reach it alone, and where Blender has not run yet."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)],
-        cwd=ROOT,
-        env=os.environ | environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        encoding="utf-8",
-    )
+    return start([sys.executable, "-m", "bridge_demolition_addon", *map(str, arguments)], **environment)
 
 
 def outcome(process: subprocess.Popen[str]) -> tuple[int, str, str]:

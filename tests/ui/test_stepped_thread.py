@@ -2,6 +2,7 @@
 """Work that takes turns with Blender's window."""
 
 import threading
+import time
 
 import pytest
 
@@ -61,7 +62,9 @@ def test_stopping_ends_it_where_it_is_and_its_files_are_closed(tmp_path):
     turns = SteppedThread(work)
     turns.step()
     turns.stop()
-    turns._thread.join(10.0)
+    deadline = time.monotonic() + 10.0
+    while threading.active_count() > before and time.monotonic() < deadline:
+        time.sleep(0.01)
     assert ended == ["cleaned up"] and turns.is_finished and threading.active_count() == before
 
 

@@ -25,7 +25,7 @@ GRAZING_M = 1e-3
 _HALF_WAY = 0.5
 """Where between centre and vertices the rays end: well inside the body, which so is never hidden by one it touches."""
 
-_PAIRS_AT_ONCE = 1_000_000
+PAIRS_AT_ONCE = 1_000_000
 """Ray-and-body or ray-and-face pairs looked at in one array operation: some tens of megabytes."""
 
 
@@ -195,7 +195,7 @@ def _cross(hulls: ConvexHulls, rows: IntArray, faces: IntArray, origins: FloatAr
 
 
 def _blocks(counts: IntArray) -> list[tuple[int, int]]:
-    """Return rows from and to, so that the counts (k,) of each block add up to some `_PAIRS_AT_ONCE`."""
-    block_of = np.cumsum(counts) // _PAIRS_AT_ONCE
+    """Return rows from and to, so that the counts (k,) of each block add up to some `PAIRS_AT_ONCE`."""
+    block_of = np.cumsum(counts) // PAIRS_AT_ONCE
     edges = np.flatnonzero(np.diff(block_of)) + 1
     return [(first, last) for first, last in pairwise([0, *edges.tolist(), len(counts)]) if first < last]

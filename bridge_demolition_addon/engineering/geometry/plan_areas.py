@@ -14,7 +14,7 @@ FEWEST_CORNERS = 3
 
 _UNITED_AT_ONCE = 8
 
-_PAIRS_PER_BLOCK = 200_000
+PAIRS_PER_BLOCK = 200_000
 """Pairs of point and side that `distances_outside` looks at in one go; bounds its memory to some tens of megabytes."""
 
 
@@ -54,7 +54,7 @@ def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:
     starts = np.concatenate(rings)
     ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
     distances = np.empty(len(points))
-    rows = max(1, _PAIRS_PER_BLOCK // len(starts))
+    rows = max(1, PAIRS_PER_BLOCK // len(starts))
     for first in range(0, len(points), rows):
         block = points[first : first + rows]
         outside = _windings(block, starts, ends) <= 0

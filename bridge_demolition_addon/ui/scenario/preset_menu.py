@@ -28,7 +28,7 @@ class BDA_MT_presets(bpy.types.Menu):
     bl_label = "Presets"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        pictures, files = _loaded_pictures(), list(preset_files())
+        pictures, files = loaded_pictures(), list(preset_files())
         row = self.layout.row()
         for number in range(_COLUMNS):
             column = row.column()
@@ -64,7 +64,8 @@ def unregister() -> None:
         bpy.utils.previews.remove(_pictures.pop())
 
 
-def _loaded_pictures() -> bpy.utils.previews.ImagePreviewCollection:
+def loaded_pictures() -> bpy.utils.previews.ImagePreviewCollection:
+    """Pictures of all presets, which Blender loads once."""
     if not _pictures:
         _pictures.append(bpy.utils.previews.new())
         for name in preset_files():

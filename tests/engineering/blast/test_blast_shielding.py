@@ -120,7 +120,7 @@ def _enters(hulls, centres, rotations, points, body):
 
 @pytest.mark.parametrize("at_once", [70, 10_000, 1_000_000])
 def test_random_bodies_against_rays_walked_point_by_point(at_once, monkeypatch):
-    monkeypatch.setattr(exposure, "_PAIRS_AT_ONCE", at_once)
+    monkeypatch.setattr(exposure, "PAIRS_AT_ONCE", at_once)
     random = np.random.default_rng(12)
     count = 14
     bodies = [random.normal(size=(10, 3)) for _ in range(count)]

