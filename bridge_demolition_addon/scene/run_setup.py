@@ -56,7 +56,7 @@ _SAME_KEY = "the scenario that was built says it"
 _BY_KEY = "the scenario of the run says it"
 
 
-def _decides(
+def decides(
     *,
     hashed: Callable[[RunSetup], Parts] | str,
     compared: Mapping[str, Callable[[RunSetup], Parts]] | str,
@@ -220,17 +220,17 @@ class RunSetup:
     """
 
     gravity_m_s2: np.ndarray = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=_NOT_IN_DIGEST,
             compared={"gravity": lambda setup: {"m_s2": setup.gravity_m_s2, "used": setup.has_gravity}},
             written=_NO_KEY,
         )
     )
     has_gravity: bool = field(
-        metadata=_decides(hashed=_NOT_IN_DIGEST, compared="compared with gravity_m_s2", written=_NO_KEY)
+        metadata=decides(hashed=_NOT_IN_DIGEST, compared="compared with gravity_m_s2", written=_NO_KEY)
     )
     bodies: BodySettings = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=lambda setup: {"positions_m": setup.bodies.positions_m, "rotations": setup.bodies.rotations},
             compared={
                 "which bodies there are": lambda setup: {"names": setup.bodies.names},
@@ -243,7 +243,7 @@ class RunSetup:
         )
     )
     connections: ConstraintSettings = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=lambda setup: {
                 "thresholds_ns": setup.connections.constraint["breaking_threshold"],
                 "breaks": setup.connections.constraint["use_breaking"],
@@ -256,59 +256,59 @@ class RunSetup:
         )
     )
     inventory: Inventory = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=lambda setup: known_parts(setup.inventory),
             compared="compared with bodies and connections",
             written="written with bodies",
         )
     )
     breaking: Breaking = field(
-        metadata=_decides(hashed=_breaking_parts, compared="compared with connections", written=_SAME_KEY)
+        metadata=decides(hashed=_breaking_parts, compared="compared with connections", written=_SAME_KEY)
     )
     elasticity: ConnectionElasticity | None = field(
-        metadata=_decides(hashed=_elastic_parts, compared="compared with connections", written=_SAME_KEY)
+        metadata=decides(hashed=_elastic_parts, compared="compared with connections", written=_SAME_KEY)
     )
     start_motion: np.ndarray = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=lambda setup: {"start_motion": setup.start_motion} if setup.start_motion.any() else {},
             compared={"velocities that bodies begin with": lambda setup: {"start_motion": setup.start_motion}},
             written=_SAME_KEY,
         )
     )
     changes: tuple[Change, ...] = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=_NOT_IN_DIGEST,
             compared={"removals, saw cuts and weakenings": lambda setup: {"planned": repr(setup.changes)}},
             written=_SAME_KEY,
         )
     )
     loads: tuple[Load, ...] = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=_load_parts,
             compared={"loads": lambda setup: {"planned": repr(setup.loads)}},
             written=_SAME_KEY,
         )
     )
     ground_motion: GroundMotionOfScene | None = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=_ground_motion_parts, compared={"the motion of the ground": _record_parts}, written=_SAME_KEY
         )
     )
     soil: SoilSprings | None = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=_soil_parts,
             compared={"soil under footings": lambda setup: known_parts(setup.soil) if setup.soil else {}},
             written=_SAME_KEY,
         )
     )
     blast: BlastSettings = field(
-        metadata=_decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
+        metadata=decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
     )
     charges: tuple[Charge, ...] = field(
-        metadata=_decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
+        metadata=decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
     )
     time: TimeOfScene = field(
-        metadata=_decides(
+        metadata=decides(
             hashed=_time_parts,
             compared=_BY_KEY,
             written=(with_time_step, with_duration, with_speed, with_first_frame),

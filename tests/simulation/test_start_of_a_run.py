@@ -1,11 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run begins with what was built, whatever the scene shows and whatever was done to it before."""
 
+import json
+
 import pytest
 from support.blocks import Blocks
+from support.checkout import SMALL
 
 from bridge_demolition_addon.display.contours import ContourSettings
-from bridge_demolition_addon.simulation.blender_events import contours_of, shown_results
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.scene.as_built import changed_bodies
+from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
+from bridge_demolition_addon.scene.world import keep_played_frames
+from bridge_demolition_addon.simulation.blender_events import contours_of, running_recording, shown_results
+from bridge_demolition_addon.simulation.display.shown_results import ShownResults
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+from bridge_demolition_addon.ui.messages import messages_of
 
 HEIGHT_M, FRAMES = 5.0, 25
 
@@ -51,3 +61,116 @@ def test_so_does_what_is_played_without_recording(blender, falling, tmp_path):
     contours_of(falling.scene).settings = None  # shows where Blender has the block, and edits nothing
     falling.scene.frame_set(4)
     assert height_shown_m(blender, falling) > HEIGHT_M - 0.2
+
+
+SHARDS, BUILT_FRAMES = 12, 6
+
+
+@pytest.fixture
+def built(extension, settings, tmp_path):
+    """A small bridge and a ball, built by the sidebar."""
+    settings.scenario_path = str(SMALL)
+    extension.ops.bda.load_scenario()
+    settings.scenario.time.duration_s = (BUILT_FRAMES - 2) / 24
+    settings.scenario.fracture.shards = SHARDS
+    extension.ops.bda.build_scenario()
+    settings.output_directory, settings.overwrite = str(tmp_path / "results"), True
+    return extension
+
+
+def bodies_of_kind(scene, kind):
+    return [body for body in bodies_of(scene) if kind_of(body) == kind]
+
+
+def told(scene):
+    return [each.text for each in messages_of(scene)]
+
+
+def summary_in(folder):
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+
+def test_nothing_is_said_of_a_bridge_as_it_was_built(built, tmp_path):
+    assert built.ops.bda.run() == {"FINISHED"}
+    assert summary_in(tmp_path / "results")["changed_bodies"] == []
+    assert not any("Not as it was built" in text for text in told(built.context.scene))
+
+
+def test_a_missing_ball_is_named_before_the_run_on_the_console_and_in_the_summary(built, tmp_path, caplog):
+    scene = built.context.scene
+    (ball,) = bodies_of_kind(scene, Kind.BALL)
+    built.data.objects.remove(ball)
+    assert built.ops.bda.register_handler() == {"FINISHED"}
+    sentence = "the ball of the scenario is missing: 'Wrecking ball'"
+    assert told(scene) == [f"Not as it was built: {sentence}"] and sentence in caplog.text
+    for frame in range(1, BUILT_FRAMES):
+        scene.frame_set(frame)
+    built.ops.bda.unregister_handler()
+    assert summary_in(tmp_path / "results")["changed_bodies"] == [sentence]
+
+
+def test_shards_that_are_missing_added_or_moved_are_named(built, tmp_path):
+    scene = built.context.scene
+    first, second, third, *_ = bodies_of_kind(scene, Kind.SHARD)
+    copy = third.copy()
+    second.location.z += 0.5
+    name = first.name
+    built.data.objects.remove(first)
+    built.ops.bda.remove_loose_connections()
+    assert changed_bodies(scene) == [
+        f"1 shard is missing, such as {name!r}",
+        f"1 body is added, such as {copy.name!r}",
+        f"1 shard is moved, such as {second.name!r} by 0.5 m",
+    ]
+
+
+def test_a_bridge_that_was_moved_as_a_whole_runs(built):
+    for shard in bodies_of_kind(built.context.scene, Kind.SHARD):
+        shard.location.x += 1.0
+    (sentence,) = changed_bodies(built.context.scene)
+    assert sentence.startswith(f"{SHARDS} shards are moved, such as ")
+
+
+def fallen(scene):
+    """Leave shards as a simulation does whose positions are applied: each elsewhere, and turned in its own way."""
+    for number, shard in enumerate(bodies_of_kind(scene, Kind.SHARD)):
+        shard.location.z -= 0.1 * number
+        shard.rotation_euler = (0.1 * number, 0.0, 0.05 * number)
+
+
+@pytest.mark.parametrize("button", ["run", "register_handler"])
+def test_rubble_is_refused_before_anything_runs(built, tmp_path, button):
+    scene = built.context.scene
+    fallen(scene)
+    with pytest.raises(RuntimeError, match=r"begins with rubble: 11 of 12 shards .* undo what moved them, or build"):
+        getattr(built.ops.bda, button)()
+    assert running_recording() is None and not (tmp_path / "results").exists()
+    built.ops.bda.build_anew()
+    assert built.ops.bda.run() == {"FINISHED"}
+
+
+def test_so_is_rubble_that_a_script_records(built, tmp_path):
+    fallen(built.context.scene)
+    with pytest.raises(SimulationError, match="begins with rubble"):
+        Recording(built.context.scene, tmp_path)
+
+
+def test_a_simulation_that_begins_elsewhere_than_its_scene_is_refused(blender, falling, tmp_path):
+    """However Blender came to it: here by a display that leaves bodies where it shows them."""
+    falling.play(tmp_path, FRAMES)
+    contours_of(falling.scene).show(ContourSettings())
+    falling.scene.frame_set(FRAMES)
+    falling.world.solver_iterations += 1
+    contours_of(falling.scene).refresh()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ShownResults, "_put_back", lambda _: None)
+        with pytest.raises(SimulationError, match=r"begins with 1 of 1 shards elsewhere .* by 4 m: go to the start"):
+            falling.play(tmp_path, FRAMES)
+
+
+def test_a_baked_simulation_is_not_recorded(blender, falling, tmp_path):
+    for frame in (1, 2, 3):
+        falling.scene.frame_set(frame)
+    keep_played_frames(falling.scene)
+    with pytest.raises(SimulationError, match="is baked and only played back: delete the bake first"):
+        Recording(falling.scene, tmp_path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -31,6 +32,8 @@ from .motion_reader import MomentumReader, check_motion_is_enough
 from .recordable import check_recordable
 from .recorded_frames import RecordedFrames
 from .run_timing import RunTiming
+
+_CONSOLE = logging.getLogger(__name__)
 
 WITHOUT_LOADS = "motion and breaking, without loads"
 
@@ -97,6 +100,8 @@ class Recording(RecordedFrames):
         super().__init__()
         check_recordable(scene)
         self.changed_bodies = changed_bodies(scene)
+        for text in self.changed_bodies:
+            _CONSOLE.warning("%s: %s", scene.name, text)
         rewrite_thresholds(scene)  # the step may have changed since the scene was built
         self.scene = scene
         self.scene_uid = scene.session_uid

@@ -66,6 +66,7 @@ class BDA_OT_register_handler(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         recording = new_recording(context.scene)
+        warn_of_changed_bodies(self, recording)
         start_recording(recording)
         start_over(context.scene)
         session.redraw_while_recording()
@@ -132,6 +133,12 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     return recording
 
 
+def warn_of_changed_bodies(operator: bpy.types.Operator, recording: Recording) -> None:
+    """Name the bodies that are not as they were built, before anything is simulated."""
+    if recording.changed_bodies:
+        messages.tell(operator, "WARNING", f"Not as it was built: {'; '.join(recording.changed_bodies)}")
+
+
 def check_output(settings: bpy.types.PropertyGroup) -> None:
     """See that the folder and the files of logs that are chosen can be used, without changing anything.
 
@@ -188,6 +195,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         messages.tell(operator, "WARNING", stopped)
     if fall := self_collapse_text(session.last_recording().summary.values):
         messages.tell(operator, "WARNING", fall)
+    warn_of_changed_bodies(operator, recording)
     if by_hand := _contexts[recording].made_by_hand:
         messages.tell(
             operator, "WARNING", f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}"

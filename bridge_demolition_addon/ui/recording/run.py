@@ -18,6 +18,7 @@ from .operator import (
     new_recording,
     recording_disabled_reason,
     rest_to_stop_at,
+    warn_of_changed_bodies,
     withdraw_recording,
 )
 
@@ -95,6 +96,7 @@ class BDA_OT_run(GuardedOperator, bpy.types.Operator):
                 self._build(context)
             frames_to_play(context.scene)  # a recording changes the scene before it is played
             recording = new_recording(context.scene)
+            warn_of_changed_bodies(self, recording)
             self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
         except (DemolitionError, OSError) as error:
             if recording is not None:
