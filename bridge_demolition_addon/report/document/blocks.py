@@ -46,11 +46,14 @@ class Column:
         What programs read: the heading in the CSV file, with the unit in its name.
     form
         Python's format of a number, such as ``.1f``; empty for texts.
+    value
+        Returns the value of a row by what the row is about; None where rows are given to the table.
     """
 
     heading: str
     key: str
     form: str = ""
+    value: Callable[..., Any] | None = None
 
     def shown(self, value: Any) -> str:
         """Return a value as people read it."""
@@ -77,6 +80,12 @@ class DataTable:
     title: str
     columns: tuple[Column, ...]
     rows: Sequence[tuple[Any, ...]]
+
+    @classmethod
+    def of(cls, name: str, title: str, columns: tuple[Column, ...], *items: Iterable[Any]) -> Self:
+        """Return a table with a row for each item, or for items of several kinds side by side, as `map` takes them."""
+        rows = [tuple(column.value(*row) for column in columns) for row in zip(*items, strict=True)]
+        return cls(name, title, columns, rows)
 
     def shown_rows(self) -> list[list[str]]:
         """Return all rows as people read them."""

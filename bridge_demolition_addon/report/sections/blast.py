@@ -60,29 +60,17 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
 
 def _charge_table(charges: Sequence[Charge]) -> DataTable:
     columns = (
-        Column("charge", "charge"),
-        Column("explosive", "explosive"),
-        Column("mass (kg)", "mass_kg", ".2f"),
-        Column("TNT by pressure (kg)", "tnt_by_pressure_kg", ".2f"),
-        Column("x (m)", "x_m", ".2f"),
-        Column("y (m)", "y_m", ".2f"),
-        Column("z (m)", "z_m", ".2f"),
-        Column("delay (ms)", "delay_ms", ".0f"),
-        Column("burst", "burst"),
+        Column("charge", "charge", "", lambda charge: charge.name),
+        Column("explosive", "explosive", "", lambda charge: charge.explosive),
+        Column("mass (kg)", "mass_kg", ".2f", lambda charge: charge.mass_kg),
+        Column("TNT by pressure (kg)", "tnt_by_pressure_kg", ".2f", lambda charge: charge.tnt_for_pressure_kg),
+        Column("x (m)", "x_m", ".2f", lambda charge: charge.place_m[0]),
+        Column("y (m)", "y_m", ".2f", lambda charge: charge.place_m[1]),
+        Column("z (m)", "z_m", ".2f", lambda charge: charge.place_m[2]),
+        Column("delay (ms)", "delay_ms", ".0f", lambda charge: 1e3 * charge.delay_s),
+        Column("burst", "burst", "", lambda charge: charge.burst),
     )
-    rows = [
-        (
-            charge.name,
-            charge.explosive,
-            charge.mass_kg,
-            charge.tnt_for_pressure_kg,
-            *charge.place_m,
-            1e3 * charge.delay_s,
-            charge.burst,
-        )
-        for charge in charges
-    ]
-    return DataTable("charges", "Charges", columns, rows)
+    return DataTable.of("charges", "Charges", columns, charges)
 
 
 def _totals(charges: Sequence[Charge]) -> DataTable:
@@ -101,43 +89,29 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
 def _ring_table(charges: Sequence[Charge], model: BlastModel, pressure_factor: float) -> DataTable:
     radii = ring_radii(charges, 0.0, THRESHOLDS, model, pressure_factor).max(axis=1)
     columns = (
-        Column("overpressure (kPa)", "overpressure_kPa", ".2f"),
-        Column("damage", "damage"),
-        Column("ring (m)", "radius_m", ".1f"),
-        Column("source", "source"),
+        Column("overpressure (kPa)", "overpressure_kPa", ".2f", lambda threshold, _: threshold.overpressure_pa / 1e3),
+        Column("damage", "damage", "", lambda threshold, _: threshold.damage),
+        Column("ring (m)", "radius_m", ".1f", lambda _, radius_m: float(radius_m)),
+        Column("source", "source", "", lambda threshold, _: threshold.source),
     )
-    rows = [
-        (threshold.overpressure_pa / 1e3, threshold.damage, float(radius), threshold.source)
-        for threshold, radius in zip(THRESHOLDS, radii, strict=True)
-    ]
-    return DataTable(
-        "damage_rings",
-        "Thresholds of damage, and the largest radius around a charge on the ground",
-        columns,
-        rows,
-    )
+    title = "Thresholds of damage, and the largest radius around a charge on the ground"
+    return DataTable.of("damage_rings", title, columns, THRESHOLDS, radii)
 
 
 def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
     columns = (
-        Column("neighbour", "neighbour"),
-        Column("distance (m)", "distance_m", ".1f"),
-        Column("first wave (ms)", "arrival_ms", ".1f"),
-        Column("peak (kPa)", "peak_overpressure_kPa", ".3f"),
-        Column("impulse (kPa·ms)", "impulse_kPa_ms", ".2f"),
-        Column("ground velocity (mm/s)", "peak_particle_velocity_mm_s", ".1f"),
+        Column("neighbour", "neighbour", "", lambda name, _: name),
+        Column("distance (m)", "distance_m", ".1f", lambda _, load: load.distance_m),
+        Column("first wave (ms)", "arrival_ms", ".1f", lambda _, load: 1e3 * load.arrival_s),
+        Column("peak (kPa)", "peak_overpressure_kPa", ".3f", lambda _, load: load.peak_pa / 1e3),
+        Column("impulse (kPa·ms)", "impulse_kPa_ms", ".2f", lambda _, load: load.impulse_pa_s),
+        Column(
+            "ground velocity (mm/s)",
+            "peak_particle_velocity_mm_s",
+            ".1f",
+            lambda _, load: 1e3 * load.peak_velocity_m_s,
+        ),
     )
-    rows = [
-        (
-            name,
-            load.distance_m,
-            1e3 * load.arrival_s,
-            load.peak_pa / 1e3,
-            load.impulse_pa_s,
-            1e3 * load.peak_velocity_m_s,
-        )
-        for name, load in loads
-    ]
     ground = FREE_FACE_AVERAGE
     basis = (
         f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), of the "
@@ -145,8 +119,9 @@ def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
         "codes ask for less. It holds for charges drilled into rock; the fall of the bridge, which often shakes the "
         "ground more, is not in it."
     )
+    names, at_neighbours = zip(*loads, strict=True)
     return [
-        DataTable("neighbours", "What reaches the neighbours", columns, rows),
+        DataTable.of("neighbours", "What reaches the neighbours", columns, names, at_neighbours),
         Picture(
             partial(neighbour_pressures, loads=loads),
             "Overpressure at the neighbours, all charges and delays together, incident and in the free field.",

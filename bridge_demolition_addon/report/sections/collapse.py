@@ -117,37 +117,23 @@ def _load_rows(run: ReportedRun) -> list[tuple[str, str]]:
 
 def _span_table(spans: tuple[Span, ...]) -> DataTable:
     columns = (
-        Column("span", "span"),
-        Column("shards", "shards", "d"),
-        Column("height at first (m)", "height_first_m", ".2f"),
-        Column("at the end (m)", "height_last_m", ".2f"),
-        Column("came down by (m)", "drop_m", ".2f"),
+        Column("span", "span", "", lambda span: span.name),
+        Column("shards", "shards", "d", lambda span: len(span.bodies)),
+        Column("height at first (m)", "height_first_m", ".2f", lambda span: float(span.heights_m[0])),
+        Column("at the end (m)", "height_last_m", ".2f", lambda span: float(span.heights_m[-1])),
+        Column("came down by (m)", "drop_m", ".2f", lambda span: span.drop_m),
     )
-    rows = [
-        (span.name, len(span.bodies), float(span.heights_m[0]), float(span.heights_m[-1]), span.drop_m)
-        for span in spans
-    ]
-    return DataTable("spans", "Spans: height of the centre of mass", columns, rows)
+    return DataTable.of("spans", "Spans: height of the centre of mass", columns, spans)
 
 
 def _energy_table(energy: Energy) -> DataTable:
     columns = (
-        Column("time (s)", "time_s", ".2f"),
-        Column("potential (MJ)", "potential_MJ", ".3f"),
-        Column("kinetic (MJ)", "kinetic_MJ", ".3f"),
-        Column("of it in rotation (MJ)", "rotation_MJ", ".3f"),
-        Column("dissipated (MJ)", "dissipated_MJ", ".3f"),
+        Column("time (s)", "time_s", ".2f", lambda step: float(energy.times_s[step])),
+        Column("potential (MJ)", "potential_MJ", ".3f", lambda step: float(energy.potential_j[step]) / 1e6),
+        Column("kinetic (MJ)", "kinetic_MJ", ".3f", lambda step: float(energy.kinetic_j[step]) / 1e6),
+        Column("of it in rotation (MJ)", "rotation_MJ", ".3f", lambda step: float(energy.rotation_j[step]) / 1e6),
+        Column("dissipated (MJ)", "dissipated_MJ", ".3f", lambda step: float(energy.dissipated_j[step]) / 1e6),
     )
     count = len(energy.times_s)
     steps = sorted({round(share * (count - 1) / 8) for share in range(9)} | {int(energy.kinetic_j.argmax())})
-    rows = [
-        (
-            float(energy.times_s[step]),
-            *(
-                float(values[step]) / 1e6
-                for values in (energy.potential_j, energy.kinetic_j, energy.rotation_j, energy.dissipated_j)
-            ),
-        )
-        for step in steps
-    ]
-    return DataTable("energy", "Energy over time, the largest kinetic energy among it", columns, rows)
+    return DataTable.of("energy", "Energy over time, the largest kinetic energy among it", columns, steps)

@@ -13,7 +13,7 @@ from ...engineering.geometry.plan_areas import outlines
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
 from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
-from ...model.debris.zones import ZoneWatch, watch_zone
+from ...model.debris.zones import watch_zone
 from ...model.results.arrays import Results
 from ...model.results.motion import MOVED_M
 from ...model.results.removed_shards import without_removed
@@ -176,20 +176,18 @@ def terrain_section(run: ReportedRun) -> Section | None:
 
 def _on_surfaces(results: Results, debris: Debris) -> list[Block]:
     """Table of the debris on each surface of the ground."""
-    found = debris_on_surfaces(results, debris)
-    if not found:
+    surfaces = debris_on_surfaces(results, debris)
+    if not surfaces:
         return []
     columns = (
-        Column("surface", "surface"),
-        Column("kind", "kind"),
-        Column("shards on it", "shards", "d"),
-        Column("mass (t)", "mass_t", ".2f"),
-        Column("covered (m²)", "covered_m2", ".1f"),
+        Column("surface", "surface", "", lambda surface: surface.name),
+        Column("kind", "kind", "", lambda surface: surface.kind),
+        Column("shards on it", "shards", "d", lambda surface: len(surface.bodies)),
+        Column("mass (t)", "mass_t", ".2f", lambda surface: surface.mass_kg / 1e3),
+        Column("covered (m²)", "covered_m2", ".1f", lambda surface: surface.covered_m2),
     )
-    rows = [(each.name, each.kind, len(each.bodies), each.mass_kg / 1e3, each.covered_m2) for each in found]
-    return [
-        DataTable("debris_on_surfaces", "Debris over each surface, by where its middle lies in plan", columns, rows)
-    ]
+    title = "Debris over each surface, by where its middle lies in plan"
+    return [DataTable.of("debris_on_surfaces", title, columns, surfaces)]
 
 
 def _doubts(results: Results) -> list[Block]:
@@ -210,49 +208,45 @@ def _doubts(results: Results) -> list[Block]:
 
 
 def _throw_table(debris: Debris) -> DataTable:
-    columns = (
-        Column("of the debris (%)", "percent", "d"),
-        Column("by mass, thrown up to (m)", "throw_by_mass_m", ".2f"),
-        Column("by number, thrown up to (m)", "throw_by_number_m", ".2f"),
-        Column("by mass, beyond the outline up to (m)", "reach_by_mass_m", ".2f"),
-    )
     by_number = np.ones(len(debris.throws_m))
-    values = (
+    columns = (
+        Column("of the debris (%)", "percent", "d", lambda percent, *_: percent),
+        Column("by mass, thrown up to (m)", "throw_by_mass_m", ".2f", lambda _, by_mass_m, *__: float(by_mass_m)),
+        Column("by number, thrown up to (m)", "throw_by_number_m", ".2f", lambda *row: float(row[2])),
+        Column("by mass, beyond the outline up to (m)", "reach_by_mass_m", ".2f", lambda *row: float(row[3])),
+    )
+    return DataTable.of(
+        "throw_percentiles",
+        "Throw and reach: so much of the debris went no farther",
+        columns,
+        PERCENTS,
         percentiles_by_mass(debris.throws_m, debris.masses_kg),
         percentiles_by_mass(debris.throws_m, by_number),
         percentiles_by_mass(debris.reaches_m, debris.masses_kg),
     )
-    rows = [(percent, *map(float, row)) for percent, *row in zip(PERCENTS, *values, strict=True)]
-    return DataTable("throw_percentiles", "Throw and reach: so much of the debris went no farther", columns, rows)
 
 
 def _largest_throws(results: Results, debris: Debris) -> DataTable:
-    columns = (
-        Column("No.", "number", "d"),
-        Column("shard", "shard"),
-        Column("of", "member"),
-        Column("mass (kg)", "mass_kg", ".0f"),
-        Column("throw (m)", "throw_m", ".2f"),
-        Column("reach (m)", "reach_m", ".2f"),
-        Column("to x (m)", "x_m", ".2f"),
-        Column("y (m)", "y_m", ".2f"),
-        Column("z (m)", "z_m", ".2f"),
-        Column("by the solver (%)", "made_by_solver_percent", ".0f"),
-        Column("doubtful", "doubtful"),
-    )
     throws = throws_of(results)
     doubts = dict(zip(throws.bodies.tolist(), throws.doubtful.tolist(), strict=True))
     shares = dict(zip(throws.bodies.tolist(), throws.made_shares.tolist(), strict=True))
-    inventory, last_m = results.inventory, results.frames.positions_m[-1]
-    rows = []
-    for number, row in enumerate(np.argsort(-debris.throws_m, kind="stable")[:NAMED], start=1):
-        body = debris.bodies[row]
-        names = (str(inventory.body_names[body]), str(inventory.body_members[body]))
-        numbers = (debris.masses_kg[row], debris.throws_m[row], debris.reaches_m[row], *last_m[body])
-        doubt = "yes" if doubts[body] else "no"
-        rows.append((number, *names, *map(float, numbers), 100.0 * shares[body], doubt))
+    inventory, bodies, last_m = results.inventory, debris.bodies, results.frames.positions_m[-1]
+    columns = (
+        Column("No.", "number", "d", lambda number, _: number),
+        Column("shard", "shard", "", lambda _, row: str(inventory.body_names[bodies[row]])),
+        Column("of", "member", "", lambda _, row: str(inventory.body_members[bodies[row]])),
+        Column("mass (kg)", "mass_kg", ".0f", lambda _, row: float(debris.masses_kg[row])),
+        Column("throw (m)", "throw_m", ".2f", lambda _, row: float(debris.throws_m[row])),
+        Column("reach (m)", "reach_m", ".2f", lambda _, row: float(debris.reaches_m[row])),
+        Column("to x (m)", "x_m", ".2f", lambda _, row: float(last_m[bodies[row], 0])),
+        Column("y (m)", "y_m", ".2f", lambda _, row: float(last_m[bodies[row], 1])),
+        Column("z (m)", "z_m", ".2f", lambda _, row: float(last_m[bodies[row], 2])),
+        Column("by the solver (%)", "made_by_solver_percent", ".0f", lambda _, row: 100.0 * shares[bodies[row]]),
+        Column("doubtful", "doubtful", "", lambda _, row: "yes" if doubts[bodies[row]] else "no"),
+    )
+    farthest = np.argsort(-debris.throws_m, kind="stable")[:NAMED]
     title = "Largest throws. By the solver: energy that it made, over the shard's largest kinetic energy"
-    return DataTable("largest_throws", title, columns, rows)
+    return DataTable.of("largest_throws", title, columns, range(1, len(farthest) + 1), farthest)
 
 
 def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
@@ -261,31 +255,20 @@ def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
     results = run.results
     bodies = np.concatenate([results.inventory.of_kind("shard"), results.inventory.of_kind("ball")])
     watches = [watch_zone(results, zone, bodies) for zone in zones]
+    names = results.inventory.body_names
     columns = (
-        Column("zone", "zone"),
-        Column("kind", "kind"),
-        Column("first entered (s)", "first_entry_s", ".3f"),
-        Column("by", "first_body"),
-        Column("bodies that entered", "bodies_entered", "d"),
-        Column("mass within at the end (t)", "mass_within_t", ".2f"),
-        Column("there before", "bodies_there_before", "d"),
+        Column("zone", "zone", "", lambda watch, _: watch.zone.name),
+        Column("kind", "kind", "", lambda watch, _: watch.zone.kind),
+        Column("first entered (s)", "first_entry_s", ".3f", lambda _, first: first and float(first.time_s)),
+        Column("by", "first_body", "", lambda _, first: str(names[first.body]) if first else "nobody"),
+        Column("bodies that entered", "bodies_entered", "d", lambda watch, _: len(watch.entries)),
+        Column("mass within at the end (t)", "mass_within_t", ".2f", lambda watch, _: watch.mass_within_kg / 1e3),
+        Column("there before", "bodies_there_before", "d", lambda watch, _: len(watch.there_before)),
     )
+    first_entries = [watch.entries[0] if watch.entries else None for watch in watches]
     words = (
         "A zone is entered when the convex hull of a shard or ball first reaches into it. Between two frames bodies "
         "are taken to move and turn evenly, and the moment is found to a millisecond. Bodies that were in a zone "
         "from the beginning are counted apart."
     )
-    return [Paragraph(words), DataTable("zones", "Zones", columns, [_zone_row(results, watch) for watch in watches])]
-
-
-def _zone_row(results: Results, watch: ZoneWatch) -> tuple:
-    first = watch.entries[0] if watch.entries else None
-    return (
-        watch.zone.name,
-        watch.zone.kind,
-        first and float(first.time_s),
-        str(results.inventory.body_names[first.body]) if first else "nobody",
-        len(watch.entries),
-        watch.mass_within_kg / 1e3,
-        len(watch.there_before),
-    )
+    return [Paragraph(words), DataTable.of("zones", "Zones", columns, watches, first_entries)]

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ...charts.histories import breaking_history, contact_force_history, load_history, logged_load_history
 from ...charts.stress_elevation import stress_elevation
 from ...model.results.arrays import Results
-from ...model.results.force_history import Peak, breaking_by_kind, contact_forces, most_loaded
+from ...model.results.force_history import breaking_by_kind, contact_forces, most_loaded
 from ...model.run_folder.logs import LoggedForces
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
@@ -68,52 +69,48 @@ def logged_section(run: ReportedRun) -> Section:
 
 
 def _loaded_bodies(results: Results) -> DataTable:
-    columns = (
-        Column("shard", "shard"),
-        Column("of", "member"),
-        Column("mass (kg)", "mass_kg", ".0f"),
-        Column("sum of magnitudes (kN)", "peak_force_sum_kN", ".1f"),
-        Column("resultant then (kN)", "peak_force_kN", ".1f"),
-        Column("time (s)", "time_s", ".3f"),
-    )
     inventory, frames = results.inventory, results.frames
-    rows = []
-    for peak in most_loaded(frames.loads.body_peak_sums_n, inventory.of_kind("shard")):
-        resultant_n = frames.loads.body_peaks_n[peak.step, peak.row]
-        numbers = (inventory.masses_kg[peak.row], peak.force_n / 1e3, resultant_n / 1e3, frames.time_s[peak.step])
-        names = (str(inventory.body_names[peak.row]), str(inventory.body_members[peak.row]))
-        rows.append((*names, *map(float, numbers)))
-    return DataTable("most_loaded_shards", "The ten most loaded shards", columns, rows)
+    resultants_n = frames.loads.body_peaks_n
+    columns = (
+        Column("shard", "shard", "", lambda peak: str(inventory.body_names[peak.row])),
+        Column("of", "member", "", lambda peak: str(inventory.body_members[peak.row])),
+        Column("mass (kg)", "mass_kg", ".0f", lambda peak: float(inventory.masses_kg[peak.row])),
+        Column("sum of magnitudes (kN)", "peak_force_sum_kN", ".1f", lambda peak: float(peak.force_n / 1e3)),
+        Column(
+            "resultant then (kN)",
+            "peak_force_kN",
+            ".1f",
+            lambda peak: float(resultants_n[peak.step, peak.row] / 1e3),
+        ),
+        Column("time (s)", "time_s", ".3f", lambda peak: float(frames.time_s[peak.step])),
+    )
+    peaks = most_loaded(frames.loads.body_peak_sums_n, inventory.of_kind("shard"))
+    return DataTable.of("most_loaded_shards", "The ten most loaded shards", columns, peaks)
 
 
 def _loaded_connections(results: Results) -> DataTable:
+    inventory, frames = results.inventory, results.frames
+    ends = inventory.body_names[inventory.pairs]
     columns = (
-        Column("connection", "connection"),
-        Column("between", "first_body"),
-        Column("and", "second_body"),
-        Column("area (m²)", "area_m2", ".3f"),
-        Column("force (kN)", "peak_force_kN", ".1f"),
-        Column("time (s)", "time_s", ".3f"),
-        Column("broken at (s)", "broken_s", ".3f"),
+        Column("connection", "connection", "", lambda peak: str(inventory.connection_names[peak.row])),
+        Column("between", "first_body", "", lambda peak: str(ends[peak.row, 0])),
+        Column("and", "second_body", "", lambda peak: str(ends[peak.row, 1])),
+        Column("area (m²)", "area_m2", ".3f", lambda peak: _area_m2(inventory.areas_m2[peak.row])),
+        Column("force (kN)", "peak_force_kN", ".1f", lambda peak: peak.force_n / 1e3),
+        Column("time (s)", "time_s", ".3f", lambda peak: float(frames.time_s[peak.step])),
+        Column("broken at (s)", "broken_s", ".3f", lambda peak: _broken_s(results, peak.row)),
     )
-    peaks = most_loaded(results.frames.loads.connection_peaks_n, np.arange(len(results.inventory.pairs)))
-    rows = [_connection_row(results, peak) for peak in peaks]
-    return DataTable("most_loaded_connections", "The ten most loaded connections", columns, rows)
+    peaks = most_loaded(frames.loads.connection_peaks_n, np.arange(len(inventory.pairs)))
+    return DataTable.of("most_loaded_connections", "The ten most loaded connections", columns, peaks)
 
 
-def _connection_row(results: Results, peak: Peak) -> tuple:
-    first, second = results.inventory.body_names[results.inventory.pairs[peak.row]]
-    broken = np.flatnonzero(~results.frames.intact[:, peak.row])
-    area = float(results.inventory.areas_m2[peak.row])
-    return (
-        str(results.inventory.connection_names[peak.row]),
-        str(first),
-        str(second),
-        area if area > 0.0 else None,
-        peak.force_n / 1e3,
-        float(results.frames.time_s[peak.step]),
-        float(results.frames.time_s[broken[0]]) if len(broken) else None,
-    )
+def _area_m2(area_m2: float) -> float | None:
+    return float(area_m2) if area_m2 > 0.0 else None
+
+
+def _broken_s(results: Results, connection: int) -> float | None:
+    broken = np.flatnonzero(~results.frames.intact[:, connection])
+    return float(results.frames.time_s[broken[0]]) if len(broken) else None
 
 
 def _hit_blocks(run: ReportedRun) -> list[Block]:
@@ -122,33 +119,27 @@ def _hit_blocks(run: ReportedRun) -> list[Block]:
         return [Paragraph("There is no ball in this run.")]
     if not hits:
         return [Paragraph("The ball hit nothing, or its hits were not recorded.")]
+
+    def scaled(key: str, factor: float = 1.0) -> Callable[[Mapping[str, Any]], float | None]:
+        return lambda hit: factor * hit[key] if key in hit else None
+
     columns = (
-        Column("ball", "ball"),
-        Column("time (s)", "time_s", ".3f"),
-        Column("lasted (ms)", "lasted_ms", ".1f"),
-        Column("speed (m/s)", "approach_m_s", ".2f"),
-        Column("impulse (kN·s)", "impulse_kNs", ".2f"),
-        Column("raw peak (MN)", "raw_peak_force_MN", ".2f"),
-        Column("half sine (MN)", "half_sine_peak_force_MN", ".2f"),
-        Column("Hertz (MN)", "hertz_peak_force_MN", ".2f"),
+        Column("ball", "ball", "", lambda hit: hit["ball"]),
+        Column("time (s)", "time_s", ".3f", scaled("time_s")),
+        Column("lasted (ms)", "lasted_ms", ".1f", scaled("lasted_s", 1e3)),
+        Column("speed (m/s)", "approach_m_s", ".2f", scaled("approach_m_s")),
+        Column("impulse (kN·s)", "impulse_kNs", ".2f", scaled("impulse_Ns", 1e-3)),
+        Column("raw peak (MN)", "raw_peak_force_MN", ".2f", scaled("raw_peak_force_N", 1e-6)),
+        Column("half sine (MN)", "half_sine_peak_force_MN", ".2f", scaled("half_sine_peak_force_N", 1e-6)),
+        Column("Hertz (MN)", "hertz_peak_force_MN", ".2f", scaled("hertz_peak_force_N", 1e-6)),
     )
-    scales = (
-        ("time_s", 1.0),
-        ("lasted_s", 1e3),
-        ("approach_m_s", 1.0),
-        ("impulse_Ns", 1e-3),
-        ("raw_peak_force_N", 1e-6),
-        ("half_sine_peak_force_N", 1e-6),
-        ("hertz_peak_force_N", 1e-6),
-    )
-    rows = [(hit["ball"], *(scale * hit[key] if key in hit else None for key, scale in scales)) for hit in hits]
     notes = (
         "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the impulse "
         "spread over Hertz's or the given contact time. Hertz: the force of an elastic hit, which steel and concrete "
         "cannot reach, an upper bound for a ball that flies into something. Where falling debris pushes the ball "
         "while it touches, the impulse is larger than the speed explains, and Hertz's force says nothing."
     )
-    return [DataTable("hits_of_the_ball", "Hits of the ball", columns, rows), Paragraph(notes)]
+    return [DataTable.of("hits_of_the_ball", "Hits of the ball", columns, hits), Paragraph(notes)]
 
 
 def _stress_blocks(run: ReportedRun) -> list[Block]:
@@ -181,27 +172,22 @@ def _breaking_blocks(run: ReportedRun) -> list[Block]:
     if not kinds:
         return [Paragraph("There are no connections, or nothing is known of them.")]
     columns = (
-        Column("connections", "kind"),
-        Column("there were", "count", "d"),
-        Column("broke", "broken", "d"),
-        Column("broke (%)", "broken_percent", ".1f"),
-        Column("first at (s)", "first_break_s", ".3f"),
+        Column("connections", "kind", "", lambda kind: kind.kind),
+        Column("there were", "count", "d", lambda kind: kind.count),
+        Column("broke", "broken", "d", lambda kind: int(kind.broken[-1])),
+        Column("broke (%)", "broken_percent", ".1f", lambda kind: 100.0 * float(kind.broken[-1]) / kind.count),
+        Column(
+            "first at (s)",
+            "first_break_s",
+            ".3f",
+            lambda kind: float(results.frames.time_s[(kind.broken > 0).argmax()]) if kind.broken.any() else None,
+        ),
     )
-    rows: Sequence[tuple] = [
-        (
-            kind.kind,
-            kind.count,
-            int(kind.broken[-1]),
-            100.0 * float(kind.broken[-1]) / kind.count,
-            float(results.frames.time_s[(kind.broken > 0).argmax()]) if kind.broken.any() else None,
-        )
-        for kind in kinds
-    ]
     return [
         Picture(
             partial(breaking_history, times_s=results.frames.time_s, kinds=kinds, impact_s=run.ball.first_hit_s),
             "Connections broken, by the members that they joined.",
             100.0,
         ),
-        DataTable("breaking", "Connections by kind", columns, rows),
+        DataTable.of("breaking", "Connections by kind", columns, kinds),
     ]

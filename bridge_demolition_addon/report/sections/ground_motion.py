@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
-from typing import Any
 
 from ...charts.ground_motion import ground_motion_history, moving_directions, response_spectra
 from ...engineering.ground_motion.record import GroundRecord
@@ -74,45 +72,34 @@ def _told(motion: GroundMotion) -> str:
 
 
 def _peak_table(record: GroundRecord) -> DataTable:
-    columns = (
-        Column("direction", "direction"),
-        Column("acceleration (m/s²)", "peak_acceleration_m_s2", ".2f"),
-        Column("acceleration (g)", "peak_acceleration_g", ".3f"),
-        Column("velocity (m/s)", "peak_velocity_m_s", ".3f"),
-        Column("displacement (m)", "peak_displacement_m", ".3f"),
-    )
     peaks = record.peaks()
-    rows = [
-        (
-            DIRECTIONS[axis],
-            peaks["accelerations_m_s2"][axis],
-            peaks["accelerations_m_s2"][axis] / STANDARD_GRAVITY_M_S2,
-            peaks["velocities_m_s"][axis],
-            peaks["displacements_m"][axis],
-        )
-        for axis in moving_directions(record)
-    ]
-    return DataTable("ground_motion_peaks", "Largest of the ground's motion", columns, rows)
+    accelerations, velocities = peaks["accelerations_m_s2"], peaks["velocities_m_s"]
+    columns = (
+        Column("direction", "direction", "", lambda axis: DIRECTIONS[axis]),
+        Column("acceleration (m/s²)", "peak_acceleration_m_s2", ".2f", lambda axis: accelerations[axis]),
+        Column(
+            "acceleration (g)", "peak_acceleration_g", ".3f", lambda axis: accelerations[axis] / STANDARD_GRAVITY_M_S2
+        ),
+        Column("velocity (m/s)", "peak_velocity_m_s", ".3f", lambda axis: velocities[axis]),
+        Column("displacement (m)", "peak_displacement_m", ".3f", lambda axis: peaks["displacements_m"][axis]),
+    )
+    title = "Largest of the ground's motion"
+    return DataTable.of("ground_motion_peaks", title, columns, moving_directions(record))
 
 
 def _settlement_blocks(results: Results, scenario: Scenario) -> list[Block]:
     columns = (
-        Column("member", "member"),
-        Column("settled (mm)", "settled_mm", ".2f"),
-        Column("at most (mm)", "most_settled_mm", ".2f"),
-        Column("slid (mm)", "slid_mm", ".2f"),
-        Column("leans (mrad)", "tilt_mrad", ".2f"),
+        Column("member", "member", "", lambda footing: footing["member"]),
+        Column("settled (mm)", "settled_mm", ".2f", lambda footing: 1e3 * footing["settled_m"]),
+        Column("at most (mm)", "most_settled_mm", ".2f", lambda footing: 1e3 * footing["most_settled_m"]),
+        Column("slid (mm)", "slid_mm", ".2f", lambda footing: 1e3 * footing["slid_m"]),
+        Column("leans (mrad)", "tilt_mrad", ".2f", lambda footing: 1e3 * footing["tilt_rad"]),
     )
-    rows = [_settled(each) for each in settlements(results, scenario.foundations)]
+    footings = settlements(results, scenario.foundations)
     return [
         Paragraph(
             "Footings stand on springs that press and never pull, settle for good where the soil bears no more, and "
             "slide where friction ends. Settlement is from the bridge as it was built, without any load."
         ),
-        DataTable("settlements", "Foundations at the end of the run", columns, rows),
+        DataTable.of("settlements", "Foundations at the end of the run", columns, footings),
     ]
-
-
-def _settled(footing: Mapping[str, Any]) -> tuple[Any, ...]:
-    lengths = (1e3 * footing[name] for name in ("settled_m", "most_settled_m", "slid_m", "tilt_rad"))
-    return footing["member"], *lengths

@@ -23,17 +23,17 @@ _WORDS = (
     "until the bridge begins to come down; below 1 the stage does not stand."
 )
 _COLUMNS = (
-    Column("Stage", "stage"),
-    Column("From (s)", "time_s", ".2f"),
-    Column("What was done", "step"),
-    Column("On it", "equipment"),
-    Column("Weight (kN)", "weight_kN", ".0f"),
-    Column("Not held (t)", "not_held_t", ".1f"),
-    Column("Used most", "largest_utilisation", ".0%"),
-    Column("by", "governed_by"),
-    Column("in", "between"),
-    Column("Falls at", "falls_at"),
-    Column("Sag (mm)", "sag_mm", ".1f"),
+    Column("Stage", "stage", "", lambda row: row["stage"]),
+    Column("From (s)", "time_s", ".2f", lambda row: _number(row["time_s"])),
+    Column("What was done", "step", "", lambda row: row["step"]),
+    Column("On it", "equipment", "", lambda row: row["equipment"] or None),
+    Column("Weight (kN)", "weight_kN", ".0f", lambda row: _number(row["weight_kN"])),
+    Column("Not held (t)", "not_held_t", ".1f", lambda row: float(row["not_held_kg"]) / 1e3),
+    Column("Used most", "largest_utilisation", ".0%", lambda row: _number(row["largest_utilisation"])),
+    Column("by", "governed_by", "", lambda row: row["governed_by"] or None),
+    Column("in", "between", "", lambda row: row["between"] or None),
+    Column("Falls at", "falls_at", "", lambda row: _falls_at(_number(row["collapse_factor"]))),
+    Column("Sag (mm)", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
 )
 
 
@@ -59,11 +59,11 @@ def stages_section(folder: Path) -> Section:
     stages = _rows(folder / STAGES_FILE, STAGE_COLUMNS)
     members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
     try:
-        shown = [_shown(row) for row in stages]
+        table = DataTable.of("stages", "Stages", _COLUMNS, stages)
         falls = [(row["member"], float(row["falls_kg"]) / 1e3, float(row["share_of_the_bridge"])) for row in members]
     except ValueError as error:
         raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error
-    blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), DataTable("stages", "Stages", _COLUMNS, shown)]
+    blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), table]
     blocks.append(Paragraph(_on_members(falls)))
     if critical := sorted((each for each in falls if each[1] > 0.0), key=lambda each: -each[1]):
         columns = (
@@ -75,22 +75,10 @@ def stages_section(folder: Path) -> Section:
     return Section("Stages", tuple(blocks))
 
 
-def _shown(row: dict[str, str]) -> tuple:
-    used, factor = _number(row["largest_utilisation"]), _number(row["collapse_factor"])
-    falls_at = None if factor is None else "more than × 64" if math.isinf(factor) else f"× {factor:.2f}"
-    return (
-        row["stage"],
-        _number(row["time_s"]),
-        row["step"],
-        row["equipment"] or None,
-        _number(row["weight_kN"]),
-        float(row["not_held_kg"]) / 1e3,
-        used,
-        row["governed_by"] or None,
-        row["between"] or None,
-        falls_at,
-        _number(row["sag_mm"]),
-    )
+def _falls_at(factor: float | None) -> str | None:
+    if factor is None:
+        return None
+    return "more than × 64" if math.isinf(factor) else f"× {factor:.2f}"
 
 
 def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:

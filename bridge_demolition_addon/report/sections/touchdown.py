@@ -36,34 +36,31 @@ _BASIS = (
 
 def _table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
     columns = (
-        Column("neighbour", "neighbour"),
-        Column("ground velocity (mm/s)", "peak_particle_velocity_mm_s", ".2f"),
-        Column("from (s)", "time_s", ".2f"),
-        Column("mass (t)", "mass_t", ".1f"),
-        Column("energy (kJ)", "energy_kJ", ".0f"),
-        Column("distance (m)", "distance_m", ".1f"),
-        Column("reaches the limit for", "limits"),
+        Column("neighbour", "neighbour", "", lambda name, _: name),
+        Column(
+            "ground velocity (mm/s)",
+            "peak_particle_velocity_mm_s",
+            ".2f",
+            lambda _, shaking: 1e3 * shaking.velocity_m_s,
+        ),
+        Column("from (s)", "time_s", ".2f", lambda _, shaking: shaking.time_s),
+        Column("mass (t)", "mass_t", ".1f", lambda _, shaking: 1e-3 * shaking.mass_kg),
+        Column("energy (kJ)", "energy_kJ", ".0f", lambda _, shaking: 1e-3 * shaking.energy_j),
+        Column("distance (m)", "distance_m", ".1f", lambda _, shaking: shaking.distance_m),
+        Column("reaches the limit for", "limits", "", lambda _, shaking: _limits_reached(shaking)),
     )
-    rows = [
-        (
-            name,
-            1e3 * each.velocity_m_s,
-            each.time_s,
-            1e-3 * each.mass_kg,
-            1e-3 * each.energy_j,
-            each.distance_m,
-            ", ".join(limit.building for limit in reached(each.velocity_m_s)) or "none",
-        )
-        for name, each in shaken
-    ]
-    return DataTable("touchdown", "What the fall does at the neighbours", columns, rows)
+    names, shakings = zip(*shaken, strict=True) if shaken else ((), ())
+    return DataTable.of("touchdown", "What the fall does at the neighbours", columns, names, shakings)
+
+
+def _limits_reached(shaking: Shaking) -> str:
+    return ", ".join(limit.building for limit in reached(shaking.velocity_m_s)) or "none"
 
 
 def _limit_table() -> DataTable:
     columns = (
-        Column("building", "building"),
-        Column("velocity (mm/s)", "velocity_mm_s", ".0f"),
-        Column("source", "source"),
+        Column("building", "building", "", lambda limit: limit.building),
+        Column("velocity (mm/s)", "velocity_mm_s", ".0f", lambda limit: 1e3 * limit.velocity_m_s),
+        Column("source", "source", "", lambda limit: limit.source),
     )
-    rows = [(each.building, 1e3 * each.velocity_m_s, each.source) for each in LIMITS]
-    return DataTable("vibration_limits", "Limits at low frequency, at the foundation", columns, rows)
+    return DataTable.of("vibration_limits", "Limits at low frequency, at the foundation", columns, LIMITS)
