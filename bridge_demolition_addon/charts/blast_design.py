@@ -15,8 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..engineering.blast.charge_sizing import smallest_charge_for_overpressure
-from ..engineering.blast.models import BlastModel, blast_wave
-from ..engineering.blast.pulses import Pulses, blast_pulses, pressure_at
+from ..engineering.blast.pulses import BlastModel, Pulses, blast_pulses, blast_wave, pressure_at
 from ..engineering.blast.wave import AMBIENT_PRESSURE_PA, Burst
 from ..errors import OutputError
 from ..model.blast.charges import Charge

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import FigureBase
 
-from ..engineering.blast.models import BlastModel
+from ..engineering.blast.pulses import BlastModel
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.blast.charges import Charge
 from ..model.blast.damage import distinct_thresholds, ring_radii

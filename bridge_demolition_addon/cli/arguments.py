@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..engineering.blast.models import BlastModel
+from ..engineering.blast.pulses import BlastModel
 from ..engineering.blast.wave import Burst
 from ..errors import BlastError, GeometryError, ScenarioError
 

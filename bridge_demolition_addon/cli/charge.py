@@ -9,7 +9,7 @@ from ..engineering.blast.charge_sizing import (
     smallest_charge_for_overpressure,
     stand_off_for_overpressure,
 )
-from ..engineering.blast.models import blast_wave
+from ..engineering.blast.pulses import blast_wave
 from ..engineering.blast.vibration import (
     DAMAGE_LIMIT_M_S,
     GROUNDS,

@@ -4,7 +4,7 @@ import argparse
 from functools import partial
 from pathlib import Path
 
-from ..engineering.blast.models import BlastModel
+from ..engineering.blast.pulses import BlastModel
 from ..engineering.blast.wave import Burst
 from ..model.blast.charges import LARGEST_CHARGE_KG
 from .arguments import add_blast_options, quantity

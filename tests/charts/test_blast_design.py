@@ -22,7 +22,7 @@ from bridge_demolition_addon.charts.blast_design import (
     write_charts,
 )
 from bridge_demolition_addon.charts.style import lay_out
-from bridge_demolition_addon.engineering.blast.models import BlastModel, blast_wave
+from bridge_demolition_addon.engineering.blast.pulses import BlastModel, blast_wave
 from bridge_demolition_addon.engineering.blast.wave import Burst
 from bridge_demolition_addon.errors import OutputError
 

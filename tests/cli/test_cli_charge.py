@@ -5,7 +5,7 @@ import re
 import pytest
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.engineering.blast.models import blast_wave
+from bridge_demolition_addon.engineering.blast.pulses import blast_wave
 from bridge_demolition_addon.model.blast.damage import THRESHOLDS
 
 

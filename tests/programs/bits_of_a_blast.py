@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from bridge_demolition_addon.engineering.blast.models import BlastModel
+from bridge_demolition_addon.engineering.blast.pulses import BlastModel
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.explosion import Explosion

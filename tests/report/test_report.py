@@ -23,7 +23,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.engineering.blast.models import BlastModel
+from bridge_demolition_addon.engineering.blast.pulses import BlastModel
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.debris.throws import debris_of

@@ -13,7 +13,7 @@ import numpy as np
 from ...errors import BlastError
 from ..arithmetic import cube_root, power
 from ..arrays import FloatArray
-from .models import BlastModel, blast_wave
+from .pulses import BlastModel, blast_wave
 from .wave import SMALLEST_SCALED_DISTANCE, Burst, checked
 
 _FARTHEST_SCALED_DISTANCE = 1e6

@@ -1,19 +1,96 @@
-"""The pressure pulses of several charges on several bodies, and the impulse of each in any step of time."""
+"""The blast pressure of several charges on several bodies: waves, the pulses that they bring, and the impulse of each.
+
+A pulse is Friedlander's, the report's equation 1 (1946): p(τ) = p₀ (1 - τ/t_d) e^(-b τ/t_d). τ is the time since the
+front arrived; the pulse is over at τ = t_d. The suction that follows, the negative phase, is not modelled.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import factorial
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import BlastError
+from ..arithmetic import cube_root, exponential
 from ..arrays import BoolArray, FloatArray, IntArray
-from . import friedlander
-from .models import BlastModel, blast_wave
-from .wave import Burst, Choice, checked
+from . import kingery_bulmash, kinney_graham
+from .wave import Burst, Choice, Wave, checked, scaled_distance
 
 REPORT_DECAY = 1.0
 """The one decay of the report of 2019, for any charge and stand-off."""
+
+LARGEST_SHARE = 0.5
+"""Share of p₀ t_d that the impulse of a pulse without decay has, a triangle; no decay gives more."""
+
+_SERIES_BELOW = 0.5
+_SERIES_TERMS = 15
+"""Enough for the last term to be below rounding where the series is used: 0.5^15 / 15! is 2e-17."""
+
+_SERIES = [
+    [1.0 / (factorial(term) * (term + order + 1)) for order in range(3)] for term in reversed(range(_SERIES_TERMS))
+]
+"""Coefficients of the series of three moments, the last term first."""
+
+_MOST_STEPS = 50
+
+
+class BlastModel(Choice):
+    """Where peak, impulse, arrival and duration come from."""
+
+    KINGERY_BULMASH = "kingery-bulmash"
+    """Fits to tests, for either burst: what the field uses."""
+
+    KINNEY_GRAHAM = "kinney-graham"
+    """The formulas of the report of 2019."""
+
+
+_UNIT_WAVES = {
+    BlastModel.KINGERY_BULMASH: kingery_bulmash.unit_wave,
+    BlastModel.KINNEY_GRAHAM: kinney_graham.unit_wave,
+}
+
+
+def blast_wave(
+    stand_off_m: ArrayLike,
+    tnt_kg: ArrayLike,
+    burst: Burst | str = Burst.AIR,
+    model: BlastModel | str = BlastModel.KINGERY_BULMASH,
+) -> Wave:
+    """Return the waves of charges at stand-offs.
+
+    Parameters
+    ----------
+    stand_off_m : (...) float
+        Distances from the charges, m; nearer than a charge's surface (`wave.SMALLEST_SCALED_DISTANCE`) counts as
+        that.
+    tnt_kg : (...) float
+        Charges, kg of TNT; a charge of 0 has a wave of zeros.
+    burst : Burst
+        Where the charges detonate.
+    model : BlastModel
+        Where the wave comes from.
+
+    Returns
+    -------
+    Wave
+        Arrays of the shape to which stand-offs and charges broadcast.
+
+    Raises
+    ------
+    BlastError
+        A stand-off or a charge is negative or not finite.
+
+    Examples
+    --------
+    >>> wave = blast_wave([10.0, 20.0], 8.0)
+    >>> (wave.peak_overpressure_pa / 1e3).round(2)
+    array([31.3 , 11.09])
+    """
+    distance = scaled_distance(stand_off_m, tnt_kg)
+    unit_wave = _UNIT_WAVES[BlastModel(model)]
+    anywhere = np.where(np.isinf(distance), 1.0, distance)
+    return unit_wave(anywhere, Burst(burst)).scaled(cube_root(tnt_kg))
 
 
 class Loading(Choice):
@@ -55,7 +132,7 @@ class Pulses:
     @property
     def impulses_pa_s(self) -> FloatArray:
         """Return the impulse per area of each whole pulse, (n, c) Pa·s."""
-        return friedlander.whole_impulse(self.peaks_pa, self.durations_s, self.decays)
+        return whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
     def take(self, pairs: IntArray) -> "Pulses":
         """Return the pulses (k,) of pairs (k,): c i + j is that of body i and charge j."""
@@ -130,7 +207,7 @@ def blast_pulses(
         impulse = wave.reflected_impulse_pa_s if reflected else wave.incident_impulse_pa_s
         duration = wave.positive_phase_duration_s
         if constant_decay is None:
-            duration, decay = friedlander.fitted(peak, duration, impulse)
+            duration, decay = fitted(peak, duration, impulse)
         else:
             decay = np.full(peak.shape, constant_decay)
         pulses.put(columns, Pulses(wave.arrival_time_s + delays[columns], pressure_factor * peak, duration, decay))
@@ -147,7 +224,7 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
     """
     if not end_s >= start_s:
         raise BlastError(f"end of the step is {end_s:g}: expected at least its start, {start_s:g} (s)")
-    return friedlander.impulse_between(
+    return pulse_impulse(
         pulses.peaks_pa, pulses.durations_s, pulses.decays, start_s - pulses.arrivals_s, end_s - pulses.arrivals_s
     )
 
@@ -157,7 +234,7 @@ def pressure_at(pulses: Pulses, time_s: float | FloatArray) -> FloatArray:
 
     Instead of one time there can be an array of them that broadcasts with (n, c).
     """
-    return friedlander.pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
+    return pulse_pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
 
 
 def _check_shapes(
@@ -169,3 +246,119 @@ def _check_shapes(
             f"stand-offs {stand_offs.shape}, charges {masses.shape}, delays {delays.shape} and {len(bursts)} bursts "
             "do not fit: expected (n, c), (c,), (c,) and c"
         )
+
+
+def pulse_pressure(peak: FloatArray, duration: FloatArray, decay: FloatArray, time: float | FloatArray) -> FloatArray:
+    """Return the overpressure at times since the front arrived; 0 before that and after the positive phase.
+
+    Parameters
+    ----------
+    peak, duration, decay : (...) float
+        Peak overpressure (Pa), positive-phase duration (s) and decay b of the pulses.
+    time : (...) float
+        Times since the front arrived, s. All four broadcast.
+    """
+    part = _part_of_phase(time, duration)
+    passed = np.clip(part, 0.0, 1.0)
+    return np.where(part >= 0.0, peak * (1.0 - passed) * exponential(-decay * passed), 0.0)
+
+
+def pulse_impulse(
+    peak: FloatArray, duration: FloatArray, decay: FloatArray, start: FloatArray, end: FloatArray
+) -> FloatArray:
+    """Return the exact integral of the overpressure from `start` to `end`, s since the front arrived, in Pa·s.
+
+    The interval may begin before the front and end after the pulse. It is integrated from its own beginning, so that
+    short intervals lose nothing to the difference of two long ones.
+    """
+    first = np.clip(_part_of_phase(start, duration), 0.0, 1.0)
+    length = np.clip(_part_of_phase(end, duration), 0.0, 1.0) - first
+    exponent = decay * length
+    whole, centre = _moments(exponent, 2)
+    mean = (1.0 - first) * whole - length * centre
+    return peak * duration * exponential(-decay * first) * length * mean
+
+
+def whole_impulse(peak: FloatArray, duration: FloatArray, decay: FloatArray) -> FloatArray:
+    """Return the impulse of the whole positive phase, p₀ t_d (b - 1 + e^(-b)) / b², in Pa·s."""
+    return peak * duration * _share(np.asarray(decay, float))
+
+
+def fitted(peak: FloatArray, duration: FloatArray, impulse: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return duration and decay of the pulses that have a peak, a duration and an impulse.
+
+    No decay of at least 0 gives more than half of p₀ t_d. Where more is asked for, the pulse gets no decay and a longer
+    duration, 2 i / p₀: peak and impulse are what moves and breaks a body, and tests measure them better than where a
+    pulse that fades out ends. A negative decay would keep the duration, with a pressure that hardly falls and then
+    drops at once.
+
+    Parameters
+    ----------
+    peak, duration, impulse : (...) float
+        Pa, s and Pa·s, of one shape; where the peak is 0 so are the results.
+    """
+    there = peak > 0.0
+    triangle = np.divide(impulse, LARGEST_SHARE * peak, out=np.zeros_like(peak), where=there)
+    share = np.full_like(peak, LARGEST_SHARE)
+    np.divide(impulse, peak * duration, out=share, where=there & (triangle < duration))
+    return np.where(there, np.maximum(duration, triangle), 0.0), decay_of(share)
+
+
+def decay_of(share: FloatArray) -> FloatArray:
+    """Return the decay b ≥ 0 at which the impulse is a share of p₀ t_d, from above 0 to `LARGEST_SHARE`.
+
+    The share falls with b and is convex, and at b = 1/share - 2 it is not below what is asked for. So Newton's steps
+    from there go one way, never overshoot, and are done after a handful.
+    """
+    share = np.asarray(share, float)
+    decay = np.maximum(1.0 / share - 2.0, 0.0)
+    for _ in range(_MOST_STEPS):
+        whole, first, second = _moments(decay, 3)
+        step = (whole - first - share) / (first - second)
+        decay = np.maximum(decay + step, 0.0)
+        if (abs(step) <= 1e-13 * (1.0 + decay)).all():
+            break
+    return decay
+
+
+def _share(decay: FloatArray) -> FloatArray:
+    mean, first = _moments(decay, 2)
+    return mean - first
+
+
+def _moments(exponent: FloatArray, count: int) -> list[FloatArray]:
+    """Return ∫₀¹ uⁿ e^(-y u) du for y ≥ 0 and n from 0 on; a series where the closed form would lose its digits."""
+    is_small = exponent < _SERIES_BELOW
+    # Both are costly: most steps are so short, or so long, that one of them serves all pulses.
+    if is_small.all():
+        return list(_series_of_moments(exponent, count))
+    if not is_small.any():
+        return _closed_moments(exponent, count)
+    series = _series_of_moments(np.minimum(exponent, _SERIES_BELOW), count)
+    closed = _closed_moments(np.maximum(exponent, _SERIES_BELOW), count)
+    return [np.where(is_small, *each) for each in zip(series, closed, strict=True)]
+
+
+def _series_of_moments(exponent: FloatArray, count: int) -> FloatArray:
+    """Return the moments (count, ...) by their series, for small exponents."""
+    sums = np.zeros((count, *exponent.shape))
+    for coefficients in np.array(_SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
+        np.multiply(exponent, sums, out=sums)
+        np.subtract(coefficients, sums, out=sums)
+    return sums
+
+
+def _closed_moments(exponent: FloatArray, count: int) -> list[FloatArray]:
+    """Return the moments in closed form, for exponents that are not small."""
+    left = exponential(-exponent)
+    moments = [(1.0 - left) / exponent]
+    for order in range(1, count):
+        moments.append((order * moments[-1] - left) / exponent)
+    return moments
+
+
+def _part_of_phase(time: ArrayLike, duration: ArrayLike) -> FloatArray:
+    """Return time as part of the positive phase; a pulse without duration is over at once."""
+    times, durations = np.broadcast_arrays(np.asarray(time, float), np.asarray(duration, float))
+    part: FloatArray = np.divide(times, durations, out=np.full(times.shape, np.inf), where=durations > 0.0)
+    return part

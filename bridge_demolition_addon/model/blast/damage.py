@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.blast.charge_sizing import stand_off_for_overpressure
-from ...engineering.blast.models import BlastModel
+from ...engineering.blast.pulses import BlastModel
 from .charges import Charge
 
 CLANCEY = "Clancey, 6th International Meeting of Forensic Sciences, Edinburgh (1972)"

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.blast import vibration
-from ...engineering.blast.models import BlastModel, blast_wave
-from ...engineering.blast.pulses import Pulses, blast_pulses, pressure_at
+from ...engineering.blast.pulses import BlastModel, Pulses, blast_pulses, blast_wave, pressure_at
 from ...engineering.geometry.vectors import distance
 from .charges import Charge
 

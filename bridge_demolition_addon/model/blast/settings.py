@@ -5,8 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...engineering.blast.models import BlastModel
-from ...engineering.blast.pulses import Loading
+from ...engineering.blast.pulses import BlastModel, Loading
 from ...engineering.blast.wave import Choice
 from ...engineering.timing.timeline import SlowMotion
 from ...errors import ScenarioError

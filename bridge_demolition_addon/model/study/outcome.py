@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 from manifold3d import CrossSection
 
-from ...engineering.blast.models import BlastModel
+from ...engineering.blast.pulses import BlastModel
 from ...engineering.geometry.plan_areas import outlines
 from ...errors import OutputError
 from ..blast.receptors import loads_at

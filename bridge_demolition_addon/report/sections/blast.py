@@ -8,7 +8,7 @@ from functools import partial
 from manifold3d import CrossSection
 
 from ...charts.blast_maps import WIDEST_PA, neighbour_pressures, overpressure_map
-from ...engineering.blast.models import BlastModel
+from ...engineering.blast.pulses import BlastModel
 from ...engineering.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
 from ...engineering.terrain.recorded import RecordedGround
 from ...model.blast.charges import Charge

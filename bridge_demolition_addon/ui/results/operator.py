@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from ...engineering.blast.models import BlastModel
+from ...engineering.blast.pulses import BlastModel
 from ...errors import OutputError, SimulationError
 from ...exports.formats import FORMATS, Format
 from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF

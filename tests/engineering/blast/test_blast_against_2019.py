@@ -4,8 +4,13 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.blast.exposure import lines_of_blast, projected_areas
-from bridge_demolition_addon.engineering.blast.models import blast_wave
-from bridge_demolition_addon.engineering.blast.pulses import REPORT_DECAY, blast_pulses, impulse_between, pressure_at
+from bridge_demolition_addon.engineering.blast.pulses import (
+    REPORT_DECAY,
+    blast_pulses,
+    blast_wave,
+    impulse_between,
+    pressure_at,
+)
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
 from bridge_demolition_addon.engineering.timing.time_step import TimeStep
 

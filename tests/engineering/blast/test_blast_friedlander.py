@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 
-from bridge_demolition_addon.engineering.blast.friedlander import (
+from bridge_demolition_addon.engineering.blast.pulses import (
     LARGEST_SHARE,
     decay_of,
     fitted,
-    impulse_between,
-    pressure,
+    pulse_impulse,
+    pulse_pressure,
     whole_impulse,
 )
 
@@ -32,34 +32,34 @@ def integrated(decay, start, end):
 @pytest.mark.parametrize("start, end", INTERVALS)
 def test_closed_form_against_numerical_integration(decay, start, end):
     # Both are exact but for rounding; the smallest part of a pulse here is 1e-4 of the whole, hence 1e-12.
-    exact = impulse_between(PEAK, DURATION, decay, start, end)
+    exact = pulse_impulse(PEAK, DURATION, decay, start, end)
     assert exact == pytest.approx(integrated(decay, start, end), rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("decay", DECAYS)
 def test_a_short_step_loses_no_digits(decay):
     # In a millionth of the phase the pressure changes by a millionth of (1 + b).
-    middle = impulse_between(PEAK, DURATION, decay, 0.6, 0.6 + 2e-6) / 2e-6
-    assert middle == pytest.approx(pressure(PEAK, DURATION, decay, 0.6 + 1e-6), rel=1e-9)
+    middle = pulse_impulse(PEAK, DURATION, decay, 0.6, 0.6 + 2e-6) / 2e-6
+    assert middle == pytest.approx(pulse_pressure(PEAK, DURATION, decay, 0.6 + 1e-6), rel=1e-9)
 
 
 @pytest.mark.parametrize("decay", DECAYS)
 def test_the_whole_impulse_has_its_closed_form(decay):
     whole = whole_impulse(PEAK, DURATION, decay)
-    assert impulse_between(PEAK, DURATION, decay, -1.0, 9.0) == pytest.approx(whole, rel=1e-14)
+    assert pulse_impulse(PEAK, DURATION, decay, -1.0, 9.0) == pytest.approx(whole, rel=1e-14)
     if decay >= 0.1:  # for less the plain formula loses digits
         assert whole == pytest.approx(PEAK * DURATION * (decay - 1 + np.exp(-decay)) / decay**2, rel=1e-13)
 
 
 def test_no_decay_is_a_triangle():
     assert whole_impulse(PEAK, DURATION, 0.0) == PEAK * DURATION / 2.0
-    assert impulse_between(PEAK, DURATION, 0.0, 1.0, 2.0) == PEAK * DURATION / 8.0
+    assert pulse_impulse(PEAK, DURATION, 0.0, 1.0, 2.0) == PEAK * DURATION / 8.0
 
 
 def test_any_cut_into_steps_adds_up():
     edges = np.concatenate(([-3.0], np.sort(np.random.default_rng(4).uniform(-1.0, 3.0, 500)), [5.0]))
     for decay in DECAYS:
-        parts = impulse_between(PEAK, DURATION, decay, edges[:-1], edges[1:])
+        parts = pulse_impulse(PEAK, DURATION, decay, edges[:-1], edges[1:])
         # Rounding in a sum of 500 positive numbers.
         assert parts.sum() == pytest.approx(whole_impulse(PEAK, DURATION, decay), rel=1e-12)
         assert (parts >= 0.0).all()
@@ -67,7 +67,7 @@ def test_any_cut_into_steps_adds_up():
 
 def test_pressure_begins_with_the_peak_and_ends_with_the_phase():
     times = np.array([-1e-9, 0.0, DURATION / 2, DURATION * (1 - 1e-9), DURATION, 10.0])
-    pressures = pressure(PEAK, DURATION, 1.0, times)
+    pressures = pulse_pressure(PEAK, DURATION, 1.0, times)
     assert pressures[[0, 4, 5]].tolist() == [0.0, 0.0, 0.0]
     assert pressures[1] == PEAK
     assert pressures[2] == pytest.approx(PEAK * 0.5 * np.exp(-0.5))
@@ -113,5 +113,5 @@ def test_no_pulse_stays_none():
     duration, decay = fitted(nothing, nothing, nothing)
     assert duration.tolist() == decay.tolist() == [0.0, 0.0, 0.0]
     for start, end in INTERVALS:
-        assert impulse_between(0.0, 0.0, 0.0, start, end) == 0.0
-        assert pressure(0.0, 0.0, 0.0, start) == 0.0
+        assert pulse_impulse(0.0, 0.0, 0.0, start, end) == 0.0
+        assert pulse_pressure(0.0, 0.0, 0.0, start) == 0.0

@@ -9,7 +9,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.blast import kinney_graham
 from bridge_demolition_addon.engineering.blast.kingery_bulmash import Quantity, evaluate
-from bridge_demolition_addon.engineering.blast.models import BlastModel, blast_wave
+from bridge_demolition_addon.engineering.blast.pulses import BlastModel, blast_wave
 from bridge_demolition_addon.engineering.blast.wave import SMALLEST_SCALED_DISTANCE, Burst, scaled_distance
 from bridge_demolition_addon.errors import BlastError
 

@@ -8,7 +8,7 @@ from bridge_demolition_addon.engineering.blast.charge_sizing import (
     smallest_charge_for_overpressure,
     stand_off_for_overpressure,
 )
-from bridge_demolition_addon.engineering.blast.models import BlastModel, blast_wave
+from bridge_demolition_addon.engineering.blast.pulses import BlastModel, blast_wave
 from bridge_demolition_addon.engineering.blast.wave import Burst
 from bridge_demolition_addon.errors import BlastError
 from bridge_demolition_addon.model.blast.charges import Charge

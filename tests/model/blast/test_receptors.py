@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.blast.models import blast_wave
+from bridge_demolition_addon.engineering.blast.pulses import blast_wave
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.receptors import charges_per_delay, loads_at, peak_overpressures
 
