@@ -7,9 +7,10 @@ import pytest
 from pictures import study_picture
 from support.checkout import EXAMPLES, ROOT
 
+from bridge_demolition_addon.model.study.conclusions import debris_limit
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import REACH, read_runs
-from bridge_demolition_addon.model.study.statements import reach_limit
+from bridge_demolition_addon.report.wording.study import limit_sentence
 
 
 @pytest.fixture(scope="module")
@@ -27,10 +28,10 @@ def test_the_limit_is_that_of_the_runs(told, runs):
     settings = read_study(EXAMPLES / "studies" / "i235_one_span.toml").settings
     reaches_m = runs.largest(REACH)
     assert len(reaches_m) == settings.runs
-    limit = reach_limit(reaches_m, settings.quantile, settings.confidence, settings.rank)
+    limit = debris_limit(reaches_m, settings.quantile, settings.confidence, settings.rank)
     said = json.loads(study_picture.CONCLUSIONS.read_text(encoding="utf-8"))["reach"]
     assert limit.limit_m == said["limit_m"]
-    words = limit.sentence(("what varies",), settings.least_mass_kg, None).split(". ")[0]
+    words = limit_sentence(limit, ("what varies",), settings.least_mass_kg, None).split(". ")[0]
     stayed = words[words.index("debris stayed within") :]
     assert f"{stayed} of them, and with 95 % confidence at least 95 % of such runs stay within it" in told
 

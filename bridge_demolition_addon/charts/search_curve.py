@@ -1,9 +1,8 @@
-"""Chart of a search: its trials, and the curve of the probability of success with its limits."""
+"""Chart of a search: its runs, and the curve of the probability of success with its limits."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,8 +10,6 @@ from matplotlib.figure import FigureBase
 from matplotlib.ticker import PercentFormatter
 
 from ..model.search.conclusions import Answer
-from ..model.search.curve import SearchCurve
-from ..model.search.file import Search
 from ..system.disk import whole_file
 from .style import blank_figure, line_style, plain
 
@@ -20,33 +17,17 @@ _HEIGHT_OF_DOTS = 0.06
 _BAND = "0.85"
 
 
-def save_search_curve(path: Path, *shown: Any) -> None:
+def save_search_curve(path: Path, answer: Answer) -> None:
     """Write the picture of what `search_curve` draws."""
     figure = blank_figure(8.0, 5.0, layout="constrained", dpi=150)
-    search_curve(figure, *shown)
+    search_curve(figure, answer)
     with whole_file(path) as part:
         figure.savefig(part, format="png")
 
 
-def search_curve(
-    figure: FigureBase,
-    search: Search,
-    values: np.ndarray,
-    successes: np.ndarray,
-    answer: Answer,
-    curve: SearchCurve | None,
-) -> None:
-    """Draw the trials of a search and what they say.
-
-    Parameters
-    ----------
-    figure
-        Where to.
-    search, answer, curve
-        What was asked, and found.
-    values, successes : (n,) float, (n,) bool
-        Where each trial was made, and whether it succeeded.
-    """
+def search_curve(figure: FigureBase, answer: Answer) -> None:
+    """Draw the runs of a search and its curve."""
+    search, curve, values, successes = answer.search, answer.curve, answer.values, answer.trials.successes
     settings, axes = search.settings, figure.subplots()
     if curve is not None:
         known = np.isfinite(curve.lows) & np.isfinite(curve.highs)

@@ -18,9 +18,9 @@ class CommandProgress(Progress):
     def part(self, done: int, total: int, text: str) -> None:
         self._show(done, total, f"{_counted(done, total)} {text}")
 
-    def draws(self, done: int, total: int, lost: int) -> None:
-        """Give how many draws of a study have ended, and how many of them otherwise than by being done."""
-        self._show(done, total, f"draw {_counted(done, total)}" + (f", {lost} not done" if lost else ""))
+    def runs(self, done: int, total: int, lost: int) -> None:
+        """Give how many runs have ended, and how many of them did not finish."""
+        self._show(done, total, f"run {_counted(done, total)}" + (f", {lost} not done" if lost else ""))
 
     def _show(self, done: int, total: int, text: str, left_s: float | None = None) -> None:
         """Show a count."""
@@ -64,7 +64,7 @@ class _Bar(tqdm):
 
 
 class PlainLines(CommandProgress):
-    """Stages as lines, and a line after each tenth of the frames or draws and at the end of parts."""
+    """Stages as lines, and a line after each tenth of the frames or runs and at the end of parts."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -77,9 +77,9 @@ class PlainLines(CommandProgress):
         if self._begins_a_tenth(done, total):
             super().frame(done, total, broken, left_s)
 
-    def draws(self, done: int, total: int, lost: int) -> None:
+    def runs(self, done: int, total: int, lost: int) -> None:
         if self._begins_a_tenth(done, total):
-            super().draws(done, total, lost)
+            super().runs(done, total, lost)
 
     def _begins_a_tenth(self, done: int, total: int) -> bool:
         tenths, before = 10 * done // total, self._tenths

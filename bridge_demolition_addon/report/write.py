@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError, text_of
+from ..model.ensemble.folder import holds_ensemble
 from ..model.run_folder.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..model.run_folder.folder import holds_run
-from ..model.study.files import REPORT_FOLDER
+from ..model.study.files import REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from .comparison import comparison
@@ -20,10 +21,9 @@ from .document.blocks import Report, write_tables
 from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
-from .ensemble.search import search_report
-from .ensemble.search_folder import is_search, read_found_search
+from .ensemble.search import read_answer, search_report
 from .ensemble.study import study_report
-from .ensemble.study_folder import is_study, read_study_runs
+from .ensemble.study_folder import read_study_runs
 from .run import run_report
 from .run_folder import read_run
 from .sections.cover import add_on_version
@@ -60,8 +60,22 @@ class FolderKind:
 
 RUN = FolderKind("run", "bda run", holds_run, read_run, run_report)
 KINDS = (
-    FolderKind("study", "bda study", is_study, read_study_runs, study_report, REPORT_FOLDER),
-    FolderKind("search", "bda search", is_search, read_found_search, search_report, REPORT_FOLDER),
+    FolderKind(
+        "study",
+        "bda study",
+        partial(holds_ensemble, file_name=STUDY_FILE),
+        read_study_runs,
+        study_report,
+        REPORT_FOLDER,
+    ),
+    FolderKind(
+        "search",
+        "bda search",
+        partial(holds_ensemble, file_name=SEARCH_FILE),
+        read_answer,
+        search_report,
+        REPORT_FOLDER,
+    ),
     RUN,
     FolderKind("set of stages", "bda stages", has_stages, Path, stages_report),
 )

@@ -1,1 +1,1 @@
-"""Studies: many draws of one scenario, each in a process of its own, on this machine or on a cluster."""
+"""Studies, searches and optimisations at work: many runs, each in a process of its own, here or on a cluster."""

@@ -1,6 +1,6 @@
-"""Draws on a Dask cluster that is there: each task starts a process of its own, whose crash a worker survives.
+"""Runs on an existing Dask cluster: each task starts a process of its own, whose crash a worker survives.
 
-Files come back through Dask: workers need no disk in common with whoever asks.
+Files come back through Dask: no shared file system is needed.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ClusterError, SimulationError
-from ..model.study.runs_table import KILLED
+from ..model.study.runs_table import KILLED, RunOutcome
 from ..system.disk import writing
-from .draw_process import DrawProcess, End, Limits
-from .draw_program import draw_command
-from .engine import Task
+from .engine import Task, ended_items
+from .run_process import RunLimits, RunProcess
+from .run_program import run_program_command
 from .versions import installed_blender, versions_with
 
 if TYPE_CHECKING:
@@ -30,16 +30,16 @@ _GONE = "the scheduler has gone; once it is back, the same command goes on"
 
 
 class DaskCluster:
-    """Runs draws on the workers of a scheduler, one in each of their threads.
+    """Makes runs on the workers of a scheduler, one in each of their threads.
 
     Parameters
     ----------
     address
         Of the scheduler, such as ``tcp://host:8786``.
     limits
-        When a draw is ended.
+        When a run is ended.
     command, versions
-        Program of draws and its arguments, as workers are to start it, and what it has to run; by default that of their
+        Program of runs and its arguments, as workers are to start it, and what it has to run; by default that of their
         own Python, and what the first of them says.
 
     Attributes
@@ -50,7 +50,7 @@ class DaskCluster:
     Raises
     ------
     ClusterError
-        Nobody answers there, it has no workers, or Dask is not installed here.
+        No scheduler answers there, it has no workers, or Dask is not installed here.
     SimulationError
         Workers have no Blender.
     """
@@ -58,7 +58,7 @@ class DaskCluster:
     def __init__(
         self,
         address: str,
-        limits: Limits,
+        limits: RunLimits,
         command: Sequence[str] | None = None,
         versions: Mapping[str, str] | None = None,
     ):
@@ -90,49 +90,43 @@ class DaskCluster:
         return 2 * max(self._thread_count(), 1)
 
     def submit(self, task: Task) -> None:
-        """Have a draw run as soon as a worker is free."""
+        """Have a run made as soon as a worker is free."""
         future = self._client.submit(
             _play_here,
             dict(task.request),
             self._command,
             self.versions,
             self._limits,
-            key=f"draw-{task.address}-{uuid.uuid4().hex}",  # no result of another study's
+            key=f"run-{task.cache_key}-{uuid.uuid4().hex}",  # no result of another study's
             pure=False,
         )
         self._futures.add(future)
         future.add_done_callback(lambda ended: self._ended.put((task, ended)))
 
-    def collect(self, timeout_s: float) -> list[tuple[Task, End]]:
-        """Return draws that have ended, with their files where they belong; see `Engine`."""
-        ended = []
-        try:
-            ended.append(self._ended.get(timeout=timeout_s) if timeout_s > 0.0 else self._ended.get_nowait())
-            while True:
-                ended.append(self._ended.get_nowait())
-        except queue.Empty:
-            pass
+    def collect(self, timeout_s: float) -> list[tuple[Task, RunOutcome]]:
+        """Return runs that have ended, with their files where they belong; see `Engine`."""
+        ended = ended_items(self._ended, timeout_s)
         if not ended and self._client.status not in ("running", "connecting"):
             raise SimulationError(f"{self._address}: {_GONE}")
-        return [(task, self._end_of(task, future)) for task, future in ended]
+        return [(task, self._outcome_of(task, future)) for task, future in ended]
 
     def close(self) -> None:
-        """Forget what is at work: it goes on to its end where it is, and nobody takes it."""
+        """Drop the runs under way: they go on to their end where they are, unused."""
         if self._client.status == "closed":
             return
         self._client.cancel(list(self._futures), force=True)
         self._client.close()
 
-    def _end_of(self, task: Task, future: Future) -> End:
+    def _outcome_of(self, task: Task, future: Future) -> RunOutcome:
         from distributed import KilledWorker
 
         self._futures.discard(future)
         if future.status in ("cancelled", "lost"):
             raise SimulationError(f"{self._address}: {_GONE}")
         try:
-            end, files = future.result()
+            outcome, files = future.result()
         except KilledWorker:
-            return End(KILLED, "each worker that it was given to ended")
+            return RunOutcome(KILLED, "each worker that it was given to ended")
         finally:
             future.release()
         with writing(task.folder):
@@ -140,7 +134,7 @@ class DaskCluster:
                 path = task.folder / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content)
-        return end
+        return outcome
 
     def _thread_count(self) -> int:
         if time.monotonic() - self._counted_s >= _COUNT_EVERY_S:
@@ -153,15 +147,15 @@ def _versions_here() -> dict[str, str]:
 
 
 def _play_here(
-    request: Mapping[str, Any], command: Sequence[str] | None, versions: Mapping[str, str], limits: Limits
-) -> tuple[End, dict[str, bytes]]:
-    """Run a draw in a process of its own; what became of it, and its files by their paths in its folder."""
-    process = DrawProcess(command or draw_command(), versions, limits)
+    request: Mapping[str, Any], command: Sequence[str] | None, versions: Mapping[str, str], limits: RunLimits
+) -> tuple[RunOutcome, dict[str, bytes]]:
+    """Make a run in a process of its own; return its outcome, and its files by their paths in its folder."""
+    process = RunProcess(command or run_program_command(), versions, limits)
     try:
-        with tempfile.TemporaryDirectory(prefix="bda-draw-") as folder:
-            place = Path(folder) / "draw"
-            end = process.play(request, place)
-            paths = [path for path in place.rglob("*") if path.is_file()]
-            return end, {path.relative_to(place).as_posix(): path.read_bytes() for path in paths}
+        with tempfile.TemporaryDirectory(prefix="bda-run-") as folder:
+            target = Path(folder) / "run"
+            outcome = process.play(request, target)
+            paths = [path for path in target.rglob("*") if path.is_file()]
+            return outcome, {path.relative_to(target).as_posix(): path.read_bytes() for path in paths}
     finally:
         process.close()

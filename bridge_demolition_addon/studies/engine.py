@@ -1,22 +1,30 @@
-"""What runs the draws of a study: here or elsewhere."""
+"""What makes runs: the interface, and processes on this machine, each of which makes one run after another."""
 
 from __future__ import annotations
 
+import os
+import queue
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
-from .draw_process import End
+from ..model.study.runs_table import RunOutcome
+from .run_process import RunLimits, RunProcess
+from .run_program import run_program_command
+from .versions import installed_blender, versions_with
+
+_Item = TypeVar("_Item")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Task:
-    """A draw to be run.
+    """A run to be made.
 
     Attributes
     ----------
-    address : str
+    cache_key : str
         Digest of all that its result depends on.
     request : dict
         What its program is asked, ready for JSON.
@@ -24,37 +32,124 @@ class Task:
         Where its files are to be once it has ended.
     """
 
-    address: str
+    cache_key: str
     request: Mapping[str, Any]
     folder: Path
 
 
 class Engine(Protocol):
-    """Runs draws beside whoever asks for them.
+    """Makes runs in the background.
 
     Attributes
     ----------
     versions : dict
-        What draws are run with.
+        What runs are made with.
     """
 
     versions: Mapping[str, str]
 
     @property
     def capacity(self) -> int:
-        """How many draws to have submitted at a time, so that it never waits for the next."""
+        """How many runs to have submitted at a time, so that it never waits for the next."""
 
     def submit(self, task: Task) -> None:
-        """Have a draw run as soon as there is a place for it."""
+        """Have a run made as soon as there is room for it."""
 
-    def collect(self, timeout_s: float) -> Sequence[tuple[Task, End]]:
-        """Return draws that have ended since this was asked last, waiting for the first as long as is given.
+    def collect(self, timeout_s: float) -> Sequence[tuple[Task, RunOutcome]]:
+        """Return runs that have ended since the last call; wait for the first one up to a time.
 
         Raises
         ------
         DemolitionError, OSError
-            Draws cannot be run at all, or their files not be written.
+            Runs cannot be made at all, or their files not be written.
         """
 
     def close(self) -> None:
-        """Stop at once; what is at work is lost. Once more is nothing."""
+        """Stop at once; runs under way are lost. It may be called again."""
+
+
+def cores() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def ended_items(items: queue.SimpleQueue[_Item], timeout_s: float) -> list[_Item]:
+    """Take all items of a queue; wait for the first one up to a time."""
+    taken: list[_Item] = []
+    try:
+        taken.append(items.get(timeout=timeout_s) if timeout_s > 0.0 else items.get_nowait())
+        while True:
+            taken.append(items.get_nowait())
+    except queue.Empty:
+        return taken
+
+
+class LocalProcesses:
+    """Makes runs in some processes at a time.
+
+    Parameters
+    ----------
+    jobs
+        How many.
+    limits
+        When a run is ended.
+    command, versions
+        Program of runs and its arguments, and the versions that it has to run; by default those of this Python.
+
+    Attributes
+    ----------
+    versions : dict
+        What all of them have to run.
+    capacity : int
+        One more than jobs, so that none of them ever waits.
+    """
+
+    def __init__(
+        self,
+        jobs: int,
+        limits: RunLimits,
+        command: Sequence[str] | None = None,
+        versions: Mapping[str, str] | None = None,
+    ):
+        self.capacity = jobs + 1
+        self.versions = dict(versions or versions_with(installed_blender()))
+        self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
+        self._ended: queue.SimpleQueue[tuple[Task, RunOutcome | Exception]] = queue.SimpleQueue()
+        self._is_closed = False
+        self._processes = [RunProcess(command or run_program_command(), self.versions, limits) for _ in range(jobs)]
+        self._threads = [
+            threading.Thread(target=self._work, args=(process,), name="runs", daemon=True)
+            for process in self._processes
+        ]
+        for thread in self._threads:
+            thread.start()
+
+    def submit(self, task: Task) -> None:
+        """Have a run made as soon as a process is free."""
+        self._tasks.put(task)
+
+    def collect(self, timeout_s: float) -> list[tuple[Task, RunOutcome]]:
+        """Return runs that have ended; see `Engine`."""
+        ended = ended_items(self._ended, timeout_s)
+        for _, outcome in ended:
+            if isinstance(outcome, Exception):
+                raise outcome
+        return ended
+
+    def close(self) -> None:
+        """Stop at once; runs under way are lost."""
+        self._is_closed = True
+        for process in self._processes:
+            self._tasks.put(None)
+            process.close()
+        for thread in self._threads:
+            thread.join()
+
+    def _work(self, process: RunProcess) -> None:
+        while (task := self._tasks.get()) is not None and not self._is_closed:
+            try:
+                outcome = process.play(task.request, task.folder)
+            except Exception as error:  # raised where it is collected
+                outcome = error
+            if not self._is_closed:
+                self._ended.put((task, outcome))

@@ -1,4 +1,4 @@
-"""How long a study takes, before it runs: by its own draws where some are done, or else by the size of its model."""
+"""How long a study takes, before it runs: by its own runs where some are done, or else by the size of its model."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import numpy as np
 
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import ScenarioError
+from ..model.ensemble.folder import outcome_in
 from ..model.scenario import Scenario
 from ..model.structure.model import Model
-from ..model.study.draws import draw_of
 from ..model.study.file import Study
-from ..model.study.files import DRAW_FOLDER
+from ..model.study.files import RUNS_FOLDER
 from ..model.study.runs_table import DONE
-from .folder import end_in
+from ..model.study.sampled_runs import sampled_run
 
 FACTOR = 3.0
 """By how much an estimate from the size of a model may be off: processors differ, and so does what breaks and when."""
@@ -27,15 +27,15 @@ _PER_PART_S, _ITERATIONS = 2e-6, 20.0
 """Time for a shard or a connection in a sub-step, and iterations of the solver that take as long as all else of it:
 from the I-235 span and the examples with 50 and 100 iterations, on one core. Thousands of shards take longer each."""
 
-_PER_DRAW_S = 0.5
+_PER_RUN_S = 0.5
 
 
 def seconds_by_size(scenario: Scenario, model: Model) -> float:
-    """Return about how long a draw takes on one core, to a factor of `FACTOR`."""
+    """Return about how long a run takes on one core, to a factor of `FACTOR`."""
     time = scenario.time
     substeps = time.duration_s * time.frames_per_second * _mean_substeps(scenario, model)
     parts = len(model.shards) + len(model.connections)
-    return _PER_DRAW_S + _PER_PART_S * substeps * parts * (1.0 + time.solver_iterations / _ITERATIONS)
+    return _PER_RUN_S + _PER_PART_S * substeps * parts * (1.0 + time.solver_iterations / _ITERATIONS)
 
 
 def _mean_substeps(scenario: Scenario, model: Model) -> float:
@@ -48,12 +48,12 @@ def _mean_substeps(scenario: Scenario, model: Model) -> float:
     return 0.5 * (time.substeps_per_frame + time.step.substeps_within(time.farthest_per_substep_m, fastest, 0.0))
 
 
-def seconds_by_draws(study: Study, folder: Path, versions: Mapping[str, str]) -> float | None:
-    """Return how long the first draws of a study took that are done in its folder, in the mean; None without any."""
+def seconds_by_runs(study: Study, folder: Path, versions: Mapping[str, str]) -> float | None:
+    """Return how long the first runs that are done in a study's folder took, in the mean; None without any."""
     seconds = []
     for number in range(1, min(study.settings.runs, _MOST_LOOKED_AT) + 1):
         with suppress(ScenarioError):  # inputs that the scenario cannot have together take no time
-            end = end_in(folder / DRAW_FOLDER / draw_of(study, number).address(versions))
-            if end and end.status == DONE:
-                seconds.append(end.wall_time_s)
+            outcome = outcome_in(folder / RUNS_FOLDER / sampled_run(study, number).cache_key(versions))
+            if outcome and outcome.status == DONE:
+                seconds.append(outcome.wall_time_s)
     return float(np.mean(seconds)) if seconds else None

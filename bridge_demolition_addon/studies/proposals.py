@@ -29,7 +29,7 @@ def check_optuna() -> str:
 
 
 class OptunaProposals:
-    """Asks Optuna, and tells it; the same numbers follow from the same answers.
+    """Asks Optuna for candidates, and passes results on to it; the same results give the same candidates.
 
     Parameters
     ----------
@@ -60,8 +60,8 @@ class OptunaProposals:
         self._trials.append(trial)
         return np.array([trial.params[name] for name in self._ranges])
 
-    def told(self, number: int, value: float, shortfall: float) -> None:
-        """Take in what a candidate, by its number from 0, came to.
+    def record_result(self, number: int, value: float, shortfall: float) -> None:
+        """Take the result of a candidate, by its number from 0.
 
         Parameters
         ----------

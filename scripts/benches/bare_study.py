@@ -16,8 +16,8 @@ import numpy as np
 
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.study.draws import draw_of
 from bridge_demolition_addon.model.study.file import read_study
+from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition
@@ -28,7 +28,7 @@ def main(way: str, path: str) -> None:
     """Play the draws alone, as Blender does, or with the same changes as ours."""
     study, seconds = read_study(path), np.zeros(2)
     for number in range(1, study.settings.runs + 1):
-        scenario = draw_of(study, number).scenario
+        scenario = sampled_run(study, number).scenario
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
         scene = bpy.context.scene
         build_demolition(scene, scenario, checked_model(scenario))

@@ -13,14 +13,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import closing
 from pathlib import Path
 
 from bridge_demolition_addon.model.study.file import read_study
-from bridge_demolition_addon.studies.draw_process import Limits
-from bridge_demolition_addon.studies.folder import StudyFolder
-from bridge_demolition_addon.studies.local import LocalProcesses
-from bridge_demolition_addon.studies.study_run import StudyRun
+from bridge_demolition_addon.studies.engine import LocalProcesses
+from bridge_demolition_addon.studies.run_process import RunLimits
+from bridge_demolition_addon.studies.session import EnsembleSession
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -29,7 +27,7 @@ SMALLEST = ROOT / "tests" / "gui" / "small.toml", 1, 20
 """Scenario, how many draws of it, and how many that do nothing."""
 BARE = Path(__file__).with_name("bare_study.py")
 VERSIONS = {"program": "that does nothing"}
-LIMITS = Limits()
+LIMITS = RunLimits()
 
 DOES_NOTHING = """
 import sys
@@ -91,14 +89,12 @@ def scheduling_on_dask(folder: Path, count: int) -> None:
 
 def _play(output: Path, engine, count: int) -> float:
     study = read_study(_study_file(output.with_suffix(".toml"), SCENARIO, count))
-    with closing(engine), StudyFolder(output, study, engine.versions) as folder:
-        run = StudyRun(study, folder, engine)
-        began = time.perf_counter()
-        while not run.is_finished:
-            run.step(1.0)
-        seconds = time.perf_counter() - began
-        run.write_tables()
-        run.write_conclusions()
+    run = EnsembleSession(study, output, engine)
+    began = time.perf_counter()
+    while not run.is_finished:
+        run.step(1.0)
+    seconds = time.perf_counter() - began
+    run.finish()
     return seconds
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from bridge_demolition_addon.model.optimise.rounds import CONFIRMATION, SEARCH, Rounds
-from bridge_demolition_addon.model.optimise.settings import OptimiseSettings, Quantity
+from bridge_demolition_addon.model.optimise.settings import ChosenQuantity, OptimiseSettings
 from bridge_demolition_addon.model.study.criteria import Criterion
 from bridge_demolition_addon.studies.proposals import OptunaProposals
 
@@ -26,7 +26,7 @@ class ByChance:
     def propose(self):
         return self._rng.random(self._size)
 
-    def told(self, number, value, shortfall):
+    def record_result(self, number, value, shortfall):
         """It does not learn."""
 
 
@@ -49,7 +49,7 @@ def played(settings, proposals, seed):
     rounds = Rounds(settings, proposals)
     while not rounds.is_finished:
         for run in list(rounds.open()):
-            rounds.take(run, outputs(rounds.candidates[run.candidate].shares, seed, run.draw))
+            rounds.take(run, outputs(rounds.candidates[run.candidate].shares, seed, run.number))
     return rounds
 
 
@@ -59,7 +59,9 @@ def main():
     print("| --- | --- | --- | --- | --- | --- |")
     for size in (2, 3, 5, 8):
         for candidates in (40, 80):
-            ranges = tuple(Quantity(key=f"ball.target_m.{each + 1}", lowest=0.0, highest=1.0) for each in range(size))
+            ranges = tuple(
+                ChosenQuantity(key=f"ball.target_m.{each + 1}", lowest=0.0, highest=1.0) for each in range(size)
+            )
             criteria = (Criterion(name="down", kind="collapsed"),)
             settings = OptimiseSettings(
                 scenario="none", objective="reach", candidates=candidates, quantities=ranges, criteria=criteria

@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from bridge_demolition_addon.charts.study_charts import reach_distribution
 from bridge_demolition_addon.charts.study_plan import study_plan
 from bridge_demolition_addon.model.study.files import CONCLUSIONS_FILE, RUNS_FILE
-from bridge_demolition_addon.model.study.statements import percent, rounded_up
 from bridge_demolition_addon.report.ensemble.study_folder import read_study_runs
 from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
+from bridge_demolition_addon.report.wording.numbers import percent, rounded_up
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"

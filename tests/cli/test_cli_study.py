@@ -12,10 +12,10 @@ from support.scenarios import SHORT_RUN
 from support.study_files import study_file, tables_in
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.model.study.draws import draw_of
+from bridge_demolition_addon.model.ensemble.folder import study_in
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import read_runs
-from bridge_demolition_addon.studies.folder import study_in
+from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.3))
 RUNS = 4
@@ -40,7 +40,7 @@ def test_pandas_reads_all_draws_in_one_line(study, done):
     table = pandas.read_csv(done / "runs.csv")
     assert table["run"].tolist() == [1, 2, 3, 4]
     assert table["status"].tolist() == ["done"] * RUNS
-    inputs = [draw_of(read_study(study), number).inputs for number in range(1, RUNS + 1)]
+    inputs = [sampled_run(read_study(study), number).inputs for number in range(1, RUNS + 1)]
     for name in ("scenario.seed", "ball.mass_kg"):
         # Some versions of pandas read the last bit of a number as they like.
         assert table[f"in.{name}"].tolist() == pytest.approx([each[name] for each in inputs], rel=1e-15)
@@ -81,7 +81,7 @@ def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):
     status, printed, complained = run_bda("study", done, "--again", 3)
     again = done / "again" / "3"
     assert status == 0, complained
-    assert f"draw 3 came to the same as in the study, bit by bit: {again}" in printed.splitlines()
+    assert f"run 3 has the same result as in the study, bit by bit: {again}" in printed.splitlines()
     assert (again / "force_log.csv").stat().st_size > 0 and (again / "frames" / "after.png").stat().st_size > 0
 
     (draw,) = [path for path in done.glob("draws/*/outcome.json") if str(seed_of(done, 3)) in path.read_text()]
@@ -93,11 +93,11 @@ def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):
     status, _, complained = run_bda("study", done, "--again", 3, "--quiet")
     draw.write_text(kept, encoding="utf-8")
     assert status == 1
-    assert "draw 3 came to something else than in the study: ['motion'] differs" in complained
+    assert "run 3 has another result than in the study: ['motion'] differs" in complained
 
 
 def seed_of(folder, number):
-    return draw_of(study_in(folder), number).inputs["scenario.seed"]
+    return sampled_run(study_in(folder), number).inputs["scenario.seed"]
 
 
 @pytest.mark.parametrize("keep, more", [("logs", ["force_log.csv"]), ("all", ["force_log.csv", "results.npz"])])
@@ -123,7 +123,7 @@ def refused(capsys, *arguments):
 
 def test_a_changed_study_is_refused(study, done, tmp_path, capsys):
     before = tables_in(done)
-    for change in (("runs = 4", "runs = 5"), ("lowest = 8000.0", "lowest = 8500.0")):
+    for change in (("quantile = 0.5", "quantile = 0.6"), ("lowest = 8000.0", "lowest = 8500.0")):
         other = tmp_path / "study.toml"
         text = study.read_text(encoding="utf-8").replace(*change)
         other.write_text(text.replace('"scenario.toml"', f"'{study.parent / 'scenario.toml'}'"), encoding="utf-8")
@@ -171,7 +171,7 @@ def test_wrong_arguments_are_refused(study, monkeypatch, tmp_path, capsys, argum
 
 
 def test_a_draw_that_there_is_not_is_refused(done, capsys):
-    assert "has draws 1 to 4" in refused(capsys, done, "--again", 5)
+    assert "has runs 1 to 4" in refused(capsys, done, "--again", 5)
 
 
 def test_a_check_goes_by_draws_that_are_done(study, done, capsys):
@@ -180,8 +180,8 @@ def test_a_check_goes_by_draws_that_are_done(study, done, capsys):
     last = capsys.readouterr().out.splitlines()[-1]
     ends = [json.loads(path.read_text(encoding="utf-8")) for path in done.glob("draws/*/outcome.json")]
     mean_s = sum(end["wall_time_s"] for end in ends) / RUNS
-    assert last.startswith(f"{mean_s:.2g} s for a draw and {mean_s * RUNS / 2:.2g} s for all")
-    assert last.endswith("with 2 draws at a time on as many cores: as those that are done")
+    assert last.startswith(f"{mean_s:.2g} s for a run and {mean_s * RUNS / 2:.2g} s for all")
+    assert last.endswith("with 2 runs at a time on as many cores: as those that are done")
     assert tables_in(done) == before
 
 
@@ -190,7 +190,7 @@ def test_a_check_runs_nothing(study, tmp_path, monkeypatch, capsys):
     assert main(["study", str(study), "--check"]) == 0
     printed = capsys.readouterr().out
     assert printed.splitlines()[-1].endswith("to a factor of 3, by the size of the model")
-    assert f"{RUNS} draws" in printed
+    assert f"{RUNS} runs" in printed
     for number in range(1, RUNS + 1):
-        assert str(draw_of(read_study(study), number).inputs["scenario.seed"]) in printed
+        assert str(sampled_run(read_study(study), number).inputs["scenario.seed"]) in printed
     assert not list(tmp_path.iterdir())

@@ -8,7 +8,7 @@ import pytest
 from support.example_claims import assert_claims
 from support.example_runs import example, run_example
 
-from bridge_demolition_addon.model.study.outcome import outcome_of
+from bridge_demolition_addon.model.study.outcome import evaluate
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
 SAG_M = {"single_span_explosives": 0.03, "two_spans_20m_delays": 0.03}
@@ -54,7 +54,7 @@ def test_blast_pushes_away_from_the_charges(loud):
 
 
 def test_a_study_keeps_little_of_such_a_run(loud, tmp_path):
-    outcome = outcome_of(loud.results, loud.summary, loud.scenario)
+    outcome = evaluate(loud.results, loud.summary, loud.scenario)
     np.savez_compressed(tmp_path / "outlines.npz", **outcome.outlines.arrays())
     assert len(loud.shards) >= 200
     assert (tmp_path / "outlines.npz").stat().st_size + len(json.dumps(outcome.outputs)) < 200_000

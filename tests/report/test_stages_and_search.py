@@ -14,7 +14,7 @@ from bridge_demolition_addon.model.scenario.file import scenario_text
 from bridge_demolition_addon.model.search.file import search_of
 from bridge_demolition_addon.model.search.settings import SearchSettings
 from bridge_demolition_addon.model.study.criteria import Criterion
-from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, write_runs
+from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, write_runs
 
 STAGES = """\
 stage,time_s,step,shards,not_held,not_held_kg,equipment,weight_kN,reaction_x_kN,reaction_y_kN,reaction_z_kN,\
@@ -107,12 +107,12 @@ def search_folder(folder):
     met = masses > 1500.0
     met[[8, 13]] = True, False
     rows = [
-        Row(number, "done", {"ball.mass_kg": float(mass)}, {"success": bool(success)})
+        RunRow(number, "done", {"ball.mass_kg": float(mass)}, {"success": bool(success)})
         for number, (mass, success) in enumerate(zip(masses, met, strict=True), start=1)
     ]
-    rows[-1] = Row(20, "crashed", {"ball.mass_kg": 8000.0}, {})
+    rows[-1] = RunRow(20, "crashed", {"ball.mass_kg": 8000.0}, {})
     write_runs(RunsTable(tuple(rows)), folder / "trials.csv")
-    (folder / "search.json").write_text(json.dumps({"ended_as": "all trials were made"}), encoding="utf-8")
+    (folder / "versions.json").write_text(json.dumps({"blender": "of tests"}), encoding="utf-8")
     return folder, int(met.sum()) - 1
 
 
@@ -120,17 +120,26 @@ def test_a_search_makes_a_report_of_its_answer_its_curve_and_its_trials(tmp_path
     folder, successes = search_folder(tmp_path / "search")
     assert main(["report", str(folder), "--quiet"]) == 0
     page = page_of(folder / "report")
-    assert f"{successes} of 20 trials met all criteria: all trials were made." in page
+    assert f"{successes} of 20 runs met all criteria: all trials were made." in page
     assert "ball.mass_kg: half of all runs meet them at" in page and "data:image/" in page
     rows = list(csv.DictReader((folder / "report" / "tables" / "trials.csv").open(encoding="utf-8")))
     assert len(rows) == 20 and rows[-1]["success"] == "not met" and float(rows[0]["value"]) == 200.0
 
 
+def without_last_row(path):
+    path.write_text("".join(path.read_text(encoding="utf-8").splitlines(keepends=True)[:-1]), encoding="utf-8")
+
+
+def without_the_quantity(path):
+    path.write_text(path.read_text(encoding="utf-8").replace("in.ball.mass_kg", "in.mass_kg"), encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        (lambda folder: (folder / "search.json").unlink(), "holds no search.json yet"),
-        (lambda folder: (folder / "search.json").write_text("{}"), "what the search left is damaged"),
+        (lambda folder: (folder / "trials.csv").unlink(), "holds no trials.csv yet"),
+        (lambda folder: without_last_row(folder / "trials.csv"), "19 of up to 20 runs are there"),
+        (lambda folder: without_the_quantity(folder / "trials.csv"), "trials.csv is damaged"),
         (lambda folder: (folder / "trials.csv").write_text("a,b\n"), "expected a table of runs"),
     ],
 )

@@ -162,13 +162,13 @@ def test_a_draw_that_was_lost_is_named(folder):
             small_runs().table.rows[4].inputs
         ):
             shutil.rmtree(draw)
-    assert refused(folder).startswith(f"{folder / 'draws'}: draw 5 of runs.csv is not there: go on with the command")
+    assert refused(folder).startswith(f"{folder / 'draws'}: run 5 of runs.csv is not there: go on with the command")
 
 
 def test_outcomes_that_are_damaged_are_named(folder):
     damaged = next((folder / "draws").iterdir()) / "outcome.json"
     damaged.write_text('{"status": "done"}', encoding="utf-8")
-    assert refused(folder).startswith(f"{damaged}: expected what came of a draw ('inputs'): delete {damaged.parent}")
+    assert refused(folder).startswith(f"{damaged}: expected the outcome of a run ('inputs'): delete {damaged.parent}")
 
 
 def test_a_study_that_another_version_ran_is_read(folder):
@@ -217,7 +217,8 @@ def test_a_zone_of_the_scenario_is_verified(with_drop_area, capsys):
 
 
 @pytest.mark.parametrize(
-    "zone, message", [("yard", "expected a zone that holds the bridge"), ("drop", "expected a zone from [[zones]]")]
+    "zone, message",
+    [("yard", "expected a zone that contains the whole bridge"), ("drop", "expected a zone from [[zones]]")],
 )
 def test_other_zones_are_not_verified(with_drop_area, capsys, zone, message):
     assert main(["study", str(with_drop_area), "--verify", zone]) == 2

@@ -16,7 +16,7 @@ MANY = 10_000
 def test_ten_thousand_draws_need_little_time_and_memory(tmp_path):
     """By processor time, as other tests run beside this one, and by what 500 draws more keep."""
     few, many = (study_file(tmp_path / str(runs), runs) for runs in (100, 600))
-    done = run_program("many_draws", few, many, tmp_path / "out")
+    done = run_program("many_runs", few, many, tmp_path / "out")
     assert done.returncode == 0, done.stderr
     (first, _, memory_mb), (second, each_ms, more_mb) = (
         [float(each) for each in line.split()] for line in done.stdout.splitlines()

@@ -17,12 +17,11 @@ from support.study_files import study_file, tables_in
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.studies.dask_cluster import DaskCluster
-from bridge_demolition_addon.studies.draw_process import Limits
-from bridge_demolition_addon.studies.folder import StudyFolder
-from bridge_demolition_addon.studies.local import LocalProcesses
-from bridge_demolition_addon.studies.study_run import StudyRun
+from bridge_demolition_addon.studies.engine import LocalProcesses
+from bridge_demolition_addon.studies.run_process import RunLimits
+from bridge_demolition_addon.studies.session import EnsembleSession
 
-LIMITS = Limits(time_s=60.0)
+LIMITS = RunLimits(time_s=60.0)
 
 
 class Cluster:
@@ -81,13 +80,14 @@ def cluster(tmp_path):
 
 def play(study, output, engine, each_step=lambda run: None):
     """Run a study to its end, and do something after each step."""
-    with closing(engine), StudyFolder(output, study, engine.versions) as folder:
-        run = StudyRun(study, folder, engine)
+    run = EnsembleSession(study, output, engine)
+    try:
         while not run.is_finished:
             run.step(0.05)
             each_step(run)
-        run.write_tables()
-        run.write_conclusions()
+        run.finish()
+    finally:
+        run.stop()
 
 
 def test_a_worker_that_is_killed_costs_nothing(cluster, tmp_path):

@@ -134,7 +134,7 @@ def test_the_smallest_charge_is_found_and_confirmed_and_a_stopped_one_goes_on(tm
     assert held and failed and found["confirmed"]["value"] <= held[1] < 50.0
     assert found["confirmed"]["runs"] == 16 and f"Candidate {found['candidate']} of 20 did best" in said
     assert ("not confirmed" in said) != found["confirmed"]["meets_the_probability"]
-    # All candidates have the same draws.
+    # All candidates have the same runs.
     assert len({row["in.scenario.seed"] for row in trials if row["in.round"] == "search"}) == 1
     assert {row["in.charges.one.delay_ms"] for row in trials} == {"0.0", "20.0"}
     assert (output / "tradeoff.png").stat().st_size > 0
@@ -196,10 +196,10 @@ def test_what_is_needed_is_named_where_optuna_is_missing(tmp_path, monkeypatch, 
 def test_places_and_orders_become_values_of_the_scenario(tmp_path):
     found = read_optimisation(optimise_file(tmp_path))
     assert found.space.size == 4
-    trial = found.trial(3, [0.5, 0.25, 0.9, 0.1])
-    one, other = trial.scenario.charges
+    run = found.run_of(3, [0.5, 0.25, 0.9, 0.1])
+    one, other = run.scenario.charges
     assert one.place_m == (3.0, 0.0, 9.5) and (one.delay_ms, other.delay_ms) == (20.0, 0.0)
     assert one.mass_kg == other.mass_kg == pytest.approx(0.316228, rel=1e-5)
-    same_draw = found.trial(3, [0.1, 0.1, 0.1, 0.9])
-    assert same_draw.scenario.seed == trial.scenario.seed != found.trial(4, [0.5, 0.25, 0.9, 0.1]).scenario.seed
-    assert same_draw.inputs["connections.strength_factor"] == trial.inputs["connections.strength_factor"]
+    same_number = found.run_of(3, [0.1, 0.1, 0.1, 0.9])
+    assert same_number.scenario.seed == run.scenario.seed != found.run_of(4, [0.5, 0.25, 0.9, 0.1]).scenario.seed
+    assert same_number.inputs["connections.strength_factor"] == run.inputs["connections.strength_factor"]

@@ -145,7 +145,7 @@ def test_what_was_killed_twice_is_a_row_and_is_run_again(tmp_path):
     assert (status, complained) == (0, "")
     killed = [line for line in (output / "runs.csv").read_text(encoding="utf-8").splitlines() if ",killed," in line]
     assert 0 < len(killed) < 6
-    assert f"{len(killed)} of them were killed or had no memory: the same command runs these once more" in printed
+    assert f"{len(killed)} of them were killed or had no memory: the same command makes these runs again" in printed
     finish(study, output, tmp_path / "second log")
     assert set(begun(tmp_path / "second log")[0]) == {"kill"}
 
@@ -185,3 +185,20 @@ def test_two_at_once_are_refused(study, tmp_path):
     assert status == 2
     assert f"{output}: is being written to by process {first.pid} " in complained
     assert outcome(first)[0] == 0
+
+
+def test_the_number_of_runs_may_be_raised_and_what_is_done_stays(tmp_path):
+    output, few = tmp_path / "out", study_file(tmp_path / "in", 2, ("nothing", "fail"), seed=3)
+    few.write_text(few.read_text(encoding="utf-8").replace("quantile = 0.5", "quantile = 0.8"), encoding="utf-8")
+    printed = finish(few, output, tmp_path / "log")
+    assert "Too few runs for a limit yet: it needs 4 runs, has 2." in printed
+    assert json.loads((output / "study.json").read_text(encoding="utf-8"))["reach"]["runs_needed"] == 4
+    first = (output / "runs.csv").read_text(encoding="utf-8").splitlines()[1:]
+    few.write_text(few.read_text(encoding="utf-8").replace("runs = 2", "runs = 6"), encoding="utf-8")
+    printed = finish(few, output, tmp_path / "second log")
+    assert sum(counted(tmp_path / "second log").values()) == 4 and "Too few" not in printed
+    rows = (output / "runs.csv").read_text(encoding="utf-8").splitlines()[1:]
+    assert rows[:2] == first and len(rows) == 6
+    assert "runs = 6" in (output / "study.toml").read_text(encoding="utf-8")
+    finish(few, tmp_path / "whole", tmp_path / "third log")
+    assert tables_in(output) == tables_in(tmp_path / "whole")

@@ -100,7 +100,7 @@ def test_median_and_spread_of_a_known_strength_are_found(tmp_path, capfd):
         assert (output / name).stat().st_size > 0 and name in said
     trials = (output / "trials.csv").read_text(encoding="utf-8").splitlines()
     assert len(trials) == 41
-    # Every trial is as its own strength says, which is drawn for it alone.
+    # Every run is as its own strength says, which is sampled for it alone.
     head = trials[0].split(",")
     factor, density, fell = (
         head.index(next(each for each in head if each.startswith(name)))
@@ -128,12 +128,12 @@ def test_a_search_goes_on_where_it_was_stopped_and_does_not_depend_on_how_many_r
 def test_what_never_or_always_happens_is_said_after_the_opening_trials(tmp_path, capfd):
     never = search_file(tmp_path / "never", lowest=10, highest=100)
     assert main(["search", str(never), "--output", str(tmp_path / "a")]) == 0
-    assert "0 of 8 trials met all criteria: the criteria were never met in the range" in capfd.readouterr().out
+    assert "0 of 8 runs met all criteria: the criteria were never met in the range" in capfd.readouterr().out
     always = search_file(tmp_path / "always", lowest=50000, highest=90000)
     assert main(["search", str(always), "--output", str(tmp_path / "b")]) == 0
     said = capfd.readouterr().out
-    assert "8 of 8 trials met all criteria: the criteria were always met in the range" in said
-    assert "Trials went from 50000 to 90000: move search.lowest" in said
+    assert "8 of 8 runs met all criteria: the criteria were always met in the range" in said
+    assert "Runs went from 50000 to 90000: move search.lowest" in said
 
 
 def test_a_search_stops_when_its_limit_is_close_enough(tmp_path):

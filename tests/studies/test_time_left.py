@@ -6,11 +6,9 @@ from types import SimpleNamespace
 from support.study_files import study_file
 
 from bridge_demolition_addon.model.study.file import read_study
-from bridge_demolition_addon.model.study.runs_table import DONE
-from bridge_demolition_addon.studies import study_run
-from bridge_demolition_addon.studies.draw_process import End
-from bridge_demolition_addon.studies.folder import StudyFolder
-from bridge_demolition_addon.studies.study_run import StudyRun
+from bridge_demolition_addon.model.study.runs_table import DONE, RunOutcome
+from bridge_demolition_addon.studies import session
+from bridge_demolition_addon.studies.session import EnsembleSession
 
 
 class EndsAtOnce:
@@ -27,7 +25,7 @@ class EndsAtOnce:
 
     def collect(self, _timeout_s):
         ended, self._tasks = self._tasks, []
-        return [(task, End(DONE)) for task in ended]
+        return [(task, RunOutcome(DONE)) for task in ended]
 
     def close(self):
         self._tasks.clear()
@@ -36,20 +34,19 @@ class EndsAtOnce:
 def test_a_pause_is_no_part_of_the_time_that_draws_take(tmp_path, monkeypatch):
     study = read_study(study_file(tmp_path / "in", 4))
     now = [1000.0]
-    monkeypatch.setattr(study_run, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: now[0]))
 
     def step_after(run, seconds):
         now[0] += seconds
         run.step(0.0)
         return run.done, run.remaining_s
 
-    engine = EndsAtOnce()
-    with StudyFolder(tmp_path / "study", study, engine.versions) as folder:
-        run = StudyRun(study, folder, engine)
-        assert run.remaining_s == 0.0
-        assert step_after(run, 10.0) == (1, 30.0)
-        run.is_paused = True
-        assert step_after(run, 3600.0) == (1, 30.0)
-        run.is_paused = False
-        assert step_after(run, 10.0) == (2, 20.0)
-        assert step_after(run, 40.0) == (3, 20.0)
+    run = EnsembleSession(study, tmp_path / "study", EndsAtOnce())
+    assert run.remaining_s == 0.0
+    assert step_after(run, 10.0) == (1, 30.0)
+    run.is_paused = True
+    assert step_after(run, 3600.0) == (1, 30.0)
+    run.is_paused = False
+    assert step_after(run, 10.0) == (2, 20.0)
+    assert step_after(run, 40.0) == (3, 20.0)
+    run.stop()

@@ -20,7 +20,7 @@ def program_in(folder):
 
 def command_with(log):
     """Command of that program, whatever has to be found by it."""
-    program = TESTS / "programs" / "draws_without_blender.py"
+    program = TESTS / "programs" / "runs_without_blender.py"
     start = f"import runpy, sys; sys.path.insert(0, {str(ROOT)!r}); sys.argv[:] = ['', {str(log)!r}]; "
     return [sys.executable, "-c", f"{start}runpy.run_path({str(program)!r}, run_name='__main__')"]
 

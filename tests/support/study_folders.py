@@ -8,18 +8,17 @@ from manifold3d import CrossSection
 from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines, united
+from bridge_demolition_addon.model.ensemble.folder import EnsembleFolder
 from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Site, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.criteria import Criterion
-from bridge_demolition_addon.model.study.draws import draw_of, inputs_of
 from bridge_demolition_addon.model.study.file import study_of
 from bridge_demolition_addon.model.study.files import OUTLINES_FILE, RUNS_FILE
 from bridge_demolition_addon.model.study.outcome import Outlines
-from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, write_runs
+from bridge_demolition_addon.model.study.runs_table import RunOutcome, RunRow, RunsTable, write_runs
+from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
-from bridge_demolition_addon.studies.draw_process import End
-from bridge_demolition_addon.studies.folder import StudyFolder
 from bridge_demolition_addon.system.array_files.archive import write_archive
 
 _EXPLOSIVES = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
@@ -62,9 +61,9 @@ def told_study(runs=93, *, scenario=TOLD_SCENARIO, vary=VARIED, criteria=CRITERI
 
 def told_row(study, number, status="done"):
     """A draw: it reaches the farther, the more the charge of the first span weighs, and scatters by chance."""
-    inputs = inputs_of(study, number)
+    inputs = sampled_run(study, number).inputs
     if status != "done":
-        return Row(number, status, inputs, {})
+        return RunRow(number, status, inputs, {})
     generator = np.random.default_rng([study.settings.seed, number])
     heavy = inputs.get('charges."span 1".mass_kg', 20.0) / 20.0
     reach_m = 6.0 * heavy**4 * generator.lognormal(0.0, 0.15)
@@ -79,7 +78,7 @@ def told_row(study, number, status="done"):
     met = {study.criteria[0].output: True, study.criteria[1].output: reach_m < 8.0} if study.criteria else {}
     if len(study.criteria) > 2:
         met |= {study.criteria[2].output: heavy < 1.2}
-    return Row(number, "done", inputs, outputs | met | ({"success": all(met.values())} if met else {}))
+    return RunRow(number, "done", inputs, outputs | met | ({"success": all(met.values())} if met else {}))
 
 
 def told_debris(row):
@@ -105,14 +104,14 @@ def told_runs(study=None, *, there=None, ends=None):
 
 def keep_study(path, runs):
     """The folder of a study with its runs, kept by what keeps them."""
-    with StudyFolder(path, runs.study, runs.versions) as folder:
+    with EnsembleFolder(path, runs.study, runs.versions) as folder:
         for row, swept in zip(runs.table.rows, runs.swept, strict=True):
-            address = draw_of(runs.study, row.number).address(runs.versions)
-            part = folder.work_folder(address)
+            key = sampled_run(runs.study, row.number).cache_key(runs.versions)
+            part = folder.work_folder(key)
             part.mkdir(parents=True)
             if swept is not None:
                 kept = Outlines(tuple(outlines(runs.bridge)), (), tuple(swept))
                 write_archive(part / OUTLINES_FILE, kept.arrays())
-            folder.keep(address, row.inputs, End(row.status, "", row.outputs))
+            folder.keep(key, row.inputs, RunOutcome(row.status, "", row.outputs))
         write_runs(runs.table, path / RUNS_FILE)
     return path

@@ -51,7 +51,7 @@ _SERIES_TERMS = 9
 """Of a deviance near its mean: 0.1 to the power of 19 is less than what rounding leaves."""
 
 
-def at_most(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> FloatArray:
+def binomial_cdf(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> FloatArray:
     """Probability that something of a given chance happens at most so often in so many independent trials.
 
     Parameters
@@ -75,15 +75,15 @@ def at_most(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> FloatA
     return np.where(lower, end, 1.0 - end)[()]
 
 
-def chance_of_at_most(happened: ArrayLike, trials: ArrayLike, probability: ArrayLike) -> FloatArray:
-    """The chance at which `at_most` has this probability, which falls with the chance: 1 where all trials happened."""
+def binomial_cdf_inverse(happened: ArrayLike, trials: ArrayLike, probability: ArrayLike) -> FloatArray:
+    """The chance at which `binomial_cdf` has this probability; 1 where it happened in all trials."""
     happened, trials, probability = np.broadcast_arrays(
         np.asarray(happened, float), np.asarray(trials, float), np.asarray(probability, float)
     )
     lowest, highest = np.zeros(happened.shape), np.ones(happened.shape)
     for _ in range(_HALVINGS):
         middle = (lowest + highest) / 2.0
-        likely = at_most(happened, trials, middle) > probability
+        likely = binomial_cdf(happened, trials, middle) > probability
         lowest, highest = np.where(likely, middle, lowest), np.where(likely, highest, middle)
     return highest[()]
 

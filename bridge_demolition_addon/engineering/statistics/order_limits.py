@@ -25,59 +25,59 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from .binomial import at_most
+from .binomial import binomial_cdf
 from .proportions import upper_limit
 
 
-def confidence_of(touching: int, runs: int, quantile: float) -> float:
+def achieved_confidence(support_count: int, runs: int, quantile: float) -> float:
     """Return how sure it is that at least a share `quantile` of all runs to come stays within.
 
     Parameters
     ----------
-    touching
+    support_count
         How many of the runs set the limit: for the k-th largest as limit of one quantity, k.
     runs
         How many there are, not fewer.
     quantile
         Share of all runs, above 0 and below 1.
     """
-    return float(1.0 - at_most(touching - 1, runs, 1.0 - quantile))
+    return float(1.0 - binomial_cdf(support_count - 1, runs, 1.0 - quantile))
 
 
-def least_runs(quantile: float, confidence: float, touching: int = 1) -> int:
-    """Return how many runs are needed, so that `confidence_of` is no less than a confidence above 0 and below 1."""
-    enough = touching
-    while confidence_of(touching, enough, quantile) < confidence:
+def least_runs(quantile: float, confidence: float, support_count: int = 1) -> int:
+    """Return how many runs make `achieved_confidence` no less than a confidence above 0 and below 1."""
+    enough = support_count
+    while achieved_confidence(support_count, enough, quantile) < confidence:
         enough *= 2
-    too_few = enough // 2 if enough > touching else touching - 1
+    too_few = enough // 2 if enough > support_count else support_count - 1
     while enough - too_few > 1:
         middle = (too_few + enough) // 2
-        if confidence_of(touching, middle, quantile) < confidence:
+        if achieved_confidence(support_count, middle, quantile) < confidence:
             too_few = middle
         else:
             enough = middle
     return enough
 
 
-def most_touching(runs: int, quantile: float, confidence: float) -> int:
+def most_support(runs: int, quantile: float, confidence: float) -> int:
     """Return the rank to use, from the largest: the highest that so many runs allow; 0 where they are too few."""
-    return int(most_touching_by_runs(np.array([runs]), quantile, confidence)[0])
+    return int(most_support_by_runs(np.array([runs]), quantile, confidence)[0])
 
 
-def most_touching_by_runs(runs: IntArray, quantile: float, confidence: float) -> FloatArray:
-    """Return `most_touching` of each number of runs (n,)."""
+def most_support_by_runs(runs: IntArray, quantile: float, confidence: float) -> FloatArray:
+    """Return `most_support` of each number of runs (n,)."""
     allowed, refused = np.zeros(runs.shape, int), runs + 1
     while (refused - allowed > 1).any():
         middle = np.where(refused - allowed > 1, (allowed + refused) // 2, allowed)
         # At no rank at all everything stays within: what is not asked any more keeps its answer.
-        sure = (middle == allowed) | (at_most(np.maximum(middle - 1, 0), runs, 1.0 - quantile) <= 1.0 - confidence)
+        sure = (middle == allowed) | (binomial_cdf(np.maximum(middle - 1, 0), runs, 1.0 - quantile) <= 1.0 - confidence)
         allowed, refused = np.where(sure, middle, allowed), np.where(sure, refused, middle)
     return allowed
 
 
-def share_within(touching: int, runs: int, confidence: float) -> float:
+def coverage(support_count: int, runs: int, confidence: float) -> float:
     """Return the largest share of all runs to come of which it is so sure that they stay within."""
-    return 1.0 - float(upper_limit(touching - 1, runs, confidence))
+    return 1.0 - float(upper_limit(support_count - 1, runs, confidence))
 
 
 def nth_largest(values: FloatArray, rank: int) -> float:
@@ -109,7 +109,7 @@ def limits_by_runs(values: FloatArray, quantile: float, confidence: float, rank:
         return np.zeros(0, int), np.zeros(0)
     points = min(_MOST_POINTS, len(values) - first + 1)
     runs = np.unique(np.rint(np.linspace(first, len(values), points)).astype(int))
-    ranks = np.minimum(most_touching_by_runs(runs, quantile, confidence), rank)
+    ranks = np.minimum(most_support_by_runs(runs, quantile, confidence), rank)
     limits = [nth_largest(values[:count], each) for count, each in zip(runs, ranks, strict=True)]
     return runs, np.array(limits)
 

@@ -1,4 +1,4 @@
-"""Limits of a probability of which some trials are known.
+"""Confidence limits for a proportion.
 
 References
 ----------
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from .binomial import chance_of_at_most
+from .binomial import binomial_cdf_inverse
 
 
 def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArray:
@@ -27,7 +27,7 @@ def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArr
     confidence
         Above 0 and below 1.
     """
-    return chance_of_at_most(happened, trials, 1.0 - confidence)
+    return binomial_cdf_inverse(happened, trials, 1.0 - confidence)
 
 
 def lower_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArray:

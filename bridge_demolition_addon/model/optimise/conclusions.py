@@ -1,156 +1,202 @@
-"""What an optimisation says: the values that did best, what they come to, and by how much they had looked better."""
+"""Result of an optimisation: the values that did best, their objective, and by how much they had looked better."""
 
 from __future__ import annotations
 
+import csv
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...engineering.statistics.order_limits import most_touching, nth_largest
+from ...engineering.statistics.order_limits import most_support, nth_largest
 from ...engineering.statistics.proportions import lower_limit
+from ...system.disk import whole_file
+from ..study.runs_table import REACH, RunsTable
 from .file import Optimisation
-from .rounds import CONFIRMATION, FINAL, SEARCH, Result, Rounds
-from .settings import OptimiseSettings
+from .rounds import CONFIRMATION, FINAL, SEARCH, CandidateResult, objective_values, quantile_of, result_of
+from .settings import CHARGE
+
+CANDIDATE, ROUND = "candidate", "round"
+"""Inputs of the table of runs that say what a run is for."""
 
 
 @dataclass(frozen=True, slots=True)
+class TriedCandidate:
+    """A candidate all of whose runs of the search have ended.
+
+    Attributes
+    ----------
+    number : int
+        From 1.
+    values : dict
+        What was tried, by name.
+    result : CandidateResult
+        Of its runs in the search.
+    charge_kg, reach_m : float
+        Mass of its charges, and the quantile of its debris distance; infinite where not known.
+    holds : bool
+        Whether it met all criteria as often as they have to be met.
+    on_front : bool
+        Whether no other that holds has both less charge and a smaller debris distance.
+    """
+
+    number: int
+    values: dict[str, Any]
+    result: CandidateResult
+    charge_kg: float
+    reach_m: float
+    holds: bool
+    on_front: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Best:
     """The candidate that was chosen.
 
     Attributes
     ----------
+    optimisation
+        What was asked.
+    tried : tuple of TriedCandidate
+        All candidates.
     candidate : int
-        Its number, from 1.
+        Number of the chosen one, from 1.
     values : dict
         What was chosen, by name.
-    searched, final, confirmed : Result
-        What it came to in each round.
+    searched, final, confirmed : CandidateResult
+        Its result in each round.
     limit : float or None
         The objective of that quantile is at most this, with the confidence that was asked for; None where there are
-        too few runs to say, or not all of them finished.
+        too few runs to state one, or not all of them finished.
     least_probability : float
         All criteria are met with at least this, with that confidence.
     """
 
+    optimisation: Optimisation
+    tried: tuple[TriedCandidate, ...]
     candidate: int
     values: dict[str, Any]
-    searched: Result
-    final: Result
-    confirmed: Result
+    searched: CandidateResult
+    final: CandidateResult
+    confirmed: CandidateResult
     limit: float | None
     least_probability: float
 
     @property
     def looked_better_by(self) -> float:
-        """How much smaller the objective was in the search than it is on fresh draws."""
+        """How much smaller the objective was in the search than it is on fresh runs."""
         return self.confirmed.value - self.searched.value
 
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether the criteria are met as often as was asked for."""
+        return self.least_probability >= self.optimisation.settings.probability
 
-def best_of(optimisation: Optimisation, rounds: Rounds) -> Best:
-    """Return what was found, once all runs have ended."""
-    settings, number = optimisation.settings, rounds.chosen
-    confirmed = rounds.result(number, CONFIRMATION)
-    outputs = [rounds.candidates[number].outputs[draw] for draw in rounds.draws(CONFIRMATION)]
-    values = np.array([math.inf if (value := each.get(settings.output)) is None else value for each in outputs], float)
-    rank = most_touching(len(values), settings.quantile, settings.confidence)
+    def as_json(self) -> dict[str, Any]:
+        """Return it as ``optimise.json`` has it; what is infinite is not known, and null."""
+        settings = self.optimisation.settings
+        confirmed = {
+            "limit": self.limit,
+            "least_probability": self.least_probability,
+            "meets_the_probability": self.is_confirmed,
+        }
+        return {
+            "objective": settings.objective,
+            "unit": settings.unit,
+            "quantile": settings.quantile,
+            "probability": settings.probability,
+            "confidence": settings.confidence,
+            "candidate": self.candidate,
+            "values": self.values,
+            "confirmed": _result_as_json(self.confirmed) | confirmed,
+            "in_the_final": _result_as_json(self.final),
+            "in_the_search": _result_as_json(self.searched),
+            "looked_better_by": _finite(self.looked_better_by),
+        }
+
+
+def best_of(optimisation: Optimisation, table: RunsTable) -> Best:
+    """Return the candidate that was chosen, from the table of all runs."""
+    settings = optimisation.settings
+    number = next(row.inputs[CANDIDATE] for row in table.rows if row.inputs[ROUND] == CONFIRMATION)
+    outputs = {name: _outputs(table, number, name) for name in (SEARCH, FINAL, CONFIRMATION)}
+    results = {name: result_of(runs, settings) for name, runs in outputs.items()}
+    values = objective_values(outputs[CONFIRMATION], settings.output)
+    rank = most_support(len(values), settings.quantile, settings.confidence)
     limit = nth_largest(values, rank) if rank else math.inf
+    confirmed = results[CONFIRMATION]
+    tried = tuple(tried_candidates(optimisation, table))
     return Best(
-        candidate=number + 1,
-        values=optimisation.space.shown(rounds.candidates[number].shares),
-        searched=rounds.result(number, SEARCH),
-        final=rounds.result(number, FINAL),
+        optimisation=optimisation,
+        tried=tried,
+        candidate=number,
+        values=next(candidate.values for candidate in tried if candidate.number == number),
+        searched=results[SEARCH],
+        final=results[FINAL],
         confirmed=confirmed,
         limit=limit if math.isfinite(limit) else None,
         least_probability=float(lower_limit(confirmed.successes, confirmed.runs, settings.confidence)),
     )
 
 
-def as_json(optimisation: Optimisation, best: Best) -> dict[str, Any]:
-    """Return what ``optimise.json`` says; what is infinite is not known, and null."""
-    settings = optimisation.settings
-    return {
-        "objective": settings.objective,
-        "unit": settings.unit,
-        "quantile": settings.quantile,
-        "probability": settings.probability,
-        "confidence": settings.confidence,
-        "candidate": best.candidate,
-        "values": best.values,
-        "confirmed": _result_as_json(best.confirmed)
-        | {
-            "limit": best.limit,
-            "least_probability": best.least_probability,
-            "meets_the_probability": best.least_probability >= settings.probability,
-        },
-        "in_the_final": _result_as_json(best.final),
-        "in_the_search": _result_as_json(best.searched),
-        "looked_better_by": _finite(best.looked_better_by),
-    }
-
-
-def sentences(optimisation: Optimisation, best: Best) -> list[str]:
-    """Return what an optimisation says, in plain words."""
-    settings, confirmed, unit = optimisation.settings, best.confirmed, optimisation.settings.unit
-    told = [f"Candidate {best.candidate} of {settings.candidates} did best:"]
-    units = {key.name: key.unit for each in optimisation.space.dimensions for key in each.keys}
-    told += [f"  {name} = {_shown(value)} {units.get(name, '')}".rstrip() for name, value in best.values.items()]
-    what = _what(settings)
-    if math.isfinite(confirmed.value):
-        told.append(f"On {confirmed.runs} fresh runs its {what} is {_shown(confirmed.value)} {unit}.")
-    else:
-        told.append(
-            f"On {confirmed.runs} fresh runs its {what} is not known: too many did not finish, or come to rest."
-        )
-    if best.limit is not None and settings.objective != "charge":
-        told.append(
-            f"With {settings.confidence:g} confidence, {settings.quantile:g} of all such runs stay within "
-            f"{_shown(best.limit)} {unit}."
-        )
-    told.append(_on_the_search(optimisation, best))
-    met = best.least_probability >= settings.probability
-    told.append(
-        f"{confirmed.successes} of these {confirmed.runs} runs met all criteria: with {settings.confidence:g} "
-        f"confidence at least {_shown(best.least_probability)} of all do, "
-        f"{'and' if met else 'but'} {settings.probability:g} was asked for."
+def tried_candidates(optimisation: Optimisation, table: RunsTable) -> list[TriedCandidate]:
+    """Return all candidates whose runs of the search have ended."""
+    settings, names = optimisation.settings, optimisation.space.names
+    inputs = {row.inputs[CANDIDATE]: row.inputs for row in table.rows}
+    runs = {number: _outputs(table, number, SEARCH) for number in sorted(inputs)}
+    runs = {number: outputs for number, outputs in runs.items() if len(outputs) == settings.runs_each}
+    results = [result_of(outputs, settings) for outputs in runs.values()]
+    charges, distances = (
+        np.array([quantile_of(objective_values(outputs, name), settings.quantile) for outputs in runs.values()])
+        for name in (CHARGE, REACH)
     )
-    if not met:
-        told.append(
-            "So the candidate is not confirmed: widen the ranges, or give each candidate and finalist more runs, which "
-            "tell those that just miss from those that hold."
-        )
-    return told
+    holds = np.array([result.share >= settings.probability for result in results], bool)
+    fronts = front_of(charges, distances, holds)
+    values = [{name: inputs[number].get(name) for name in names} for number in runs]
+    columns = (charges.tolist(), distances.tolist(), holds.tolist(), fronts.tolist())
+    return [TriedCandidate(*row) for row in zip(runs, values, results, *columns, strict=True)]
 
 
-def _on_the_search(optimisation: Optimisation, best: Best) -> str:
-    """By how much luck made it look better while it was chosen."""
-    settings, searched = optimisation.settings, best.searched
-    seen = f"In the search it met all criteria in {searched.successes} of {searched.runs} runs"
-    if settings.objective == "charge" or not math.isfinite(best.looked_better_by):
-        return f"{seen}."
-    than = "better" if best.looked_better_by >= 0.0 else "worse"
-    return (
-        f"{seen} with {_shown(searched.value)} {settings.unit}, {_shown(abs(best.looked_better_by))} {settings.unit} "
-        f"{than} than it is."
-    )
+def front_of(charges_kg: np.ndarray, reaches_m: np.ndarray, holds: np.ndarray) -> np.ndarray:
+    """Return which candidates (n,) hold and are not beaten: no other that holds is less in one and not more in both."""
+    counts = holds & np.isfinite(reaches_m)
+    less = (charges_kg[:, None] <= charges_kg) & (reaches_m[:, None] <= reaches_m)
+    better = less & ((charges_kg[:, None] < charges_kg) | (reaches_m[:, None] < reaches_m))
+    return counts & ~(better & counts[:, None]).any(axis=0)
 
 
-def _what(settings: OptimiseSettings) -> str:
-    if settings.objective == "charge":
-        return "charge"
-    named = {"reach": "reach", "time": "time until all rests", "vibration": "vibration"}[settings.objective]
-    return f"{settings.quantile:g} quantile of the {named}"
+def write_candidates(tried: Sequence[TriedCandidate], path: Path) -> None:
+    """Write the table as CSV; what is not known is empty."""
+    names = list(dict.fromkeys(name for candidate in tried for name in candidate.values))
+    columns = ["candidate", *names, "objective", "successes", "runs", "holds", CHARGE, "reach_m", "on_front"]
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(columns)
+        for row in tried:
+            result = [row.result.value, row.result.successes, row.result.runs, row.holds]
+            cells = [row.number, *map(row.values.get, names), *result, row.charge_kg, row.reach_m, row.on_front]
+            rows.writerow(map(_cell, cells))
 
 
-def _result_as_json(result: Result) -> dict[str, Any]:
+def _outputs(table: RunsTable, candidate: int, of_round: str) -> list[Mapping[str, Any]]:
+    """Outputs of the runs of a candidate in a round."""
+    return [row.outputs for row in table.rows if row.inputs[CANDIDATE] == candidate and row.inputs[ROUND] == of_round]
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return f"{value:.9g}" if math.isfinite(value) else ""
+    return str(value)
+
+
+def _result_as_json(result: CandidateResult) -> dict[str, Any]:
     return {"value": _finite(result.value), "successes": result.successes, "runs": result.runs}
 
 
 def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
-
-
-def _shown(value: Any) -> str:
-    """To four digits, without an exponent where it need not have one."""
-    return f"{float(f'{value:.4g}'):.10g}"

@@ -3,97 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
-from os import PathLike, fspath
-from pathlib import Path
+from dataclasses import dataclass, replace
+from os import PathLike
+from typing import ClassVar
 
-from ...errors import ScenarioError
-from ..run_folder.files import SCENARIO_FILE
 from ..scenario import Scenario
-from ..scenario.file import read_scenario, scenario_text
 from ..study.criteria import check_criteria
-from ..study.draws import Draw, draw_of
-from ..study.file import Study, variations_of
-from ..study.keys import changed
-from ..study.settings import StudySettings
-from ..toml_tables import document_of_file, table_of_document, tables_text
-from .files import OPTIMISE_FILE
+from ..study.file import Ensemble, read_ensemble_file, variations_of
+from ..study.files import BEST_FILE, OPTIMISE_FILE, TRIALS_FILE
+from ..study.sampled_runs import SampledRun, sampled_run
 from .settings import OptimiseSettings
 from .space import Space, space_of
-
-_PASSED_ON = ("scenario", "seed", "least_mass_kg", "time_limit_s", "memory_limit_mb", "vary", "criteria")
-"""Settings that an optimisation has in common with a study."""
 
 _PER_DIMENSION = 5
 """Candidates for each number that may change, at least: with fewer, chance finds as much."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Optimisation:
+class Optimisation(Ensemble):
     """An optimisation: a scenario, what may change in it, and what is best.
 
     Attributes
     ----------
-    settings : OptimiseSettings
-        What the file says.
-    study : Study
-        What varies from run to run besides, and the scenario.
     space : Space
         What may change.
     """
 
+    kind: ClassVar[str] = "optimisation"
+    file_name: ClassVar[str] = OPTIMISE_FILE
+    table_file: ClassVar[str] = TRIALS_FILE
+    result_file: ClassVar[str] = BEST_FILE
+
     settings: OptimiseSettings
-    study: Study
     space: Space
 
-    @property
-    def text(self) -> str:
-        """Return the file in one way of writing, for a folder that has the scenario in ``scenario.toml``."""
-        return tables_text(replace(self.settings, scenario=SCENARIO_FILE))
-
-    @property
-    def scenario_text(self) -> str:
-        """Return the scenario file that goes with `text`."""
-        return scenario_text(self.study.scenario)
-
-    @property
-    def file_name(self) -> str:
-        """Return what the file is called in its folder."""
-        return OPTIMISE_FILE
-
-    def trial(self, number: int, shares: Sequence[float]) -> Draw:
-        """Return a run of a candidate; all candidates have the same draws, by their numbers from 1 on.
-
-        Raises
-        ------
-        ScenarioError
-            The scenario cannot have these values together.
-        """
-        draw = draw_of(self.study, number)
-        scenario = changed(draw.scenario, self.space.values(shares))
-        return replace(draw, inputs={**draw.inputs, **self.space.shown(shares)}, scenario=scenario)
+    def run_of(self, number: int, shares: Sequence[float]) -> SampledRun:
+        """Return a run of a candidate, from 1 on: all candidates have the same inputs by chance in it."""
+        run = sampled_run(self, number, self.space.values(shares))
+        return replace(run, inputs={**run.inputs, **self.space.shown(shares)})
 
 
 def read_optimisation(path: str | PathLike[str]) -> Optimisation:
-    """Read an optimisation file, and the scenario that goes with it.
-
-    Parameters
-    ----------
-    path : str or path
-        A TOML file; all keys are in ``docs/optimise_file.md``.
-
-    Raises
-    ------
-    ScenarioError
-        A file cannot be read or is not TOML; a key is unknown, missing or has a wrong value; or the scenario cannot
-        have the values at the ends of a range.
-    """
-    path = Path(path)
-    try:
-        settings = table_of_document(OptimiseSettings, document_of_file(path, "an optimisation"))
-        return optimisation_of(settings, read_scenario(path.parent / settings.scenario))
-    except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
-        raise ScenarioError(f"{fspath(path)}: {error}") from error
+    """Read an optimisation file, and the scenario that goes with it; all keys are in ``docs/optimise_file.md``."""
+    return read_ensemble_file(path, OptimiseSettings, optimisation_of, "an optimisation")
 
 
 def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisation:
@@ -112,9 +64,7 @@ def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisat
         raise settings.unexpected(
             "candidates", f"at least {_PER_DIMENSION * space.size}, as {space.size} numbers may change"
         )
-    common = {item.name: getattr(settings, item.name) for item in fields(settings) if item.name in _PASSED_ON}
-    study = Study(StudySettings(runs=settings.runs, **common), scenario, variations)
-    return Optimisation(settings, study, space)
+    return Optimisation(settings, scenario, variations, space)
 
 
 def _check_objective(settings: OptimiseSettings, scenario: Scenario) -> None:

@@ -1,8 +1,8 @@
 """The rounds of an optimisation: candidates are tried, the best of them run again, and the chosen one confirmed.
 
-All candidates have the same draws, so that they differ by what was chosen, not by luck (common random numbers). Whoever
-picks the best of noisy results picks luck as well: so the choice among finalists, and what is said of the one that is
-chosen, each rest on draws that were not used before.
+In runs of one number all candidates have the same inputs by chance, so that they differ by what was chosen, not by luck
+(common random numbers). Choosing the best of noisy results chooses luck as well: so the choice among finalists, and the
+result that is stated, each rest on runs with new numbers.
 """
 
 from __future__ import annotations
@@ -20,26 +20,26 @@ SEARCH, FINAL, CONFIRMATION = "search", "final", "confirmation"
 
 
 class Proposals(Protocol):
-    """Proposes candidates, and is told in the same order what becomes of them."""
+    """Proposes candidates, and receives their results in the same order."""
 
     def propose(self) -> np.ndarray:
         """Return the next candidate: numbers (d,) from 0 to 1."""
 
-    def told(self, number: int, value: float, shortfall: float) -> None:
-        """Take in what a candidate, by its number from 0, came to."""
+    def record_result(self, number: int, value: float, shortfall: float) -> None:
+        """Take the result of a candidate, by its number from 0."""
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
-    """A run of a candidate, by its number from 0, with a draw, from 1 on."""
+class CandidateRun:
+    """A run of a candidate, each by its number: the candidate's from 0, the run's from 1."""
 
     candidate: int
-    draw: int
+    number: int
 
 
 @dataclass(frozen=True, slots=True)
-class Result:
-    """What some runs of a candidate came to.
+class CandidateResult:
+    """Result of some runs of a candidate.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Candidate:
     shares : (d,) float
         What was proposed.
     outputs : dict
-        Outputs of its runs by the numbers of their draws; none of a run that did not finish.
+        Outputs of its runs by their numbers; empty for a run that did not finish.
     """
 
     shares: np.ndarray
@@ -76,7 +76,7 @@ class Candidate:
 
 
 class Rounds:
-    """Says which runs are to be made, and what they came to.
+    """Says which runs are to be made, and which candidates do best.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Rounds:
         self.candidates: list[Candidate] = []
         self.finalists: list[int] = []
         self.chosen: int | None = None
-        self._settings, self._proposals, self._told = settings, proposals, 0
+        self._settings, self._proposals, self._recorded = settings, proposals, 0
 
     @property
     def done(self) -> int:
@@ -111,30 +111,27 @@ class Rounds:
         """Whether all have."""
         return self.chosen is not None and self._has_all(self.chosen, CONFIRMATION)
 
-    def open(self) -> Iterator[Run]:
-        """Give the runs that may be made now and have not ended, those that come first first."""
+    def open(self) -> Iterator[CandidateRun]:
+        """Give the runs that may be made now and have not ended, in their order."""
         self._go_on()
-        for number in range(self._told, len(self.candidates)):
+        for number in range(self._recorded, len(self.candidates)):
             yield from self._missing(number, SEARCH)
         for number in self.finalists:
             yield from self._missing(number, FINAL)
         if self.chosen is not None:
             yield from self._missing(self.chosen, CONFIRMATION)
 
-    def take(self, run: Run, outputs: Mapping[str, Any]) -> None:
-        """Take in what a run came to."""
-        self.candidates[run.candidate].outputs[run.draw] = outputs
+    def take(self, run: CandidateRun, outputs: Mapping[str, Any]) -> None:
+        """Take the outputs of a run, empty where it did not finish."""
+        self.candidates[run.candidate].outputs[run.number] = outputs
 
-    def result(self, number: int, of_round: str) -> Result:
-        """Return what a candidate came to in a round in which it ran."""
-        found = [self.candidates[number].outputs[draw] for draw in self.draws(of_round)]
-        values = [each.get(self._settings.output) for each in found]
-        known = np.array([np.inf if value is None else value for value in values], float)
-        successes = sum(bool(each.get(SUCCESS)) for each in found)
-        return Result(quantile_of(known, self._settings.quantile), successes, len(found))
+    def result(self, number: int, of_round: str) -> CandidateResult:
+        """Return the result of a candidate in a round in which it ran."""
+        outputs = self.candidates[number].outputs
+        return result_of([outputs[run] for run in self.run_numbers(of_round)], self._settings)
 
-    def draws(self, of_round: str) -> range:
-        """Return the draws of a round: no other round has them."""
+    def run_numbers(self, of_round: str) -> range:
+        """Return the numbers of the runs of a round: no other round has them."""
         settings = self._settings
         counts = {SEARCH: settings.runs_each, FINAL: settings.finalist_runs, CONFIRMATION: settings.confirmation_runs}
         begin = 1
@@ -144,34 +141,31 @@ class Rounds:
             begin += count
         raise KeyError(of_round)
 
-    def round_of(self, draw: int) -> str:
-        """Return the round of a draw."""
-        return next(name for name in (SEARCH, FINAL, CONFIRMATION) if draw in self.draws(name))
+    def round_of(self, number: int) -> str:
+        """Return the round of a run, by its number."""
+        return next(name for name in (SEARCH, FINAL, CONFIRMATION) if number in self.run_numbers(name))
 
     def _go_on(self) -> None:
         """Take stock of what is complete, in the order of candidates: what is proposed depends on nothing else."""
         settings = self._settings
         while True:
-            while len(self.candidates) < min(settings.candidates, self._told + settings.at_once):
+            while len(self.candidates) < min(settings.candidates, self._recorded + settings.at_once):
                 self.candidates.append(Candidate(self._proposals.propose()))
-            if self._told == settings.candidates or not self._has_all(self._told, SEARCH):
+            if self._recorded == settings.candidates or not self._has_all(self._recorded, SEARCH):
                 break
-            found = self.result(self._told, SEARCH)
-            self._proposals.told(self._told, found.value, settings.probability - found.share)
-            self._told += 1
-        if self._told == settings.candidates and not self.finalists:
+            result = self.result(self._recorded, SEARCH)
+            self._proposals.record_result(self._recorded, result.value, settings.probability - result.share)
+            self._recorded += 1
+        if self._recorded == settings.candidates and not self.finalists:
             self.finalists = self._best_that_differ()
         if self.chosen is None and self.finalists and all(self._has_all(each, FINAL) for each in self.finalists):
             self.chosen = self._in_order(self.finalists, FINAL)[0]
 
     def _best_that_differ(self) -> list[int]:
-        ordered, seen, found = self._in_order(range(len(self.candidates)), SEARCH), set(), []
-        for number in ordered:
-            key = tuple(self.candidates[number].shares)
-            if key not in seen and len(found) < self._settings.finalists:
-                found.append(number)
-            seen.add(key)
-        return found
+        first: dict[tuple[float, ...], int] = {}
+        for number in self._in_order(range(len(self.candidates)), SEARCH):
+            first.setdefault(tuple(self.candidates[number].shares), number)
+        return list(first.values())[: self._settings.finalists]
 
     def _in_order(self, numbers: Sequence[int], of_round: str) -> list[int]:
         """Candidates that succeed often enough by their objective, then the others by how often they do."""
@@ -179,17 +173,29 @@ class Rounds:
         shortfalls = {number: max(self._settings.probability - each.share, 0.0) for number, each in results.items()}
         return sorted(numbers, key=lambda number: (shortfalls[number], results[number].value, number))
 
-    def _missing(self, number: int, of_round: str) -> Iterator[Run]:
+    def _missing(self, number: int, of_round: str) -> Iterator[CandidateRun]:
         outputs = self.candidates[number].outputs
-        return (Run(number, draw) for draw in self.draws(of_round) if draw not in outputs)
+        return (CandidateRun(number, run) for run in self.run_numbers(of_round) if run not in outputs)
 
     def _has_all(self, number: int, of_round: str) -> bool:
         outputs = self.candidates[number].outputs
-        return all(draw in outputs for draw in self.draws(of_round))
+        return all(run in outputs for run in self.run_numbers(of_round))
+
+
+def result_of(outputs: Sequence[Mapping[str, Any]], settings: OptimiseSettings) -> CandidateResult:
+    """Return the result of runs by their outputs."""
+    value = quantile_of(objective_values(outputs, settings.output), settings.quantile)
+    return CandidateResult(value, sum(bool(run.get(SUCCESS)) for run in outputs), len(outputs))
+
+
+def objective_values(outputs: Sequence[Mapping[str, Any]], name: str) -> np.ndarray:
+    """Return the values (n,) of an output, infinite where it is not known."""
+    values = [run.get(name) for run in outputs]
+    return np.array([np.inf if value is None else value for value in values], float)
 
 
 def quantile_of(values: np.ndarray, quantile: float) -> float:
-    """Return a quantile of what values (n,) were drawn from, the eighth of R. J. Hyndman and Y. Fan.
+    """Return a quantile of the distribution of values (n,), the eighth of R. J. Hyndman and Y. Fan.
 
     Its median is about the true one whatever the distribution: Sample quantiles in statistical packages, The American
     Statistician 50 (1996), 361-365. Infinite values may be among them.

@@ -6,10 +6,10 @@ from typing import ClassVar
 
 from ...engineering.statistics.order_limits import least_runs
 from .. import schema
-from ..schema import LARGEST_INTEGER, Table
-from ..study.criteria import Criterion, neighbour_output
+from ..schema import Table
+from ..study.criteria import neighbour_output
 from ..study.runs_table import REACH
-from ..study.settings import Vary
+from ..study.settings import EnsembleSettings
 
 CHARGE = "charge_kg"
 """Output that says how heavy all charges of a run are together."""
@@ -19,7 +19,7 @@ _OUTPUTS = {"reach": (REACH, "m"), "charge": (CHARGE, "kg"), "time": ("came_to_r
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Quantity(Table):
+class ChosenQuantity(Table):
     """A number of the scenario that may change within a range. As with `search.key`, a key of a list without a name is
     that of all its tables alike."""
 
@@ -58,7 +58,7 @@ class Quantity(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Place(Table):
+class ChosenPlace(Table):
     """A place of the scenario that may change within a box along the axes."""
 
     table: ClassVar[str] = "places"
@@ -81,7 +81,7 @@ class Place(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Order(Table):
+class ChosenOrder(Table):
     """Numbers of the scenario that change places with each other: times of steps or delays of charges, whose order is
     looked for."""
 
@@ -97,14 +97,14 @@ class Order(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OptimiseSettings(Table):
+class OptimiseSettings(EnsembleSettings):
     """What is to be as small as can be, what has to hold, and how many runs it takes."""
 
     table: ClassVar[str] = "optimise"
+    raised_later: ClassVar[tuple[str, ...]] = ("candidates", "confirmation_runs")
 
-    scenario: str = schema.key("Path of the scenario file, from this file's folder.")
     objective: str = schema.key(
-        "What is to be as small as can be. `reach`: how far debris gets from the bridge's plan. `charge`: the mass of "
+        "What is to be as small as can be. `reach`: the debris distance from the bridge's plan. `charge`: the mass of "
         "all charges. `vibration`: what the charges do to a neighbour's ground. `time`: until everything rests.",
         choices=tuple(_OUTPUTS),
     )
@@ -142,27 +142,9 @@ class OptimiseSettings(Table):
         at_least=1,
         at_most=1000,
     )
-    seed: int = schema.key("Start of the random numbers.", default=0, at_least=0, at_most=LARGEST_INTEGER)
-    least_mass_kg: float = schema.key(
-        "Lightest shard that is a hazard: the reach does not count lighter ones.", default=0.0, unit="kg", at_least=0
-    )
-    time_limit_s: float | None = schema.key(
-        "Time after which a run is ended that hangs; it counts as no success. By default none.",
-        default=None,
-        unit="s",
-        above=0,
-    )
-    memory_limit_mb: float | None = schema.key(
-        "Memory of a run's process above which it is ended, on Linux; it counts as no success. By default none.",
-        default=None,
-        unit="MB",
-        above=0,
-    )
-    quantities: tuple[Quantity, ...] = ()
-    places: tuple[Place, ...] = ()
-    orders: tuple[Order, ...] = ()
-    vary: tuple[Vary, ...] = ()
-    criteria: tuple[Criterion, ...] = ()
+    quantities: tuple[ChosenQuantity, ...] = ()
+    places: tuple[ChosenPlace, ...] = ()
+    orders: tuple[ChosenOrder, ...] = ()
 
     @property
     def output(self) -> str:

@@ -11,7 +11,7 @@ from ..scenario import Scenario
 from ..search.file import values_of
 from ..study.file import SEED
 from ..study.keys import ScenarioKey, changed, keys_named
-from .settings import OptimiseSettings, Order, Place, Quantity
+from .settings import ChosenOrder, ChosenPlace, ChosenQuantity, OptimiseSettings
 
 
 class Dimension(Protocol):
@@ -39,7 +39,7 @@ class Dimension(Protocol):
 class Along:
     """One quantity."""
 
-    quantity: Quantity
+    quantity: ChosenQuantity
     keys: tuple[ScenarioKey, ...]
     size: int = 1
 
@@ -78,7 +78,12 @@ class Space:
     @property
     def size(self) -> int:
         """How many numbers from 0 to 1 make a candidate."""
-        return sum(each.size for each in self.dimensions)
+        return sum(dimension.size for dimension in self.dimensions)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all values in a table."""
+        return list(self.shown([0.5] * self.size))
 
     def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
         """Return what a scenario gets for shares (size,)."""
@@ -127,7 +132,7 @@ def space_of(settings: OptimiseSettings, scenario: Scenario, drawn: Sequence[str
     return Space(tuple(dimensions))
 
 
-def _along(quantity: Quantity, scenario: Scenario) -> list[Dimension]:
+def _along(quantity: ChosenQuantity, scenario: Scenario) -> list[Dimension]:
     keys = keys_named(scenario, quantity.key)
     for key in keys:
         if not _is_number(key.value) and (quantity.factor or key.value is not None):
@@ -135,7 +140,7 @@ def _along(quantity: Quantity, scenario: Scenario) -> list[Dimension]:
     return [Along(quantity, keys)]
 
 
-def _in_box(place: Place, scenario: Scenario) -> list[Dimension]:
+def _in_box(place: ChosenPlace, scenario: Scenario) -> list[Dimension]:
     axes: list[Dimension] = []
     coordinates = _coordinates(place, scenario)
     if coordinates != len(place.lowest_corner_m):
@@ -143,7 +148,7 @@ def _in_box(place: Place, scenario: Scenario) -> list[Dimension]:
     for axis, (low, high) in enumerate(zip(place.lowest_corner_m, place.highest_corner_m, strict=True), start=1):
         keys = keys_named(scenario, f"{place.key}.{axis}")
         if low < high:
-            axes.append(Along(Quantity(key=f"{place.key}.{axis}", lowest=low, highest=high), keys))
+            axes.append(Along(ChosenQuantity(key=f"{place.key}.{axis}", lowest=low, highest=high), keys))
         elif any(key.value != low for key in keys):
             raise ScenarioError(
                 f"{place.key}.{axis} is {keys[0].value:g} in the scenario and {low:g} in both corners: expected "
@@ -152,7 +157,7 @@ def _in_box(place: Place, scenario: Scenario) -> list[Dimension]:
     return axes
 
 
-def _coordinates(place: Place, scenario: Scenario) -> int:
+def _coordinates(place: ChosenPlace, scenario: Scenario) -> int:
     """How many numbers a place has in the scenario."""
     keys = keys_named(scenario, f"{place.key}.1")
     if len(keys) > 1:
@@ -163,7 +168,7 @@ def _coordinates(place: Place, scenario: Scenario) -> int:
     return len(value)
 
 
-def _dealt(order: Order, scenario: Scenario) -> list[Dimension]:
+def _dealt(order: ChosenOrder, scenario: Scenario) -> list[Dimension]:
     keys = [key for name in order.keys for key in keys_named(scenario, name)]
     for key in keys:
         if not _is_number(key.value):

@@ -1,68 +1,135 @@
-"""What a search says: where success has the probability that was asked for, and how sure that is."""
+"""Answer of a search: where success has the probability that was asked for, with its confidence, in numbers."""
 
 from __future__ import annotations
 
+import csv
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ...engineering.search.bisection import median_interval
 from ...engineering.search.probit import Trials, fitted, limit
+from ...system.disk import whole_file
+from ..study.outcome import SUCCESS
+from ..study.runs_table import RunsTable
 from .file import Search
 
 CLOSE_ENOUGH, OUT_OF_TRIALS = "the limit is as close as was asked for", "all trials were made"
 NEVER, ALWAYS = "the criteria were never met in the range", "the criteria were always met in the range"
-FALLING = "the criteria are met the less often the farther one goes where they should be met more often"
+FALLING = "the criteria are met less often where they should be met more often"
 
 OPENING = 8
-"""Trials of one kind only, after which it is said that the criteria are always or never met in the range."""
+"""Runs of one kind only, after which the criteria count as always or never met in the range."""
+
+PROBABILITIES = (0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99)
+"""Of the curve."""
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """What is known after some trials, in the unit of the quantity.
+@dataclass(frozen=True, slots=True, eq=False)
+class SearchCurve:
+    """Values of the quantity for k probabilities of success.
 
     Attributes
     ----------
-    trials, successes : int
-        How many there were, and how many met all criteria.
+    probabilities, values : (k,) float
+        Probabilities, and where success most likely has them.
+    lows, highs : (k,) float
+        Limits with the confidence of the search, one from either side; nan where the runs set none.
+    """
+
+    probabilities: np.ndarray
+    values: np.ndarray
+    lows: np.ndarray
+    highs: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What is known after some runs, in the unit of the quantity.
+
+    Attributes
+    ----------
+    search
+        What was asked.
+    values : (n,) float
+        Where each run was made.
+    trials
+        The same as levels, and which of the runs met all criteria.
     median, value : float or None
-        Where the criteria are met by every other run, and with the probability that was asked for, most likely; None
-        as long as that is not known.
+        Where half of all runs meet the criteria, and where as many as were asked for do, most likely; None if unknown.
     spread : float or None
-        Standard deviation about the median, of the natural logarithm where the search is logarithmic; 0 where no
-        trials overlap.
+        Standard deviation about the median, of the natural logarithm where the search is logarithmic; 0 where successes
+        and failures do not overlap.
     median_limits : (float, float)
-        Limits of the median, each with the confidence that was asked for; infinite where not known.
+        Limits of the median, each with the confidence that was asked for; infinite where unknown.
     limit : float
         Beyond it, away from failure, the criteria are met with at least that probability, with that confidence.
     without_model : (float, float, float)
         Median by probabilistic bisection, and the interval about it that has that confidence.
+    ended_as : str or None
+        Why there are no more runs; None as long as the search goes on.
     """
 
-    trials: int
-    successes: int
+    search: Search
+    values: np.ndarray
+    trials: Trials
     median: float | None
     spread: float | None
     value: float | None
     median_limits: tuple[float, float]
     limit: float
     without_model: tuple[float, float, float]
+    ended_as: str | None
+
+    @property
+    def runs(self) -> int:
+        """How many runs there are."""
+        return len(self.trials)
+
+    @property
+    def successes(self) -> int:
+        """How many of them met all criteria."""
+        return int(self.trials.successes.sum())
 
     @property
     def is_known(self) -> bool:
         """Whether there is a limit."""
         return self.value is not None and math.isfinite(self.limit)
 
+    @cached_property
+    def curve(self) -> SearchCurve | None:
+        """The curve; None as long as none fits."""
+        normal, scale = fitted(self.trials), self.search.scale
+        if normal is None:
+            return None
+        values = [scale.value(normal.quantile(share)) for share in PROBABILITIES]
+        confidence = self.search.settings.confidence
+        ends = [
+            [scale.value(limit(self.trials, share, confidence, side)) for side in (-1, 1)] for share in PROBABILITIES
+        ]
+        finite = np.array([[end if math.isfinite(end) else np.nan for end in pair] for pair in ends])
+        low, high = (1, 0) if scale.is_falling else (0, 1)
+        return SearchCurve(np.array(PROBABILITIES), np.array(values), finite[:, low], finite[:, high])
+
     def as_json(self) -> dict[str, Any]:
         """Return it as ``search.json`` has it; what is infinite is not known, and null."""
-        low, high = (each if math.isfinite(each) else None for each in self.median_limits)
+        settings = self.search.settings
         middle, *interval = self.without_model
         return {
-            "trials": self.trials,
+            "key": settings.key,
+            "unit": self.search.unit,
+            "success": settings.success,
+            "probability": settings.probability,
+            "confidence": settings.confidence,
+            "ended_as": self.ended_as,
+            "trials": self.runs,
             "successes": self.successes,
             "median": self.median,
-            "median_limits": [low, high],
+            "median_limits": [end if math.isfinite(end) else None for end in self.median_limits],
             "spread": self.spread,
             "value": self.value,
             "limit": self.limit if math.isfinite(self.limit) else None,
@@ -70,99 +137,48 @@ class Answer:
         }
 
 
-def answer_of(search: Search, trials: Trials) -> Answer:
-    """Return what trials, by their levels, say."""
+def answer_of(search: Search, table: RunsTable) -> Answer:
+    """Return the answer of a search from the table of its runs."""
     scale, settings = search.scale, search.settings
-    found = fitted(trials)
+    values = np.array([float(row.inputs[settings.key]) for row in table.rows])
+    trials = Trials(np.array([scale.level(float(value)) for value in values]), table.met(SUCCESS))
+    normal = fitted(trials)
     ends = [scale.value(limit(trials, 0.5, settings.confidence, side)) for side in (-1, 1)]
+    middle, *interval = (scale.value(level) for level in median_interval(trials, *scale.ends, settings.confidence))
     return Answer(
-        trials=len(trials),
-        successes=int(trials.successes.sum()),
-        median=found and scale.value(found.median),
-        spread=found and float(found.spread),
-        value=found and scale.value(found.quantile(settings.probability)),
+        search=search,
+        values=values,
+        trials=trials,
+        median=normal and scale.value(normal.median),
+        spread=normal and float(normal.spread),
+        value=normal and scale.value(normal.quantile(settings.probability)),
         median_limits=(min(ends), max(ends)),
         limit=scale.value(limit(trials, settings.probability, settings.confidence, 1)),
-        without_model=_in_order(
-            [scale.value(each) for each in median_interval(trials, *scale.ends, settings.confidence)]
-        ),
+        without_model=(middle, min(interval), max(interval)),
+        ended_as=reason_to_stop(search, trials),
     )
 
 
 def reason_to_stop(search: Search, trials: Trials) -> str | None:
-    """Return why a search ends after trials whose outcomes are all known; None as long as it goes on."""
-    settings = search.settings
+    """Return why a search ends after runs whose outcomes are all known; None as long as it goes on."""
+    settings, scale = search.settings, search.scale
     if len(trials) >= OPENING and not trials.successes.any():
         return NEVER
     if len(trials) >= OPENING and trials.successes.all():
         return ALWAYS
-    if settings.within is not None and trials.overlap:
-        answer = answer_of(search, trials)
-        if answer.is_known and abs(answer.limit - answer.value) <= settings.within:
+    if settings.within is not None and trials.overlap and (normal := fitted(trials)) is not None:
+        end = scale.value(limit(trials, settings.probability, settings.confidence, 1))
+        if math.isfinite(end) and abs(end - scale.value(normal.quantile(settings.probability))) <= settings.within:
             return CLOSE_ENOUGH
     if len(trials) >= settings.trials:
         return FALLING if fitted(trials) is None else OUT_OF_TRIALS
     return None
 
 
-def sentences(search: Search, answer: Answer, reason: str) -> list[str]:
-    """Return what a search says, in plain words."""
-    settings = search.settings
-    unit = f" {search.unit}" if search.unit else ""
-    seen = f"{answer.successes} of {answer.trials} trials met all criteria: {reason}."
-    if answer.value is None:
-        return [seen, _advice(search, reason)]
-    told = [
-        seen,
-        f"{settings.key}: half of all runs meet them at {_shown(answer.median)}{unit}, and "
-        f"{settings.probability:.4g} of all at {_shown(answer.value)}{unit}, most likely.",
-    ]
-    where = "or more" if settings.success == "above" else "or less"
-    if answer.is_known:
-        told.append(
-            f"With {settings.confidence:.4g} confidence, {settings.probability:.4g} of all runs meet them at "
-            f"{_shown(answer.limit)}{unit} {where}."
-        )
-        if not settings.lowest <= answer.limit <= settings.highest:
-            told.append("That is outside the range in which trials were made: it rests on the shape of the curve.")
-    else:
-        told.append("The trials set no limit yet: make more of them.")
-    if farther := _end_in_the_way(search, answer):
-        told.append(f"The median is at the end of the range or beyond it: move search.{farther}.")
-    _, low, high = answer.without_model
-    told.append(
-        f"Without a model of how the probability rises, the median is {_shown(low)} to {_shown(high)}{unit} with "
-        f"{settings.confidence:.4g} probability."
-    )
-    return told
-
-
-def _end_in_the_way(search: Search, answer: Answer) -> str | None:
-    """Which end of the range keeps trials away from the median; None where it is well within."""
-    low, high = search.scale.ends
-    level = search.scale.level(answer.median)
-    margin = 0.02 * (high - low)
-    if low + margin < level < high - margin:
-        return None
-    return "lowest" if (level <= low + margin) != search.scale.is_falling else "highest"
-
-
-def _advice(search: Search, reason: str) -> str:
-    settings = search.settings
-    if reason == FALLING:
-        return f'Try search.success = "{"below" if settings.success == "above" else "above"}".'
-    farther = "highest" if (reason == NEVER) == (settings.success == "above") else "lowest"
-    return (
-        f"Trials went from {settings.lowest:g} to {settings.highest:g}: move search.{farther}, or ask for something "
-        "else."
-    )
-
-
-def _in_order(values: list[float]) -> tuple[float, float, float]:
-    middle, *ends = values
-    return middle, min(ends), max(ends)
-
-
-def _shown(value: float) -> str:
-    """To four digits, without an exponent where it need not have one."""
-    return f"{float(f'{value:.4g}'):.10g}"
+def write_curve(curve: SearchCurve, path: Path) -> None:
+    """Write a curve as CSV; what is not known is empty."""
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file)
+        rows.writerow(["probability", "value", "lower_limit", "upper_limit"])
+        for row in zip(curve.probabilities, curve.values, curve.lows, curve.highs, strict=True):
+            rows.writerow([f"{cell:.6g}" if math.isfinite(cell) else "" for cell in row])

@@ -1,4 +1,4 @@
-"""The scale on which a search goes: success is the likelier the higher, whatever the quantity does."""
+"""The scale on which a search goes: higher levels succeed more often, whatever the quantity does."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _DIGITS = 9
 
 
 @dataclass(frozen=True, slots=True)
-class Scale:
+class LevelScale:
     """From the values of a quantity to levels, and back.
 
     Attributes

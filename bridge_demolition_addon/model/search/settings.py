@@ -4,21 +4,19 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from .. import schema
-from ..schema import LARGEST_INTEGER, Table
-from ..study.criteria import Criterion
-from ..study.settings import Vary
+from ..study.settings import EnsembleSettings
 
 FEWEST_TRIALS = 10
-"""Opening trials that a search has at least: with fewer, hardly any trials overlap."""
+"""Runs that a search has at least: with fewer, successes and failures hardly ever overlap."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SearchSettings(Table):
+class SearchSettings(EnsembleSettings):
     """What is searched for, along which quantity, and how well it is to be known."""
 
     table: ClassVar[str] = "search"
+    raised_later: ClassVar[tuple[str, ...]] = ("trials",)
 
-    scenario: str = schema.key("Path of the scenario file, from the search file's folder.")
     key: str = schema.key(
         "Which quantity, by its key as in a study: `ball.drop_height_m`, `charges.mass_kg` for all charges alike."
     )
@@ -41,7 +39,7 @@ class SearchSettings(Table):
         "Values are tried in multiples of this only, such as charges of 0.5 kg. By default all.", default=None, above=0
     )
     success: str = schema.key(
-        "Whether all criteria are met the more often `above` or `below`: the higher or the lower the quantity.",
+        "Whether higher (`above`) or lower (`below`) values meet all criteria more often.",
         default="above",
         choices=("above", "below"),
     )
@@ -54,35 +52,20 @@ class SearchSettings(Table):
     confidence: float = schema.key(
         "Probability with which the limit that is given holds.", default=0.95, at_least=0.5, at_most=0.999
     )
-    trials: int = schema.key("Most trials.", default=60, at_least=FEWEST_TRIALS, at_most=100_000)
+    trials: int = schema.key("Most runs.", default=60, at_least=FEWEST_TRIALS, at_most=100_000)
     within: float | None = schema.key(
         "The search stops as soon as the limit is that close to the likeliest value, in the unit of the quantity. By "
-        "default it makes all trials.",
+        "default it makes all runs.",
         default=None,
         above=0,
     )
     at_once: int = schema.key(
-        "Trials that are under way while the next is chosen. It decides which trials are made, on any number of "
+        "Runs that are under way while the next is chosen. It decides which runs are made, on any number of "
         "processors.",
         default=4,
         at_least=1,
         at_most=1000,
     )
-    seed: int = schema.key("Start of the random numbers.", default=0, at_least=0, at_most=LARGEST_INTEGER)
-    time_limit_s: float | None = schema.key(
-        "Time after which a run is ended that hangs; it counts as no success. By default none.",
-        default=None,
-        unit="s",
-        above=0,
-    )
-    memory_limit_mb: float | None = schema.key(
-        "Memory of a run's process above which it is ended, on Linux; it counts as no success. By default none.",
-        default=None,
-        unit="MB",
-        above=0,
-    )
-    vary: tuple[Vary, ...] = ()
-    criteria: tuple[Criterion, ...] = ()
 
     def _check_together(self) -> None:
         if not self.lowest < self.highest:

@@ -1,75 +1,177 @@
-"""Conclusions of a study: all that its runs say of the next one, once every one of them is there."""
+"""Conclusions of a study: numbers that its runs state about further runs, each with its confidence.
+
+They hold where runs are independent, and where their number, the rank and what is asked were fixed beforehand. A run
+that did not finish counts as one of unlimited debris distance that met no criterion. ``report/wording`` has sentences.
+"""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 
+from ...engineering.statistics.order_limits import (
+    achieved_confidence,
+    coverage,
+    least_runs,
+    most_support,
+    nth_largest,
+)
+from ...engineering.statistics.proportions import lower_limit, upper_limit
+from ...engineering.statistics.repetition import repeated_limit
 from ...errors import OutputError
 from .file import Study
 from .runs_table import REACH, RunsTable
-from .statements import Chance, LimitsAtOnce, ReachLimit, as_json, chance_of, limits_at_once, reach_limit
 
-AT_ONCE = (REACH, "largest_throw_m")
-"""Outputs for which limits are to hold together: as many as the fewest runs of a study by default allow."""
+SIMULTANEOUS = (REACH, "largest_throw_m")
+"""Outputs whose limits hold together: as many as the fewest runs of a study by default allow."""
+
+_JSON_NAMES = {
+    "exceedances": "farther",
+    "achieved_confidence": "sure",
+    "coverage": "share",
+    "repeat_above_m": "again_above_m",
+    "repeat_below_m": "again_below_m",
+    "repeat_exceedance": "again_beyond",
+    "count": "happened",
+}
+"""What ``study.json`` calls some of these numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class DebrisLimit:
+    """Limit of the distance of debris from the bridge's plan.
+
+    Attributes
+    ----------
+    runs, unfinished : int
+        Number of runs, and of those that did not finish.
+    quantile, confidence, rank
+        What was asked beforehand: the part of all runs that the limit is for, its confidence, and which of the largest
+        distances it is.
+    runs_needed : int
+        Number of runs that it takes at least.
+    limit_m : float
+        Infinite where there are too few runs, or too many that did not finish.
+    exceedances : int
+        Number of runs beyond the limit, unfinished ones included.
+    achieved_confidence : float
+        Confidence that the quantile stays within the limit.
+    coverage : float
+        Part of all runs that stays within the limit with the confidence asked.
+    repeat_above_m, repeat_below_m : float
+        A study of as many other runs has its limit above the first, and not above the second, each with the confidence;
+        minus infinity and infinity where there are too few runs to tell.
+    repeat_exceedance : float
+        Probability that its limit is larger than every distance of these runs.
+    """
+
+    runs: int
+    unfinished: int
+    quantile: float
+    confidence: float
+    rank: int
+    runs_needed: int
+    limit_m: float
+    exceedances: int
+    achieved_confidence: float
+    coverage: float
+    repeat_above_m: float
+    repeat_below_m: float
+    repeat_exceedance: float
+
+    @property
+    def has_enough_runs(self) -> bool:
+        """Whether there are as many runs as a limit needs."""
+        return self.runs >= self.runs_needed
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is a limit."""
+        return math.isfinite(self.limit_m)
+
+
+@dataclass(frozen=True, slots=True)
+class Proportion:
+    """How often runs do something that was fixed beforehand, such as meet a criterion or leave a zone.
+
+    Attributes
+    ----------
+    what : str
+        What they do: ``runs that …``.
+    count, runs : int
+        How many of the runs did it, and how many there are.
+    confidence : float
+        Of each limit by itself.
+    at_least, at_most : float
+        Limits of the probability, after Clopper and Pearson.
+    """
+
+    what: str
+    count: int
+    runs: int
+    confidence: float
+    at_least: float
+    at_most: float
+
+
+@dataclass(frozen=True, slots=True)
+class SimultaneousLimits:
+    """Limits of several outputs that hold together, after Guba, Makai and Pál.
+
+    Attributes
+    ----------
+    quantile, confidence
+        Part of all runs that stays below all limits at once, and its confidence.
+    limits : dict
+        Of each output by its name.
+    ranks : dict
+        Which of its largest values each limit is.
+    """
+
+    quantile: float
+    confidence: float
+    limits: dict[str, float]
+    ranks: dict[str, int]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Conclusions:
-    """What a study says.
+    """What a study states.
 
     Attributes
     ----------
     statuses : dict
         How many runs ended in each way.
     reach
-        How far debris gets.
+        Limit of the debris distance.
     criteria
-        How likely each criterion is met, in the order of the study.
+        How often runs meet each criterion, in the order of the study.
     success
-        How likely all of them are; None where there are none.
+        How often they meet all of them; None where there are none.
     at_once
-        Limits of several outputs that hold together; None where the runs are too few for them.
+        Limits of several outputs that hold together; None where there are too few runs.
     """
 
     statuses: dict[str, int]
-    reach: ReachLimit
-    criteria: tuple[Chance, ...]
-    success: Chance | None
-    at_once: LimitsAtOnce | None
+    reach: DebrisLimit
+    criteria: tuple[Proportion, ...]
+    success: Proportion | None
+    at_once: SimultaneousLimits | None
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
         return {
             "statuses": self.statuses,
             "reach": as_json(self.reach),
-            "criteria": [as_json(each) for each in self.criteria],
+            "criteria": [as_json(criterion) for criterion in self.criteria],
             "success": self.success and as_json(self.success),
             "at_once": self.at_once and as_json(self.at_once),
         }
-
-
-def words_of_inputs(study: Study) -> list[str]:
-    """Return what varies, as the study names it: a key of all tables of a list only once."""
-    return [vary.key for vary in study.settings.vary] + ["the seed of the fracture"]
-
-
-def sentences(study: Study, said: Conclusions) -> Iterator[str]:
-    """Yield what a study says, the limit of the reach first."""
-    exclusion = study.scenario.exclusion
-    buffer_m = exclusion.buffer_m if exclusion else None
-    yield said.reach.sentence(words_of_inputs(study), study.settings.least_mass_kg, buffer_m)
-    if math.isfinite(said.reach.limit_m):
-        yield said.reach.spread_sentence
-    for each in said.criteria:
-        yield each.success_sentence
-    if said.success and len(said.criteria) > 1:
-        yield said.success.success_sentence
 
 
 def conclusions(study: Study, table: RunsTable) -> Conclusions:
@@ -78,24 +180,96 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
     Raises
     ------
     OutputError
-        Not all runs are there: who stops when a result pleases has no confidence to state.
-    ScenarioError
-        The runs are too few for what was asked.
+        Not all runs are there: whoever stops when a result pleases has no confidence to state.
     """
     settings = study.settings
     if len(table) != settings.runs:
         raise OutputError(
-            f"{len(table)} of {settings.runs} runs are there: a study says nothing before all of them are"
+            f"{len(table)} of {settings.runs} runs are there: a study states nothing before all of them are"
         )
     confidence = settings.confidence
-    met = [table.met(each.output) for each in study.criteria]
+    met = [table.met(criterion.output) for criterion in study.criteria]
     return Conclusions(
         statuses=dict(sorted(Counter(row.status for row in table.rows).items())),
-        reach=reach_limit(table.largest(REACH), settings.quantile, confidence, settings.rank),
+        reach=debris_limit(table.largest(REACH), settings.quantile, confidence, settings.rank),
         criteria=tuple(
-            chance_of(f"met the criterion {criterion.name}", each, confidence)
-            for criterion, each in zip(study.criteria, met, strict=True)
+            proportion(f"met the criterion {criterion.name}", which, confidence)
+            for criterion, which in zip(study.criteria, met, strict=True)
         ),
-        success=chance_of("met all criteria", np.all(met, axis=0), confidence) if met else None,
-        at_once=limits_at_once({name: table.largest(name) for name in AT_ONCE}, settings.quantile, confidence),
+        success=proportion("met all criteria", np.all(met, axis=0), confidence) if met else None,
+        at_once=simultaneous_limits(
+            {name: table.largest(name) for name in SIMULTANEOUS}, settings.quantile, confidence
+        ),
     )
+
+
+def debris_limit(distances_m: np.ndarray, quantile: float, confidence: float, rank: int) -> DebrisLimit:
+    """Return the limit of the debris distance.
+
+    Parameters
+    ----------
+    distances_m : (n,) float
+        Of all runs; infinity for each that did not finish.
+    quantile, confidence, rank
+        What was asked beforehand.
+    """
+    runs, needed = len(distances_m), least_runs(quantile, confidence, rank)
+    limit_m = nth_largest(distances_m, rank) if runs >= needed else math.inf
+    has_rank = runs >= rank
+    repeated = repeated_limit(distances_m, rank, confidence) if has_rank else (-math.inf, math.inf, 1.0)
+    return DebrisLimit(
+        runs=runs,
+        unfinished=int(np.isinf(distances_m).sum()),
+        quantile=quantile,
+        confidence=confidence,
+        rank=rank,
+        runs_needed=needed,
+        limit_m=limit_m,
+        exceedances=int((distances_m > limit_m).sum()),
+        achieved_confidence=achieved_confidence(rank, runs, quantile) if has_rank else 0.0,
+        coverage=coverage(rank, runs, confidence) if has_rank else 0.0,
+        repeat_above_m=repeated[0],
+        repeat_below_m=repeated[1],
+        repeat_exceedance=repeated[2],
+    )
+
+
+def proportion(what: str, which: np.ndarray, confidence: float) -> Proportion:
+    """Return how often runs do something, from which (n,) of them did."""
+    count, runs = int(which.sum()), len(which)
+    at_least, at_most = (float(limit(count, runs, confidence)) for limit in (lower_limit, upper_limit))
+    return Proportion(what, count, runs, confidence, at_least, at_most)
+
+
+def simultaneous_limits(
+    outputs: Mapping[str, np.ndarray], quantile: float, confidence: float
+) -> SimultaneousLimits | None:
+    """Return limits of several outputs that hold together; None where there are too few runs for so many.
+
+    Parameters
+    ----------
+    outputs : dict of (n,) float
+        Values in all runs by name, infinity where a run did not finish. Choose the outputs before the runs.
+    quantile, confidence
+        What the limits have to hold together.
+    """
+    runs = min(map(len, outputs.values()), default=0)
+    support = most_support(runs, quantile, confidence) if runs else 0
+    if support < max(len(outputs), 1):
+        return None
+    # Together they may be set by so many runs; what does not divide evenly goes to the first.
+    share, rest = divmod(support, len(outputs))
+    ranks = {name: share + (number < rest) for number, name in enumerate(outputs)}
+    limits = {name: nth_largest(values, ranks[name]) for name, values in outputs.items()}
+    return SimultaneousLimits(quantile, confidence, limits, ranks)
+
+
+def as_json(statement: Any) -> dict[str, Any]:
+    """Return a statement as JSON has it: what has no end is null."""
+    return {_JSON_NAMES.get(name, name): _finite(value) for name, value in asdict(statement).items()}
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _finite(inner) for name, inner in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value

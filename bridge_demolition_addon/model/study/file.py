@@ -1,12 +1,12 @@
-"""Study files: TOML read strictly into a `Study`, with the scenario that it varies."""
+"""Files of studies, searches and optimisations: TOML read strictly, with the scenario that goes with it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, TypeVar
 
 from ...errors import ScenarioError
 from ..run_folder.files import SCENARIO_FILE
@@ -16,13 +16,15 @@ from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text
 from .criteria import Criterion, check_criteria
 from .distributions import Distribution
-from .files import STUDY_FILE
+from .files import CONCLUSIONS_FILE, RUNS_FILE, STUDY_FILE
 from .keys import ScenarioKey, changed, keys_named
-from .settings import StudySettings, Vary
-from .statements import check_runs
+from .settings import EnsembleSettings, StudySettings, Vary
 
 SEED = f"{Scenario.table}.seed"
-"""Key that each run draws, and that no table varies."""
+"""Key that is sampled for each run, and that no table varies."""
+
+_Settings = TypeVar("_Settings", bound=EnsembleSettings)
+_Ensemble = TypeVar("_Ensemble", bound="Ensemble")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,66 +51,81 @@ class Variation:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Study:
-    """A study: a scenario, what varies in it, and what is asked.
+class Ensemble:
+    """Many runs of one scenario: a study, a search or an optimisation.
 
     Attributes
     ----------
-    settings : StudySettings
+    settings : EnsembleSettings
         What the file says.
     scenario : Scenario
-        What is varied.
+        What is run.
     variations : tuple of Variation
-        One for each key that is drawn besides `SEED`, in the order of the file.
+        One for each key that varies by chance besides `SEED`, in the order of the file.
     """
 
-    settings: StudySettings
+    kind: ClassVar[str]
+    file_name: ClassVar[str]
+    table_file: ClassVar[str]
+    result_file: ClassVar[str]
+
+    settings: EnsembleSettings
     scenario: Scenario
     variations: tuple[Variation, ...]
 
     @property
     def criteria(self) -> tuple[Criterion, ...]:
-        """Return what makes a run count as a success."""
+        """What makes a run count as a success."""
         return self.settings.criteria
 
     @property
-    def file_name(self) -> str:
-        """Return what the file is called in the folder of the study."""
-        return STUDY_FILE
-
-    @property
     def text(self) -> str:
-        """Return the study file in one way of writing, for a folder that has the scenario in ``scenario.toml``."""
+        """The file in one way of writing, for a folder that has the scenario in ``scenario_as_run.toml``."""
         return tables_text(replace(self.settings, scenario=SCENARIO_FILE))
 
     @property
     def scenario_text(self) -> str:
-        """Return the scenario file that goes with `text`."""
+        """The scenario file that goes with `text`."""
         return scenario_text(self.scenario)
 
 
-def read_study(path: str | PathLike[str]) -> Study:
-    """Read a study file, and the scenario that it varies.
+@dataclass(frozen=True, slots=True, eq=False)
+class Study(Ensemble):
+    """A study: what varies in a scenario, and what is to be stated about its runs."""
 
-    Parameters
-    ----------
-    path : str or path
-        A TOML file; the reference of all keys is ``docs/studies.md``.
+    kind: ClassVar[str] = "study"
+    file_name: ClassVar[str] = STUDY_FILE
+    table_file: ClassVar[str] = RUNS_FILE
+    result_file: ClassVar[str] = CONCLUSIONS_FILE
+
+    settings: StudySettings
+
+
+def read_ensemble_file(
+    path: str | PathLike[str],
+    settings_class: type[_Settings],
+    ensemble_of: Callable[[_Settings, Scenario], _Ensemble],
+    what: str,
+) -> _Ensemble:
+    """Read a file of settings, and the scenario that goes with it.
 
     Raises
     ------
     ScenarioError
-        A file cannot be read or is not TOML; a key is unknown, missing or has a wrong value; a distribution can leave
-        the range of its key; or the runs are too few for what is to be said. The text is one line: the path as given,
-        and what was expected.
+        A file cannot be read or is not TOML; a key is unknown, missing or has a wrong value; or the scenario does not
+        have what is asked. The text is one line: the path as given, and what was expected.
     """
     path = Path(path)
     try:
-        settings = table_of_document(StudySettings, document_of_file(path, "a study"))
-        scenario = read_scenario(path.parent / settings.scenario)
-        return study_of(settings, scenario)
+        settings = table_of_document(settings_class, document_of_file(path, what))
+        return ensemble_of(settings, read_scenario(path.parent / settings.scenario))
     except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
+
+
+def read_study(path: str | PathLike[str]) -> Study:
+    """Read a study file, and the scenario that it varies; all keys are in ``docs/study_file.md``."""
+    return read_ensemble_file(path, StudySettings, study_of, "a study")
 
 
 def study_of(settings: StudySettings, scenario: Scenario) -> Study:
@@ -117,9 +134,8 @@ def study_of(settings: StudySettings, scenario: Scenario) -> Study:
     Raises
     ------
     ScenarioError
-        The scenario lacks what is varied or asked, or a draw could not be run.
+        The scenario lacks what is varied or asked, or a run could not be made.
     """
-    check_runs(settings.runs, settings.quantile, settings.confidence, settings.rank)
     check_criteria(settings.criteria, scenario)
     return Study(settings, scenario, variations_of(settings.vary, scenario))
 

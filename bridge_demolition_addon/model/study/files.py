@@ -1,20 +1,25 @@
-"""What the files in the folder of a study are called, for who writes them and who reads them.
+"""Names of the files in the folder of a study, a search or an optimisation.
 
-The scenario lies beside the study under its usual name, and what is kept of a draw in a folder of its own below
-`DRAW_FOLDER`, called by its address.
+The scenario lies beside them under its usual name. What is kept of a run lies in a folder of its own below
+`RUNS_FOLDER`, named by its cache key.
 """
 
-STUDY_FILE, VERSIONS_FILE = "study.toml", "versions.json"
-RUNS_FILE, SHEET_FILE, CONCLUSIONS_FILE = "runs.csv", "runs.xlsx", "study.json"
+STUDY_FILE, SEARCH_FILE, OPTIMISE_FILE = "study.toml", "search.toml", "optimise.toml"
+VERSIONS_FILE = "versions.json"
 
-DRAW_FOLDER = "draws"
+RUNS_FILE, SHEET_FILE, CONCLUSIONS_FILE = "runs.csv", "runs.xlsx", "study.json"
+TRIALS_FILE = "trials.csv"
+ANSWER_FILE, CURVE_FILE, CURVE_PICTURE = "search.json", "curve.csv", "curve.png"
+CANDIDATES_FILE, BEST_FILE, TRADEOFF_PICTURE = "candidates.csv", "optimise.json", "tradeoff.png"
+
+RUNS_FOLDER = "draws"
 OUTCOME_FILE, OUTLINES_FILE = "outcome.json", "outlines.npz"
 
 RUN_FOLDER = "run"
-"""In the folder of a draw, where more than its outcome is kept."""
+"""In the folder of a run, where more than its outcome is kept."""
 
 AGAIN_FOLDER = "again"
-"""Folders of draws that were run once more with everything, called by their numbers."""
+"""Folders of runs that were repeated with everything recorded, named by their numbers."""
 
 REPORT_FOLDER = "report"
 PLAN_DXF, PLAN_GEOJSON = "study_plan.dxf", "study_plan.geojson"

@@ -1,4 +1,4 @@
-"""The outcome of one run of a study: its outputs, and where its debris was on plan."""
+"""Evaluation of one run: its outputs, and where its debris was on plan."""
 
 from __future__ import annotations
 
@@ -74,8 +74,8 @@ class Outlines:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Outcome:
-    """The outcome of a run that finished.
+class RunEvaluation:
+    """What a run that finished came to.
 
     Attributes
     ----------
@@ -89,14 +89,14 @@ class Outcome:
     outlines: Outlines
 
 
-def outcome_of(
+def evaluate(
     results: Results,
     summary: Mapping[str, Any],
     scenario: Scenario,
     criteria: Sequence[Criterion] = (),
     least_mass_kg: float = 0.0,
-) -> Outcome:
-    """Return the outcome of a run.
+) -> RunEvaluation:
+    """Evaluate a run.
 
     Hazardous are shards of some mass or more, and balls, that moved; shards that were removed on purpose are none.
 
@@ -129,7 +129,7 @@ def outcome_of(
     }
     met = {each.output: each.is_met(outputs) for each in criteria}
     outputs |= met | ({SUCCESS: all(met.values())} if met else {})
-    return Outcome(outputs, _outlines(left, hazards, plan))
+    return RunEvaluation(outputs, _outlines(left, hazards, plan))
 
 
 def _check(results: Results, plan: CrossSection) -> None:

@@ -1,4 +1,4 @@
-"""Table of the runs of a study: a row for each draw, with what went in and what came out.
+"""Table of runs: a row for each run, with its inputs and outputs.
 
 ``pandas.read_csv("runs.csv")`` reads it. Columns of inputs begin with ``in.``, those of outputs with ``out.``, and both
 end in their unit. A cell of a run that did not finish, or of what it does not know, is empty.
@@ -10,7 +10,7 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -27,17 +27,41 @@ INPUT, OUTPUT = "in.", "out."
 DONE, REFUSED, FAILED, CRASHED = "done", "refused", "failed", "crashed"
 TIMED_OUT, OUT_OF_MEMORY, KILLED = "timed_out", "out_of_memory", "killed"
 STATUSES = (DONE, REFUSED, FAILED, CRASHED, TIMED_OUT, OUT_OF_MEMORY, KILLED)
-"""What became of a draw."""
+"""How a run ended."""
 
 REACH = "reach_m"
+"""Output with the debris distance."""
 
 _MOST_BYTES = 1000 * MEGABYTE
 _TRUTHS = {"true": True, "false": False}
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class RunOutcome:
+    """How a run ended.
+
+    Attributes
+    ----------
+    status : str
+        One of `STATUSES`.
+    reason : str
+        Why it is not done.
+    outputs, fingerprint : dict
+        Values, and digests of the run, where it is done.
+    wall_time_s : float
+        How long it took.
+    """
+
+    status: str
+    reason: str = ""
+    outputs: Mapping[str, Any] = field(default_factory=dict)
+    fingerprint: Mapping[str, str] = field(default_factory=dict)
+    wall_time_s: float = 0.0
+
+
 @dataclass(frozen=True, slots=True)
-class Row:
-    """A draw.
+class RunRow:
+    """A run in the table.
 
     Attributes
     ----------
@@ -47,48 +71,51 @@ class Row:
         One of `STATUSES`.
     inputs, outputs : dict
         Values by name, without the beginning of their columns: numbers, texts, truths, or None for what is not known.
+    reason : str
+        Why it is not done. The file does not hold it.
     """
 
     number: int
     status: str
     inputs: Mapping[str, Any]
     outputs: Mapping[str, Any]
+    reason: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True)
 class RunsTable:
-    """All draws of a study, by number."""
+    """All runs that have ended, by number."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[RunRow, ...]
 
     def __len__(self) -> int:
         return len(self.rows)
 
     @cached_property
     def numbers(self) -> np.ndarray:
-        """Numbers (n,) of the draws."""
+        """Numbers (n,) of the runs."""
         return np.array([row.number for row in self.rows], int)
 
     @cached_property
     def done(self) -> np.ndarray:
-        """Which draws (n,) finished."""
+        """Which runs (n,) finished."""
         return np.array([row.status == DONE for row in self.rows], bool)
 
     @cached_property
     def median_row(self) -> int | None:
-        """Row with the median reach of those that finished, of an even number the lower one; None where none did."""
-        return int(self._by_reach[(len(self._by_reach) - 1) // 2]) if len(self._by_reach) else None
+        """Row with the median debris distance of the runs that finished, the lower of two; None where none did."""
+        return int(self._by_distance[(len(self._by_distance) - 1) // 2]) if len(self._by_distance) else None
 
     @cached_property
     def worst_row(self) -> int | None:
-        """Row with the largest reach of those that finished; None where none did."""
-        return int(self._by_reach[-1]) if len(self._by_reach) else None
+        """Row with the largest debris distance of those that finished; None where none did."""
+        return int(self._by_distance[-1]) if len(self._by_distance) else None
 
     @property
-    def _by_reach(self) -> np.ndarray:
-        reaches_m = self.largest(REACH)
-        order = np.argsort(reaches_m, kind="stable")
-        return order[np.isfinite(reaches_m[order])]
+    def _by_distance(self) -> np.ndarray:
+        distances_m = self.largest(REACH)
+        order = np.argsort(distances_m, kind="stable")
+        return order[np.isfinite(distances_m[order])]
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
@@ -109,22 +136,22 @@ class RunsTable:
         return _column([row.outputs.get(name) for row in self.rows])
 
     def largest(self, name: str) -> np.ndarray:
-        """Values (n,) of an output that is the worse the larger it is: infinity for what is not known."""
+        """Values (n,) of an output where larger is worse: infinity for what is not known."""
         values = self.output(name)
         return np.where(self.done & np.isfinite(values), values, np.inf)
 
     def met(self, name: str) -> np.ndarray:
-        """Which draws (n,) finished with an output that is true."""
+        """Which runs (n,) finished with an output that is true."""
         return np.array([row.status == DONE and row.outputs.get(name) is True for row in self.rows], bool)
 
 
 def cells_of(inputs: Mapping[str, Any], names: Sequence[str]) -> tuple[str, ...]:
-    """Return values as they stand in the table, by which a draw is known: no other has the same inputs."""
+    """Return values as they stand in the table, by which a run is known: no other has the same inputs."""
     return tuple(_cell(inputs.get(name)) for name in names)
 
 
 def write_runs(table: RunsTable, path: Path) -> None:
-    """Write the table of a study, whole or not at all; the same rows give the same bytes."""
+    """Write a table of runs, whole or not at all; the same rows give the same bytes."""
     with whole_file(path) as part, part.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(
@@ -136,7 +163,7 @@ def write_runs(table: RunsTable, path: Path) -> None:
 
 
 def read_runs(path: Path) -> RunsTable:
-    """Read the table of a study.
+    """Read a table of runs.
 
     Raises
     ------
@@ -153,14 +180,14 @@ def read_runs(path: Path) -> RunsTable:
         raise OutputError(f"{path}: {error}") from error
 
 
-def _row(path: Path, columns: Sequence[str], cells: Sequence[str]) -> Row:
+def _row(path: Path, columns: Sequence[str], cells: Sequence[str]) -> RunRow:
     if len(cells) != len(columns) or not cells[0].isdecimal() or cells[1] not in STATUSES:
         shown = ",".join(cells)[:40]
         raise OutputError(f"{path}: expected rows of {len(columns)} cells with a number and a status, found {shown}")
     values = dict(zip(columns, map(_value, cells), strict=True))
     inputs = {name.removeprefix(INPUT): value for name, value in values.items() if name.startswith(INPUT)}
     outputs = {name.removeprefix(OUTPUT): value for name, value in values.items() if name.startswith(OUTPUT)}
-    return Row(int(cells[0]), cells[1], inputs, outputs)
+    return RunRow(int(cells[0]), cells[1], inputs, outputs)
 
 
 def _cell(value: Any) -> str:

@@ -1,10 +1,11 @@
 """The tables of a study file, as checked values."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import ClassVar
 
 from .. import schema
 from ..schema import LARGEST_INTEGER, Scalar, Table, given
+from ..toml_tables import tables_text
 from .criteria import Criterion
 from .distributions import Choice, Distribution, Lognormal, Normal, Triangular, Uniform
 
@@ -99,42 +100,32 @@ class Vary(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StudySettings(Table):
-    """What is run, how often, and what is to be said of it."""
+class EnsembleSettings(Table):
+    """What studies, searches and optimisations share."""
 
-    table: ClassVar[str] = "study"
+    table: ClassVar[str] = "ensemble"
 
-    scenario: str = schema.key("Path of the scenario file, from the study file's folder.")
-    runs: int = schema.key(
-        "Number of runs. It is fixed beforehand: whoever stops when a result pleases has no confidence to state.",
-        default=93,
-        at_least=1,
-        at_most=10_000_000,
-    )
-    seed: int = schema.key("Start of the random numbers of the study.", default=0, at_least=0, at_most=LARGEST_INTEGER)
-    quantile: float = schema.key("Part of all runs that the limit is for.", default=0.95, at_least=0.5, at_most=0.9999)
-    confidence: float = schema.key(
-        "Probability with which the limit holds for that part.", default=0.95, at_least=0.5, at_most=0.9999
-    )
-    rank: int = schema.key(
-        "Which of the farthest reaches is the limit, counted from the largest and fixed beforehand: with 2 it scatters "
-        "less than with 1, but needs more runs.",
-        default=2,
-        at_least=1,
-        at_most=1000,
-    )
+    raised_later: ClassVar[tuple[str, ...]] = ()
+    """Keys that count runs. They may be raised in a folder that was begun: all runs that are done stay."""
+
+    scenario: str = schema.key("Path of the scenario file, from the folder of this file.")
+    seed: int = schema.key("Start of the random numbers.", default=0, at_least=0, at_most=LARGEST_INTEGER)
     least_mass_kg: float = schema.key(
-        "Lightest shard that is a hazard: the reach does not count lighter ones.", default=0.0, unit="kg", at_least=0
+        "Lightest shard that is a hazard: the debris distance does not count lighter ones.",
+        default=0.0,
+        unit="kg",
+        at_least=0,
     )
     time_limit_s: float | None = schema.key(
-        "Time after which a run is ended that hangs; it counts as one of unlimited reach. By default none.",
+        "Time after which a run that hangs is ended. It counts as a run of unlimited debris distance that met no "
+        "criterion. By default none.",
         default=None,
         unit="s",
         above=0,
     )
     memory_limit_mb: float | None = schema.key(
-        "Memory of a run's process above which it is ended, on Linux; it counts as one of unlimited reach. By default "
-        "none.",
+        "Memory of a run's process above which it is ended, on Linux. The run counts as with `time_limit_s`. By "
+        "default none.",
         default=None,
         unit="MB",
         above=0,
@@ -146,3 +137,36 @@ class StudySettings(Table):
     )
     vary: tuple[Vary, ...] = ()
     criteria: tuple[Criterion, ...] = ()
+
+    @property
+    def shared_text(self) -> str:
+        """What all kinds share, in TOML."""
+        shared = {item.name: getattr(self, item.name) for item in fields(EnsembleSettings)}
+        return tables_text(EnsembleSettings(**shared))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudySettings(EnsembleSettings):
+    """What is run, how often, and what is to be stated."""
+
+    table: ClassVar[str] = "study"
+    raised_later: ClassVar[tuple[str, ...]] = ("runs",)
+
+    runs: int = schema.key(
+        "Number of runs. Fix it beforehand: a limit that is looked at after every run, until it pleases, does not "
+        "have its confidence.",
+        default=93,
+        at_least=1,
+        at_most=10_000_000,
+    )
+    quantile: float = schema.key("Part of all runs that the limit is for.", default=0.95, at_least=0.5, at_most=0.9999)
+    confidence: float = schema.key(
+        "Probability with which the limit holds for that part.", default=0.95, at_least=0.5, at_most=0.9999
+    )
+    rank: int = schema.key(
+        "Which of the largest debris distances is the limit, counted from the largest and fixed beforehand: with 2 it "
+        "scatters less than with 1, but needs more runs.",
+        default=2,
+        at_least=1,
+        at_most=1000,
+    )

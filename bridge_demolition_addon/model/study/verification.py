@@ -13,7 +13,7 @@ from manifold3d import CrossSection
 
 from ...engineering.geometry.plan_areas import signed_area
 from ..scenario import Zone
-from .statements import Chance, chance_of
+from .conclusions import Proportion, proportion
 
 _BEYOND_M2 = 1e-4
 """Area beyond a zone that counts; what is kept of a run may stray by a millimetre."""
@@ -30,8 +30,8 @@ def holds(zone: Zone, area: CrossSection) -> bool:
     return (area - zone_area(zone)).area() <= _BEYOND_M2
 
 
-def chance_of_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], confidence: float) -> Chance:
-    """Return how likely debris leaves a zone in plan.
+def proportion_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], confidence: float) -> Proportion:
+    """Return how often debris leaves a zone in plan.
 
     Parameters
     ----------
@@ -44,4 +44,4 @@ def chance_of_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], 
         Of the limits.
     """
     left = [rings is None or (bool(len(rings)) and not holds(zone, CrossSection(list(rings)))) for rings in swept]
-    return chance_of(f"left the zone {zone.name}", np.array(left, bool), confidence)
+    return proportion(f"left the zone {zone.name}", np.array(left, bool), confidence)

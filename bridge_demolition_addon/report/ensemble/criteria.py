@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from ...model.study.conclusions import Proportion
 from ...model.study.criteria import Criterion
-from ...model.study.statements import Chance
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section
+from ..wording.study import success_sentence
 from .study_runs import StudyRuns
 
 _COLUMNS = (
@@ -38,13 +39,13 @@ def criteria_section(runs: StudyRuns) -> Section:
     ]
     rows.append(("all of them", "", *_numbers(runs.said.success)))
     blocks: list[Block] = [Paragraph(words), DataTable("criteria", "Criteria", _COLUMNS, rows)]
-    blocks.append(Paragraph(runs.said.success.success_sentence))
+    blocks.append(Paragraph(success_sentence(runs.said.success)))
     return Section("Criteria", tuple(blocks))
 
 
-def _numbers(chance: Chance) -> tuple[int, int, float, float, float]:
-    shares = chance.happened / chance.runs, chance.at_least, chance.at_most
-    return chance.happened, chance.runs, *(100.0 * share for share in shares)
+def _numbers(proportion: Proportion) -> tuple[int, int, float, float, float]:
+    shares = proportion.count / proportion.runs, proportion.at_least, proportion.at_most
+    return proportion.count, proportion.runs, *(100.0 * share for share in shares)
 
 
 def _asked(criterion: Criterion) -> str:

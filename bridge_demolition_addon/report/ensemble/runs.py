@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...model.study.runs_table import DONE, REACH, Row
+from ...model.study.runs_table import DONE, REACH, RunRow
 from ..document.blocks import Block, Column, DataTable, Paragraph, Photo, Section
 from .influence import correlations_of
 from .study_runs import StudyRuns, shown
@@ -80,14 +80,14 @@ def _strongest_inputs(runs: StudyRuns) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*strongest, *runs.varied]))[:_MOST_INPUTS]
 
 
-def _row(runs: StudyRuns, row: Row, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> tuple[Any, ...]:
+def _row(runs: StudyRuns, row: RunRow, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> tuple[Any, ...]:
     met = sum(row.outputs.get(name) is True for name in runs.criteria)
     criteria = (f"{met} of {len(runs.criteria)}" if row.status == DONE else None,) if runs.criteria else ()
     values = (*map(row.outputs.get, (REACH, *outputs)), *map(row.inputs.get, inputs))
     return row.number, row.status.replace("_", " "), *values, *criteria
 
 
-def _photos(runs: StudyRuns, row: Row, title: str) -> list[Photo]:
+def _photos(runs: StudyRuns, row: RunRow, title: str) -> list[Photo]:
     pictures = runs.pictures.get(row.number, {})
     reach = row.outputs[REACH]
     return [

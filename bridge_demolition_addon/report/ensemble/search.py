@@ -6,35 +6,32 @@ from functools import partial
 from pathlib import Path
 
 from ...charts.search_curve import search_curve
-from ...model.search.conclusions import sentences
-from ...model.search.curve import curve_of
+from ...model.ensemble.folder import read_ensemble
+from ...model.search.conclusions import Answer
 from ...system.progress import Progress
 from ..document.blocks import Column, DataTable, Document, Listing, Paragraph, Picture, Report, Section
 from ..sections.cover import add_on_version
-from .search_folder import FoundSearch
+from ..wording.search import search_sentences
 
 
-def search_report(found: FoundSearch, _target: Path, _progress: Progress) -> Report:
+def read_answer(folder: Path) -> Answer:
+    """Read a search, and return its answer."""
+    return read_ensemble(folder).result()
+
+
+def search_report(answer: Answer, _target: Path, _progress: Progress) -> Report:
     """Return the report of a search."""
-    sections = (search_section(found), Section("Search file", (Listing(found.search.text),)))
+    sections = (search_section(answer), Section("Search file", (Listing(answer.search.text),)))
     subtitle = f"Report of a search in a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
-    return Report(Document(found.search.study.scenario.title, subtitle, sections))
+    return Report(Document(answer.search.scenario.title, subtitle, sections))
 
 
-def search_section(found: FoundSearch) -> Section:
-    """Return what a search found."""
-    search, trials, answer = found.search, found.trials, found.answer
-    said = [Paragraph(text) for text in sentences(search, answer, found.reason)]
-    curve = curve_of(search, trials)
+def search_section(answer: Answer) -> Section:
+    """Return the answer of a search."""
+    search, trials = answer.search, answer.trials
+    said = [Paragraph(text) for text in search_sentences(answer)]
     picture = Picture(
-        partial(
-            search_curve,
-            search=search,
-            values=found.values,
-            successes=trials.successes,
-            answer=answer,
-            curve=curve,
-        ),
+        partial(search_curve, answer=answer),
         f"All trials, and how likely success is along {search.settings.key}.",
         110.0,
     )
@@ -46,7 +43,7 @@ def search_section(found: FoundSearch) -> Section:
     )
     rows = [
         (number, float(value), "met" if success else "not met")
-        for number, (value, success) in enumerate(zip(found.values, trials.successes, strict=True), start=1)
+        for number, (value, success) in enumerate(zip(answer.values, trials.successes, strict=True), start=1)
     ]
     table = DataTable("trials", "Trials", columns, rows)
     trust = Paragraph(

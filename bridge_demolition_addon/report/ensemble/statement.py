@@ -8,10 +8,11 @@ from functools import partial
 
 from ...charts.study_charts import limit_over_runs, reach_distribution
 from ...engineering.statistics.order_limits import limits_by_runs
-from ...model.study.conclusions import sentences, words_of_inputs
+from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.runs_table import DONE
-from ...model.study.statements import LimitsAtOnce, ordinal, percent, rounded_up
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+from ..wording.numbers import ordinal, percent, rounded_up
+from ..wording.study import input_names, study_sentences
 from .study_runs import StudyRuns, shown
 
 
@@ -21,7 +22,7 @@ def statement_section(runs: StudyRuns, version: str) -> Section:
     if runs.said is None:
         blocks.append(Paragraph(_not_yet(runs), is_notice=True))
     else:
-        first, *others = sentences(runs.study, runs.said)
+        first, *others = study_sentences(runs.study, runs.said)
         blocks += [Paragraph(first, is_notice=True), *map(Paragraph, others)]
     blocks += [Paragraph(text, is_notice=True) for text in _doubts(runs)]
     blocks.append(facts("The study", list(_study_facts(runs, version)), "study"))
@@ -108,22 +109,22 @@ def _study_facts(runs: StudyRuns, version: str) -> Iterator[tuple[str, str]]:
     )
     if runs.said:
         reach = runs.said.reach
-        if math.isfinite(reach.limit_m):
+        if reach.is_known:
             yield "Limit of the reach", f"{rounded_up(reach.limit_m, '0.01')} m"
         yield (
             "So many runs allow",
             (
-                f"{percent(settings.quantile)} of runs with {100.0 * reach.sure:.2f} % confidence, or "
-                f"{100.0 * reach.share:.2f} % of runs with {percent(settings.confidence)} confidence"
+                f"{percent(settings.quantile)} of runs with {100.0 * reach.achieved_confidence:.2f} % confidence, or "
+                f"{100.0 * reach.coverage:.2f} % of runs with {percent(settings.confidence)} confidence"
             ),
         )
-    yield "Varied", ", ".join(words_of_inputs(runs.study))
+    yield "Varied", ", ".join(input_names(runs.study))
     yield "Seed of the study", str(settings.seed)
     yield "Run with", ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())
     yield "Bridge Demolition Add-on", version
 
 
-def _limits_at_once(at_once: LimitsAtOnce) -> list[Block]:
+def _limits_at_once(at_once: SimultaneousLimits) -> list[Block]:
     if not all(map(math.isfinite, at_once.limits.values())):
         return [Paragraph("Several limits that hold at once are not known, because of runs that did not finish.")]
     words = (

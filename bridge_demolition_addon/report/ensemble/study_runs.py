@@ -15,12 +15,11 @@ from manifold3d import CrossSection
 from ...engineering.geometry.plan_areas import outlines
 from ...engineering.statistics.probability_map import LEVELS, ProbabilityMap, probability_map
 from ...model.debris.exclusion import widened_around
-from ...model.study.conclusions import Conclusions, conclusions
+from ...model.study.conclusions import Conclusions, Proportion, conclusions
 from ...model.study.criteria import Criterion
 from ...model.study.file import SEED, Study
 from ...model.study.runs_table import REACH, RunsTable
-from ...model.study.statements import Chance
-from ...model.study.verification import chance_of_leaving, holds
+from ...model.study.verification import holds, proportion_leaving
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,12 +79,12 @@ class StudyRuns:
         return tuple(name for name in self.table.inputs if name != SEED)
 
     @cached_property
-    def zones_left(self) -> list[Chance]:
+    def zones_left(self) -> list[Proportion]:
         """How likely debris leaves each zone of the scenario that holds the bridge."""
         zones = (
             [] if self.bridge.is_empty() else [each for each in self.study.scenario.zones if holds(each, self.bridge)]
         )
-        return [chance_of_leaving(zone, self.swept, self.study.settings.confidence) for zone in zones]
+        return [proportion_leaving(zone, self.swept, self.study.settings.confidence) for zone in zones]
 
     @cached_property
     def numbers(self) -> tuple[str, ...]:

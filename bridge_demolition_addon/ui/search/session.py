@@ -11,12 +11,10 @@ from pathlib import Path
 import bpy
 
 from ...errors import DemolitionError, text_of
-from ...model.search.conclusions import sentences
-from ...model.search.curve import curve_of, write_curve
 from ...model.search.file import Search
-from ...model.search.files import CURVE_FILE, CURVE_PICTURE
-from ...studies.folder import StudyFolder
-from ...studies.search_run import SearchRun
+from ...model.study.files import CURVE_PICTURE
+from ...report.wording.search import search_sentences
+from ...studies.session import EnsembleSession
 from ..study.prop import redraw_views
 from ..study.session import engine_for
 
@@ -64,39 +62,18 @@ class SearchAtWork:
 
     def __init__(self, search: Search, path: Path, jobs: int):
         self.search, self.path = search, path
-        self._engine = engine_for(search.study, jobs)
-        try:
-            self._folder = StudyFolder(path, search, self._engine.versions)
-        except BaseException:
-            self._engine.close()
-            raise
-        self._has_ended = False
-        self.run = SearchRun(search, self._folder, self._engine)
+        self.run = EnsembleSession(search, path, engine_for(search, jobs))
 
     def end(self) -> None:
         """End all trials at work, and keep the table of those that have ended; once more is nothing."""
-        if self._has_ended:
-            return
-        self._has_ended = True
-        try:
-            self._engine.close()
-            self.run.write_trials()
-        finally:
-            self._folder.release()
+        self.run.stop()
 
     def finish(self) -> FoundBySearch:
         """Keep what all trials say, and return it."""
-        from ...charts.search_curve import save_search_curve
-
-        answer, run, picture = self.run.write_answer(), self.run, self.path / CURVE_PICTURE
-        curve = curve_of(self.search, run.trials)
-        if curve is not None:
-            write_curve(curve, self.path / CURVE_FILE)
-        save_search_curve(picture, self.search, run.values, run.trials.successes, answer, curve)
-        self.end()
-        said = sentences(self.search, answer, run.reason)
+        run = self.run
+        answer, _ = run.finish()
         lost = [f"{run.lost} trials did not finish, and count as no success: see trials.csv"] if run.lost else []
-        return FoundBySearch((*said, *lost), picture)
+        return FoundBySearch((*search_sentences(answer), *lost), self.path / CURVE_PICTURE)
 
 
 def begin(search: Search, path: Path, jobs: int) -> None:
@@ -144,7 +121,7 @@ def look_in() -> float | None:
     before = at_work.run.done
     try:
         at_work.run.step(0.0)
-        if at_work.run.reason is not None:
+        if at_work.run.is_finished:
             _at_work.clear()
             _found[:] = [at_work.finish()]
     except (DemolitionError, OSError) as error:

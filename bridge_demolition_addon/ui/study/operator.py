@@ -7,8 +7,8 @@ from pathlib import Path
 import bpy
 
 from ...errors import OutputError
-from ...model.study.draws import draw_of
 from ...model.study.file import Study, read_study, study_of
+from ...model.study.sampled_runs import sampled_run
 from ...model.study.settings import StudySettings
 from ..operators import Action, absolute
 from ..scenario.operator import BDA_OT_build_anew, build_and_show, stop_playing
@@ -146,7 +146,7 @@ class BDA_OT_open_worst_draw(Action, bpy.types.Operator):
             raise OutputError("No draw of this study finished")
         number = int(runs.table.numbers[row])
         stop_playing(context)
-        scene, scenario = context.scene, draw_of(runs.study, number).scenario
+        scene, scenario = context.scene, sampled_run(runs.study, number).scenario
         build_and_show(scene, scenario, anew=scene.rigidbody_world is not None)
         settings.scenario_path = settings.loaded_path = ""
         return f"Draw {number}, whose debris got {runs.reaches_m[row]:.1f} m far"

@@ -14,15 +14,14 @@ from manifold3d import CrossSection
 
 from ...display.ground_lines import map_triangles, outline_lines
 from ...errors import DemolitionError, text_of
-from ...model.study.conclusions import sentences
-from ...model.study.file import Study
+from ...model.study.file import Ensemble, Study
 from ...report.ensemble.study_folder import read_study_runs
 from ...report.ensemble.study_runs import StudyRuns
-from ...studies.draw_process import Limits
-from ...studies.draw_program import draw_command
-from ...studies.folder import StudyFolder
-from ...studies.local import LocalProcesses
-from ...studies.study_run import StudyRun
+from ...report.wording.study import study_sentences
+from ...studies.engine import LocalProcesses
+from ...studies.run_process import RunLimits
+from ...studies.run_program import run_program_command
+from ...studies.session import EnsembleSession
 from ...studies.versions import versions_with
 from .prop import redraw_views
 
@@ -61,7 +60,7 @@ class ShownStudy:
         total = runs.study.settings.runs
         said = (f"{len(runs.table)} of {total} draws are there: a study says nothing before all of them are.",)
         if runs.said:
-            said = tuple(sentences(runs.study, runs.said))
+            said = tuple(study_sentences(runs.study, runs.said))
         triangles = map_triangles(runs.map) if runs.map else (np.zeros((0, 3)), np.zeros((0, 4)))
         return cls(runs, said, triangles, outline_lines(runs.limit or CrossSection()))
 
@@ -86,36 +85,21 @@ class StudyAtWork:
 
     def __init__(self, study: Study, path: Path, jobs: int):
         self.path = path
-        self._engine = engine_for(study, jobs)
-        try:
-            self._folder = StudyFolder(path, study, self._engine.versions)
-        except BaseException:
-            self._engine.close()
-            raise
-        self._has_ended = False
-        self.run = StudyRun(study, self._folder, self._engine)
+        self.run = EnsembleSession(study, path, engine_for(study, jobs))
 
     def end(self) -> None:
         """End all draws at work, and keep the table of those that have ended; once more is nothing."""
-        if self._has_ended:
-            return
-        self._has_ended = True
-        try:
-            self._engine.close()
-            self.run.write_tables()
-        finally:
-            self._folder.release()
+        self.run.stop()
 
     def finish(self) -> None:
         """Keep what follows from all draws."""
-        self.run.write_conclusions()
-        self.end()
+        self.run.finish()
 
 
-def engine_for(study: Study, jobs: int) -> LocalProcesses:
+def engine_for(study: Ensemble, jobs: int) -> LocalProcesses:
     """Return what runs the draws of a study, each in a Blender like this one, some at a time."""
-    limits = Limits.of(study.settings)
-    command = draw_command(bpy.app.binary_path)  # an empty path where Blender is a module of Python
+    limits = RunLimits.of(study.settings)
+    command = run_program_command(bpy.app.binary_path)  # an empty path where Blender is a module of Python
     return LocalProcesses(jobs, limits, command, versions_with(".".join(map(str, bpy.app.version))))
 
 

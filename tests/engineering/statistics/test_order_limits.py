@@ -9,12 +9,12 @@ from scipy.stats import beta, lognorm, quantile_test
 from support.checkout import ROOT
 
 from bridge_demolition_addon.engineering.statistics.order_limits import (
-    confidence_of,
+    achieved_confidence,
+    coverage,
     least_runs,
     limits_by_runs,
-    most_touching,
+    most_support,
     nth_largest,
-    share_within,
 )
 from bridge_demolition_addon.engineering.statistics.proportions import upper_limit
 
@@ -74,25 +74,25 @@ def test_shapes_need_the_runs_of_campi_and_garatti(dimensions, runs):
     ],
 )
 def test_ranks_are_those_of_the_tables(quantile, runs, rank_from_below):
-    assert runs + 1 - most_touching(runs, quantile, 0.95) == rank_from_below
+    assert runs + 1 - most_support(runs, quantile, 0.95) == rank_from_below
 
 
 @pytest.mark.parametrize("runs", [59, 93, 150, 480])
 def test_limits_are_the_upper_ends_of_scipys_intervals_of_a_quantile(runs):
     values = np.random.default_rng(runs).lognormal(size=runs)
     interval = quantile_test(values, p=0.95, alternative="less").confidence_interval(0.95)
-    assert nth_largest(values, most_touching(runs, 0.95, 0.95)) == interval.high
+    assert nth_largest(values, most_support(runs, 0.95, 0.95)) == interval.high
 
 
 def test_too_few_runs_allow_no_rank():
-    assert (most_touching(58, 0.95, 0.95), most_touching(59, 0.95, 0.95)) == (0, 1)
+    assert (most_support(58, 0.95, 0.95), most_support(59, 0.95, 0.95)) == (0, 1)
 
 
 @pytest.mark.parametrize("touching, runs", [(1, 59), (2, 93), (17, 480)])
 def test_share_and_confidence_are_two_sides_of_one_limit(touching, runs):
-    share = share_within(touching, runs, 0.95)
+    share = coverage(touching, runs, 0.95)
     assert share == pytest.approx(1.0 - beta.ppf(0.95, touching, runs - touching + 1), abs=1e-12)
-    assert confidence_of(touching, runs, share) == pytest.approx(0.95, abs=1e-12)
+    assert achieved_confidence(touching, runs, share) == pytest.approx(0.95, abs=1e-12)
 
 
 def test_runs_without_an_end_are_the_largest():
@@ -118,7 +118,7 @@ def quantile_of_two_humps(quantile):
 def test_limits_of_2000_ensembles_hold_as_often_as_promised(rank, runs):
     draws = two_humps(np.random.default_rng(20 + rank), (ENSEMBLES, runs))
     limits = np.array([nth_largest(each, rank) for each in draws])
-    promised = confidence_of(rank, runs, 0.95)
+    promised = achieved_confidence(rank, runs, 0.95)
     assert promised >= 0.95
     assert np.mean(limits >= quantile_of_two_humps(0.95)) == pytest.approx(promised, abs=tolerance(promised))
 
@@ -128,7 +128,7 @@ def test_two_limits_at_once_hold_in_as_many_of_2000_ensembles_as_promised():
     draws = generator.random((ENSEMBLES, 93, 2))
     # Of two independent evenly spread quantities the limits' product is the share that stays within both.
     shares = draws.max(axis=1).prod(axis=1)
-    promised = confidence_of(2, 93, 0.95)
+    promised = achieved_confidence(2, 93, 0.95)
     assert np.mean(shares >= 0.95) == pytest.approx(promised, abs=tolerance(promised))
 
 
@@ -144,7 +144,7 @@ def test_shapes_around_runs_hold_less_than_a_limit_fixed_before():
     generator = np.random.default_rng(3)
     draws = generator.random((ENSEMBLES, 59, 2))
     shares = (draws.max(axis=1) - draws.min(axis=1)).prod(axis=1)
-    promised = confidence_of(4, 59, 0.95)
+    promised = achieved_confidence(4, 59, 0.95)
     assert promised < 0.35
     assert np.mean(shares >= 0.95) == pytest.approx(promised, abs=tolerance(promised))
 

@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 from scipy.special import ndtr, ndtri
 
-from bridge_demolition_addon.model.optimise.candidates_table import front_of
-from bridge_demolition_addon.model.optimise.rounds import CONFIRMATION, FINAL, SEARCH, Result, Rounds, quantile_of
-from bridge_demolition_addon.model.optimise.settings import OptimiseSettings, Quantity
+from bridge_demolition_addon.model.optimise.conclusions import front_of
+from bridge_demolition_addon.model.optimise.rounds import (
+    CONFIRMATION,
+    FINAL,
+    SEARCH,
+    CandidateResult,
+    Rounds,
+    quantile_of,
+)
+from bridge_demolition_addon.model.optimise.settings import ChosenQuantity, OptimiseSettings
 from bridge_demolition_addon.model.study.criteria import Criterion
 from bridge_demolition_addon.studies.proposals import OptunaProposals
 
@@ -18,7 +25,7 @@ BEST = np.array([0.3, 0.6, 0.45, 0.8, 0.2])
 
 def settings(**changes):
     """Settings of five quantities; what they are called in a scenario does not matter here."""
-    quantities = tuple(Quantity(key=f"ball.target_m.{each}", lowest=0.0, highest=1.0) for each in range(1, 6))
+    quantities = tuple(ChosenQuantity(key=f"ball.target_m.{each}", lowest=0.0, highest=1.0) for each in range(1, 6))
     criteria = (Criterion(name="down", kind="collapsed"),)
     given = {"scenario": "none", "objective": "reach", "quantile": QUANTILE, "finalist_runs": 20, **changes}
     return OptimiseSettings(quantities=quantities, criteria=criteria, **given)
@@ -33,7 +40,7 @@ class ByChance:
     def propose(self):
         return self._rng.random(self._size)
 
-    def told(self, number, value, shortfall):
+    def record_result(self, number, value, shortfall):
         pass
 
 
@@ -64,7 +71,7 @@ def played(rounds, bowl):
     """Make all runs, the last that may be made first."""
     while not rounds.is_finished:
         for run in reversed(list(rounds.open())):
-            rounds.take(run, bowl.outputs(rounds.candidates[run.candidate].shares, run.draw))
+            rounds.take(run, bowl.outputs(rounds.candidates[run.candidate].shares, run.number))
     return rounds
 
 
@@ -104,7 +111,7 @@ def test_what_is_confirmed_is_true_in_the_mean_and_what_was_seen_in_the_search_i
 def test_no_draw_is_in_two_rounds_and_all_candidates_have_the_same():
     asked = settings(candidates=25, runs_each=3, finalists=4, finalist_runs=7, confirmation_runs=30)
     rounds = played(Rounds(asked, ByChance(5, 3)), NoisyBowl(3))
-    draws = [rounds.draws(name) for name in (SEARCH, FINAL, CONFIRMATION)]
+    draws = [rounds.run_numbers(name) for name in (SEARCH, FINAL, CONFIRMATION)]
     assert [list(each)[:: len(each) - 1] for each in draws] == [[1, 3], [4, 10], [11, 40]]
     for number, candidate in enumerate(rounds.candidates):
         wanted = set(draws[0])
@@ -120,7 +127,7 @@ def test_candidates_do_not_depend_on_the_order_in_which_runs_end():
     forwards = Rounds(asked, OptunaProposals(5, 5))
     while not forwards.is_finished:
         run = next(forwards.open())
-        forwards.take(run, bowl.outputs(forwards.candidates[run.candidate].shares, run.draw))
+        forwards.take(run, bowl.outputs(forwards.candidates[run.candidate].shares, run.number))
     assert forwards.chosen == backwards.chosen and forwards.finalists == backwards.finalists
     for one, other in zip(forwards.candidates, backwards.candidates, strict=True):
         assert (one.shares == other.shares).all()
@@ -141,7 +148,7 @@ def test_runs_that_did_not_finish_are_no_success_and_have_no_end():
             return {}
 
     rounds = played(Rounds(settings(), OptunaProposals(5, 1)), AllLost(1))
-    assert rounds.result(rounds.chosen, CONFIRMATION) == Result(np.inf, 0, 59)
+    assert rounds.result(rounds.chosen, CONFIRMATION) == CandidateResult(np.inf, 0, 59)
 
 
 def test_the_quantile_is_that_of_numpy_and_its_median_the_true_one():

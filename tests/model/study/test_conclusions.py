@@ -25,12 +25,12 @@ def test_a_study_says_how_far_and_how_likely():
     reaches_m = [row.outputs["reach_m"] for row in table().rows]
     assert (said.statuses, said.reach.limit_m) == ({"done": 93}, sorted(reaches_m)[-2])
     met = [[row.outputs[each.output] for row in table().rows] for each in STUDY.criteria]
-    assert [each.happened for each in said.criteria] == np.sum(met, axis=1).tolist()
+    assert [each.count for each in said.criteria] == np.sum(met, axis=1).tolist()
     assert [each.what for each in said.criteria][:2] == [
         "met the criterion mid span down",
         "met the criterion road stays free",
     ]
-    assert said.success.happened == np.all(met, axis=0).sum() < 93
+    assert said.success.count == np.all(met, axis=0).sum() < 93
     assert said.at_once.limits["reach_m"] == max(reaches_m)
 
 
@@ -40,8 +40,8 @@ def test_a_run_that_crashed_reaches_without_end_and_meets_nothing():
     said, before = conclusions(STUDY, table(crashed=crashed)), conclusions(STUDY, table())
     assert said.statuses == {"crashed": 2, "done": 91}
     assert said.as_json()["reach"]["limit_m"] is None
-    assert [each.happened + 2 for each in said.criteria] == [each.happened for each in before.criteria]
-    assert said.success.happened == before.success.happened - 2
+    assert [each.count + 2 for each in said.criteria] == [each.count for each in before.criteria]
+    assert said.success.count == before.success.count - 2
 
 
 def test_conclusions_are_json():

@@ -7,13 +7,13 @@ import pandas
 import pytest
 
 from bridge_demolition_addon.model.study.runs_sheet import write_sheet
-from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, write_runs
+from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, write_runs
 
 TABLE = RunsTable(
     (
-        Row(1, "done", {"ball.mass_kg": 5000.25, "kind": "TNT"}, {"reach_m": 12.5, "down": True, "rest_s": None}),
-        Row(2, "crashed", {"ball.mass_kg": 0.1 + 0.2, "kind": "=PETN"}, {}),
-        Row(3, "done", {"ball.mass_kg": 1e-7, "kind": "TNT"}, {"reach_m": math.nan, "down": False, "rest_s": 3.5}),
+        RunRow(1, "done", {"ball.mass_kg": 5000.25, "kind": "TNT"}, {"reach_m": 12.5, "down": True, "rest_s": None}),
+        RunRow(2, "crashed", {"ball.mass_kg": 0.1 + 0.2, "kind": "=PETN"}, {}),
+        RunRow(3, "done", {"ball.mass_kg": 1e-7, "kind": "TNT"}, {"reach_m": math.nan, "down": False, "rest_s": 3.5}),
     )
 )
 

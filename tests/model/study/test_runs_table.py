@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.errors import OutputError
-from bridge_demolition_addon.model.study.runs_table import Row, RunsTable, read_runs, write_runs
+from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, read_runs, write_runs
 
 ROWS = (
-    Row(
+    RunRow(
         1,
         "done",
         {"ball.mass_kg": 5000.25, 'charges."mid, pier".kind': "TNT"},
         {"reach_m": 12.5, "down": True, "shards": 40},
     ),
-    Row(2, "crashed", {"ball.mass_kg": 1e-7, 'charges."mid, pier".kind': "PETN"}, {}),
-    Row(
+    RunRow(2, "crashed", {"ball.mass_kg": 1e-7, 'charges."mid, pier".kind': "PETN"}, {}),
+    RunRow(
         3, "done", {"ball.mass_kg": 0.1 + 0.2, 'charges."mid, pier".kind': "TNT"}, {"reach_m": math.nan, "down": False}
     ),
 )
@@ -90,7 +90,7 @@ def test_a_table_that_is_not_there_is_named(tmp_path):
 def test_the_median_and_the_worst_row_are_of_runs_that_finished():
     reaches = {1: 4.0, 2: 9.0, 3: None, 4: 1.0, 5: 6.0}
     rows = [
-        Row(number, "crashed" if reach_m is None else "done", {}, {} if reach_m is None else {"reach_m": reach_m})
+        RunRow(number, "crashed" if reach_m is None else "done", {}, {} if reach_m is None else {"reach_m": reach_m})
         for number, reach_m in reaches.items()
     ]
     table = RunsTable(tuple(rows))

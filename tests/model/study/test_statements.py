@@ -8,18 +8,14 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
-from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.study.statements import (
-    as_json,
-    chance_of,
-    check_runs,
-    limits_at_once,
-    listed,
-    ordinal,
-    reach_limit,
-    rounded_down,
-    rounded_up,
+from bridge_demolition_addon.model.study.conclusions import as_json, debris_limit, proportion, simultaneous_limits
+from bridge_demolition_addon.report.wording.numbers import listed, ordinal, rounded_down, rounded_up
+from bridge_demolition_addon.report.wording.study import (
+    harm_sentence,
+    limit_sentence,
+    repeat_sentence,
     shape_sentence,
+    success_sentence,
     verified_sentence,
 )
 
@@ -30,20 +26,20 @@ INPUTS = ["the charges' masses", "the fracture seed"]
 
 
 def test_the_limit_is_said_as_a_report_has_to():
-    limit = reach_limit(REACHES_M, 0.95, 0.95, 2)
-    assert limit.sentence(INPUTS, 5.0, 10.0) == (
+    limit = debris_limit(REACHES_M, 0.95, 0.95, 2)
+    assert limit_sentence(limit, INPUTS, 5.0, 10.0) == (
         "In 93 independent runs, in which the charges' masses and the fracture seed were drawn from the distributions "
         "of this study, debris of 5 kg or more stayed within 22.8 m of the bridge's plan in all but 1. With 95 % "
         "confidence at least 95 % of such runs stay within it. This says how the model scatters; it does not cover "
         "what the model leaves out, such as pieces smaller than a shard, for which the buffer of 10 m is added, 32.8 m "
         "in all."
     )
-    assert (limit.limit_m, limit.farther, limit.unfinished) == (22.76, 1, 0)
-    assert (round(limit.sure, 4), round(limit.share, 4)) == (0.9500, 0.9500)
+    assert (limit.limit_m, limit.exceedances, limit.unfinished) == (22.76, 1, 0)
+    assert (round(limit.achieved_confidence, 4), round(limit.coverage, 4)) == (0.9500, 0.9500)
 
 
 def test_without_a_mass_or_a_buffer_none_is_named():
-    sentence = reach_limit(REACHES_M[:59], 0.95, 0.95, 1).sentence(["the fracture seed"], 0.0, None)
+    sentence = limit_sentence(debris_limit(REACHES_M[:59], 0.95, 0.95, 1), ["the fracture seed"], 0.0, None)
     assert "in which the fracture seed was drawn from" in sentence
     assert ", debris stayed within " in sentence and " in all of them. " in sentence
     assert sentence.endswith("for which a buffer has to be added.")
@@ -52,10 +48,10 @@ def test_without_a_mass_or_a_buffer_none_is_named():
 def test_a_run_that_did_not_finish_reaches_without_end():
     reaches_m = REACHES_M.copy()
     reaches_m[7] = np.inf
-    limit = reach_limit(reaches_m, 0.95, 0.95, 2)
+    limit = debris_limit(reaches_m, 0.95, 0.95, 2)
     farthest_m = np.delete(REACHES_M, 7).max()
-    assert (limit.unfinished, limit.farther, limit.limit_m) == (1, 1, farthest_m)
-    assert "in all but 1, which did not finish." in limit.sentence(INPUTS, 0.0, None)
+    assert (limit.unfinished, limit.exceedances, limit.limit_m) == (1, 1, farthest_m)
+    assert "in all but 1, which did not finish." in limit_sentence(limit, INPUTS, 0.0, None)
 
 
 @pytest.mark.parametrize(
@@ -64,78 +60,82 @@ def test_a_run_that_did_not_finish_reaches_without_end():
 def test_it_is_said_how_many_of_the_farthest_did_not_finish(unfinished, words):
     reaches_m = np.arange(124.0)
     reaches_m[:unfinished] = np.inf
-    assert words in reach_limit(reaches_m, 0.95, 0.95, 3).sentence(INPUTS, 0.0, None)
+    assert words in limit_sentence(debris_limit(reaches_m, 0.95, 0.95, 3), INPUTS, 0.0, None)
 
 
 def test_too_many_unfinished_runs_leave_no_limit():
     reaches_m = REACHES_M.copy()
     reaches_m[[3, 50]] = np.inf
-    limit = reach_limit(reaches_m, 0.95, 0.95, 2)
-    sentence = limit.sentence(INPUTS, 0.0, None)
+    limit = debris_limit(reaches_m, 0.95, 0.95, 2)
+    sentence = limit_sentence(limit, INPUTS, 0.0, None)
     assert sentence.startswith("These runs set no limit: 2 of 93 did not finish") and " stay within " not in sentence
     assert as_json(limit)["limit_m"] is None
 
 
 @pytest.mark.parametrize(
-    "runs, rank, needed", [(58, 1, "at least 59,"), (92, 2, "at least 93, or 59 with study.rank = 1"), (5, 5, "181")]
+    "runs, rank, needed",
+    [(58, 1, "59 runs, has 58."), (92, 2, "93 runs (or 59 with study.rank = 1), has 92."), (1, 5, "181 runs (or 59 ")],
 )
-def test_too_few_runs_are_refused_with_the_number_that_is_needed(runs, rank, needed):
-    with pytest.raises(ScenarioError, match=f"study.runs is {runs}: expected .*{needed}"):
-        reach_limit(np.zeros(runs), 0.95, 0.95, rank)
-    check_runs(int(needed.split()[-1].strip(",")) if rank == 5 else runs + 1, 0.95, 0.95, rank)
+def test_too_few_runs_set_no_limit_and_the_number_that_is_needed_is_named(runs, rank, needed):
+    limit = debris_limit(np.arange(float(runs)), 0.95, 0.95, rank)
+    assert not limit.has_enough_runs and not limit.is_known and limit.achieved_confidence < 0.95
+    assert as_json(limit)["limit_m"] is None and as_json(limit)["runs_needed"] == int(needed.split()[0])
+    assert f"Too few runs for a limit yet: it needs {needed}" in limit_sentence(limit, INPUTS, 0.0, None)
+    enough = debris_limit(np.arange(float(limit.runs_needed)), 0.95, 0.95, rank)
+    assert enough.is_known and enough.achieved_confidence >= 0.95
 
 
 def test_the_spread_of_the_limit_is_said():
-    sentence = reach_limit(REACHES_M, 0.95, 0.95, 2).spread_sentence
+    sentence = repeat_sentence(debris_limit(REACHES_M, 0.95, 0.95, 2))
     # Both of the two farthest of 186 runs are new ones: 1/2 · 92/185.
-    assert sentence.endswith("; in 24.87 % of such studies it would lie beyond every reach seen here.")
+    assert sentence.endswith("; in 24.87 % of such studies it would lie beyond every distance seen here.")
     # The 7th largest, 21.51 m: of the eight farthest at most one is new in about 9 of 256 orders, of seven in 8 of 128.
     assert "its limit would lie above 21.5 m, with 95 % confidence; " in sentence
-    both = reach_limit(np.arange(1000.0), 0.95, 0.95, 38).spread_sentence
+    both = repeat_sentence(debris_limit(np.arange(1000.0), 0.95, 0.95, 38))
     assert "with 95 % confidence each" in both and " and not above " in both
 
 
 @pytest.mark.parametrize("happened", [0, 5, 93])
 def test_criteria_have_limits_of_their_own(happened):
     met = np.arange(93) < happened
-    chance = chance_of("brought the span down", met, 0.95)
+    share = proportion("brought the span down", met, 0.95)
     least = binomtest(happened, 93, alternative="greater").proportion_ci(0.95, method="exact").low
     most = binomtest(happened, 93, alternative="less").proportion_ci(0.95, method="exact").high
-    assert (chance.at_least, chance.at_most) == (pytest.approx(least, abs=1e-10), pytest.approx(most, abs=1e-10))
+    assert (share.at_least, share.at_most) == (pytest.approx(least, abs=1e-10), pytest.approx(most, abs=1e-10))
     counted = {0: "None of 93", 5: "5 of 93", 93: "All 93"}[happened]
-    assert chance.success_sentence.startswith(f"{counted} runs brought the span down. With 95 % confidence at least")
+    assert success_sentence(share).startswith(f"{counted} runs brought the span down. With 95 % confidence at least")
 
 
 def test_what_sentences_promise_is_rounded_to_the_side_of_safety():
-    never = chance_of("left the zone", np.zeros(59, bool), 0.95)
+    never = proportion("left the zone", np.zeros(59, bool), 0.95)
     assert never.at_most == pytest.approx(0.0495, abs=5e-5)
-    assert "at most 4.96 % of such runs do" in never.harm_sentence
-    always = chance_of("came down", np.ones(59, bool), 0.95)
-    assert "at least 95.04 % of such runs do" in always.success_sentence
+    assert "at most 4.96 % of such runs do" in harm_sentence(never)
+    always = proportion("came down", np.ones(59, bool), 0.95)
+    assert "at least 95.04 % of such runs do" in success_sentence(always)
     assert [rounded_up(value, "0.1") for value in (0.3, 0.1 + 0.2, 22.71, -1.0)] == ["0.3", "0.3", "22.8", "-1.0"]
     assert [rounded_down(value, "0.01") for value in (0.29, 0.2999)] == ["0.29", "0.29"]
 
 
 def test_several_outputs_are_limited_at_once_by_the_ranks_that_runs_allow():
     outputs = {"reach_m": np.arange(93.0), "largest_force_N": np.arange(93.0) * 10.0}
-    both = limits_at_once(outputs, 0.95, 0.95)
+    both = simultaneous_limits(outputs, 0.95, 0.95)
     assert (both.limits, both.ranks) == (
         {"reach_m": 92.0, "largest_force_N": 920.0},
         {"reach_m": 1, "largest_force_N": 1},
     )
-    more = limits_at_once({name: np.resize(values, 124) for name, values in outputs.items()}, 0.95, 0.95)
+    more = simultaneous_limits({name: np.resize(values, 124) for name, values in outputs.items()}, 0.95, 0.95)
     assert more.ranks == {"reach_m": 2, "largest_force_N": 1}
-    assert limits_at_once({name: values[:92] for name, values in outputs.items()}, 0.95, 0.95) is None
-    assert limits_at_once({}, 0.95, 0.95) is None
+    assert simultaneous_limits({name: values[:92] for name, values in outputs.items()}, 0.95, 0.95) is None
+    assert simultaneous_limits({}, 0.95, 0.95) is None
 
 
 def test_fresh_runs_verify_a_zone_or_do_not():
-    none = verified_sentence(chance_of("left it", np.zeros(59, bool), 0.95), 0.95)
+    none = verified_sentence(proportion("left it", np.zeros(59, bool), 0.95), 0.95)
     assert none.startswith(
         "None of 59 runs left it. With 95 % confidence at most 4.96 % of such runs do. So it holds 95 % of such runs. "
         "This is so where the zone was fixed before these runs;"
     )
-    one = verified_sentence(chance_of("left it", np.arange(59) == 4, 0.95), 0.95)
+    one = verified_sentence(proportion("left it", np.arange(59) == 4, 0.95), 0.95)
     assert "does not show that it holds 95 %" in one
     assert "59 runs would, of which none leaves it, or 93, of which one does" in one
 
@@ -146,9 +146,9 @@ def test_a_zone_made_of_runs_is_called_no_limit():
 
 
 def test_statements_are_json():
-    limit = as_json(reach_limit(REACHES_M, 0.95, 0.95, 2))
+    limit = as_json(debris_limit(REACHES_M, 0.95, 0.95, 2))
     assert limit["again_below_m"] is None and limit["limit_m"] == 22.76
-    at_once = as_json(limits_at_once({"reach_m": np.append(REACHES_M[:58], math.inf)}, 0.95, 0.95))
+    at_once = as_json(simultaneous_limits({"reach_m": np.append(REACHES_M[:58], math.inf)}, 0.95, 0.95))
     assert at_once["limits"] == {"reach_m": None}
     json.dumps([limit, at_once], allow_nan=False)
 

@@ -13,12 +13,12 @@ from support.scenarios import SHORT_RUN
 
 import bridge_demolition_addon
 from bridge_demolition_addon.model.scenario.file import scenario_text
-from bridge_demolition_addon.model.study.draws import draw_of, inputs_of
 from bridge_demolition_addon.model.study.file import study_of
 from bridge_demolition_addon.model.study.runs_table import read_runs
+from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
-from bridge_demolition_addon.studies.draw_process import DrawProcess, Limits
-from bridge_demolition_addon.studies.draw_program import draw_command
+from bridge_demolition_addon.studies.run_process import RunLimits, RunProcess
+from bridge_demolition_addon.studies.run_program import run_program_command
 from bridge_demolition_addon.studies.versions import versions_with
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
 from bridge_demolition_addon.ui.study.ui import CLASSES
@@ -84,7 +84,7 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
     table = read_runs(tmp_path / "study" / "runs.csv")
     study = study_of(FEW, SHORT_RUN)
     assert table.rows[: len(kept)] == kept.rows
-    assert [dict(row.inputs) for row in table.rows] == [inputs_of(study, number) for number in (1, 2, 3)]
+    assert [dict(row.inputs) for row in table.rows] == [sampled_run(study, number).inputs for number in (1, 2, 3)]
     assert {row.status for row in table.rows} == {"done"}
     assert (tmp_path / "study" / "study.json").exists()
 
@@ -98,7 +98,7 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
 
     worst = max(table.rows, key=lambda row: row.outputs["reach_m"])
     assert ops.open_worst_draw() == {"FINISHED"}
-    assert panel.built_scenario == scenario_text(draw_of(study, worst.number).scenario)
+    assert panel.built_scenario == scenario_text(sampled_run(study, worst.number).scenario)
     assert panel.scenario.ball.drop_height_m == pytest.approx(worst.inputs["ball.drop_height_m"])
     assert blender.context.scene.rigidbody_world
     bodies = len(blender.context.scene.rigidbody_world.collection.objects)
@@ -192,10 +192,9 @@ def test_draws_run_in_blenders_own_program_where_there_is_one(blender, session, 
     launcher.chmod(0o755)
     versions = versions_with(".".join(map(str, blender.app.version)))
     study = study_of(FEW, SHORT_RUN)
-    request = {"scenario": scenario_text(draw_of(study, 1).scenario), "study": study.text}
-    process = DrawProcess(draw_command(str(launcher)), versions, Limits(PATIENCE_S))
+    process = RunProcess(run_program_command(str(launcher)), versions, RunLimits(PATIENCE_S))
     try:
-        end = process.play(request, tmp_path / "draw")
+        end = process.play(sampled_run(study, 1).request, tmp_path / "draw")
     finally:
         process.close()
     assert (end.status, end.reason) == ("done", "")

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from bridge_demolition_addon.errors import OutputError, ScenarioError, SimulationError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.studies.service import Service
+from bridge_demolition_addon.studies.run_program import RunService
 
 LOG = Path(sys.argv[1])
 VERSIONS = {"program": "of tests"}
@@ -75,4 +75,4 @@ _DEEDS = {
 
 if __name__ == "__main__":
     print("Blender 5.2.3 says hello", flush=True)
-    Service().serve(VERSIONS, play)
+    RunService().serve(VERSIONS, play)

@@ -9,8 +9,8 @@ from scipy import stats
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.study.draws import draw_of, inputs_of
 from bridge_demolition_addon.model.study.file import SEED, study_of
+from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 
 HEIGHT = Vary(key="ball.drop_height_m", distribution="normal", mean=5.0, deviation=0.3)
@@ -26,7 +26,7 @@ def study(*vary, scenario=I235, **settings):
 
 
 def test_a_draw_is_the_scenario_with_its_inputs():
-    drawn = draw_of(study(*ALL), 17)
+    drawn = sampled_run(study(*ALL), 17)
     assert list(drawn.inputs) == [SEED, *(vary.key for vary in ALL)]
     scenario = drawn.scenario
     assert drawn.inputs == {
@@ -54,7 +54,7 @@ def test_a_draw_is_the_scenario_with_its_inputs():
 
 def test_inputs_have_the_distributions_that_were_asked_for():
     whole = study(*ALL)
-    drawn = [inputs_of(whole, number) for number in range(1, 3001)]
+    drawn = [sampled_run(whole, number).inputs for number in range(1, 3001)]
     columns = {name: [each[name] for each in drawn] for name in drawn[0]}
     expected = {
         SEED: stats.uniform(0, 2**31),
@@ -73,7 +73,7 @@ def test_inputs_have_the_distributions_that_were_asked_for():
 
 def test_draws_follow_one_another_independently():
     of_heights = study(HEIGHT)
-    heights = [inputs_of(of_heights, number)["ball.drop_height_m"] for number in range(1, 3001)]
+    heights = [sampled_run(of_heights, number).inputs["ball.drop_height_m"] for number in range(1, 3001)]
     for apart in (1, 2, 93):
         assert stats.spearmanr(heights[apart:], heights[:-apart]).pvalue > 0.01
 
@@ -81,21 +81,21 @@ def test_draws_follow_one_another_independently():
 def test_a_draw_depends_neither_on_the_number_of_runs_nor_on_what_else_varies():
     alone, among_others = study(HEIGHT, runs=59, rank=1), study(MASS, PLACE, HEIGHT, runs=1000)
     for number in (1, 59):
-        first, second = inputs_of(alone, number), inputs_of(among_others, number)
+        first, second = sampled_run(alone, number).inputs, sampled_run(among_others, number).inputs
         assert first == {name: second[name] for name in first}
-    assert inputs_of(study(HEIGHT, seed=1), 1) != inputs_of(alone, 1)
-    assert inputs_of(alone, 2) != inputs_of(alone, 1)
+    assert sampled_run(study(HEIGHT, seed=1), 1).inputs != sampled_run(alone, 1).inputs
+    assert sampled_run(alone, 2).inputs != sampled_run(alone, 1).inputs
 
 
 def test_the_seed_of_the_fracture_is_drawn_even_where_nothing_varies():
-    seeds = [inputs_of(study(), number) for number in range(1, 101)]
+    seeds = [sampled_run(study(), number).inputs for number in range(1, 101)]
     assert {tuple(each) for each in seeds} == {(SEED,)}
     assert len({each[SEED] for each in seeds}) == 100
 
 
 def test_draws_are_these_on_every_machine():
     # What numpy promises of PCG64 and SeedSequence, and arithmetic without rounding of its own choice.
-    found = inputs_of(study(*ALL), 1)
+    found = sampled_run(study(*ALL), 1).inputs
     assert {name: value.hex() if isinstance(value, float) else value for name, value in found.items()} == {
         SEED: 1454450061,
         "ball.drop_height_m": "0x1.317135071ecf4p+2",
@@ -106,7 +106,7 @@ def test_draws_are_these_on_every_machine():
     }
 
 
-def test_values_that_contradict_each_other_are_told_with_the_draw():
+def test_values_that_contradict_each_other_are_reported_with_the_run():
     lift = {"ball.release_time_s": (0.5, 4.0), "time.duration_s": (1.0, 5.0)}
     varied = [
         Vary(key=name, distribution="uniform", lowest=lowest, highest=highest)
@@ -117,43 +117,43 @@ def test_values_that_contradict_each_other_are_told_with_the_draw():
     ):
         study(*varied, scenario=replace(I235, ball=replace(I235.ball, release_time_s=2.0)))
     both = study(*varied)
-    refused = [number for number in range(1, 51) if not could_be_drawn(both, number)]
+    refused = [number for number in range(1, 51) if not can_be_made(both, number)]
     assert 0 < len(refused) < 50
-    assert list(inputs_of(both, refused[0])) == [SEED, *lift]
+    assert list(sampled_run(both, refused[0]).inputs) == [SEED, *lift]
 
 
-def could_be_drawn(study, number):
+def can_be_made(study, number):
     try:
-        draw_of(study, number)
+        assert sampled_run(study, number).scenario
     except ScenarioError as error:
         assert str(error).startswith("ball.release_time_s is ")
         return False
     return True
 
 
-def test_an_address_tells_apart_all_that_decides_a_run(tmp_path):
+def test_a_cache_key_tells_apart_all_that_decides_a_run(tmp_path):
     versions = {"bridge_demolition_addon": "0.1.0", "blender": "5.2.0"}
     base = study(HEIGHT)
-    address = draw_of(base, 1).address(versions)
-    assert len(address) == 64
-    assert draw_of(study(HEIGHT, runs=500), 1).address(dict(reversed(versions.items()))) == address
+    key = sampled_run(base, 1).cache_key(versions)
+    assert len(key) == 64
+    assert sampled_run(study(HEIGHT, runs=500), 1).cache_key(dict(reversed(versions.items()))) == key
     others = [
-        draw_of(base, 2).address(versions),
-        draw_of(base, 1).address(versions | {"blender": "5.2.1"}),
-        draw_of(study(HEIGHT, least_mass_kg=1.0), 1).address(versions),
-        draw_of(study(HEIGHT, keep="all"), 1).address(versions),
-        draw_of(study(HEIGHT, scenario=replace(I235, title="another")), 1).address(versions),
+        sampled_run(base, 2).cache_key(versions),
+        sampled_run(base, 1).cache_key(versions | {"blender": "5.2.1"}),
+        sampled_run(study(HEIGHT, least_mass_kg=1.0), 1).cache_key(versions),
+        sampled_run(study(HEIGHT, keep="all"), 1).cache_key(versions),
+        sampled_run(study(HEIGHT, scenario=replace(I235, title="another")), 1).cache_key(versions),
     ]
-    assert len({address, *others}) == 6
+    assert len({key, *others}) == 6
 
 
-def test_an_address_depends_on_what_files_of_the_scenario_hold(tmp_path):
+def test_a_cache_key_depends_on_what_files_of_the_scenario_hold(tmp_path):
     points = tmp_path / "points.csv"
     scenario = replace(I235, fracture=replace(I235.fracture, points_file=str(points)))
     points.write_text("1,2,3\n")
-    before = draw_of(study(scenario=scenario), 1).address({})
+    before = sampled_run(study(scenario=scenario), 1).cache_key({})
     points.write_text("1,2,4\n")
-    assert draw_of(study(scenario=scenario), 1).address({}) != before
+    assert sampled_run(study(scenario=scenario), 1).cache_key({}) != before
     points.unlink()
     with pytest.raises(ScenarioError, match=r"points\.csv: cannot be read: No such file"):
-        draw_of(study(scenario=scenario), 1).address({})
+        sampled_run(study(scenario=scenario), 1).cache_key({})

@@ -13,7 +13,7 @@ from support.run_programs import VERSIONS, begun, program_in, request
 
 from bridge_demolition_addon.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.model.study.settings import StudySettings
-from bridge_demolition_addon.studies.draw_process import DRAWS_PER_PROCESS, DrawProcess, Limits
+from bridge_demolition_addon.studies.run_process import RUNS_PER_PROCESS, RunLimits, RunProcess
 
 not_on_windows = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
 
@@ -25,7 +25,7 @@ def program(tmp_path):
 
 @pytest.fixture
 def process(program):
-    process = DrawProcess(program[0], VERSIONS, Limits(time_s=60.0))
+    process = RunProcess(program[0], VERSIONS, RunLimits(time_s=60.0))
     yield process
     process.close()
 
@@ -64,7 +64,7 @@ def test_the_draw_at_work_pays_alone(process, tmp_path, deed, status, reason):
 
 
 def test_one_that_takes_too_long_is_ended(program, tmp_path):
-    process = DrawProcess(program[0], VERSIONS, Limits(time_s=0.5))
+    process = RunProcess(program[0], VERSIONS, RunLimits(time_s=0.5))
     assert play(process, "nothing", tmp_path / "1") == ("done", "")
     began = time.monotonic()
     assert play(process, "hang", tmp_path / "2") == ("timed_out", "it took longer than 0.5 s")
@@ -75,7 +75,7 @@ def test_one_that_takes_too_long_is_ended(program, tmp_path):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is watched on Linux only")
 def test_one_that_takes_too_much_memory_is_ended(program, tmp_path):
-    process = DrawProcess(program[0], VERSIONS, Limits(time_s=60.0, memory_mb=400.0))
+    process = RunProcess(program[0], VERSIONS, RunLimits(time_s=60.0, memory_mb=400.0))
     assert play(process, "take memory", tmp_path / "1") == ("out_of_memory", "it took more than 400 MB")
     assert play(process, "nothing", tmp_path / "2") == ("done", "")
     process.close()
@@ -85,17 +85,17 @@ def test_one_that_takes_too_much_memory_is_ended(program, tmp_path):
 def test_limits_are_those_of_the_study(monkeypatch, limit):
     settings = StudySettings(scenario="a.toml", time_limit_s=7.0, memory_limit_mb=limit)
     monkeypatch.setattr(sys, "platform", "linux")
-    assert Limits.of(settings) == Limits(7.0, limit)
+    assert RunLimits.of(settings) == RunLimits(7.0, limit)
     monkeypatch.setattr(sys, "platform", "darwin")
     if limit:
         with pytest.raises(ScenarioError, match=r"study\.memory_limit_mb: memory can be limited on Linux only"):
-            Limits.of(settings)
+            RunLimits.of(settings)
     else:
-        assert Limits.of(settings) == Limits(7.0)
+        assert RunLimits.of(settings) == RunLimits(7.0)
 
 
 def test_draws_share_a_process_until_it_is_replaced(process, program, tmp_path):
-    for number in range(DRAWS_PER_PROCESS + 1):
+    for number in range(RUNS_PER_PROCESS + 1):
         assert play(process, "nothing", tmp_path / str(number)) == ("done", "")
     _, processes = begun(program[1])
     assert len(set(processes[:-1])) == 1 and processes[-1] != processes[0]
@@ -129,11 +129,11 @@ def test_a_program_may_be_killed_as_it_starts(program, tmp_path, kills):
     killed = f"import os, pathlib; starts = pathlib.Path({str(starts)!r}); "
     killed += "starts.write_text(starts.read_text() + '.'); "
     killed += f"len(starts.read_text()) > {kills} or os.kill(os.getpid(), 9); "
-    process = DrawProcess([*command[:2], killed + command[2]], VERSIONS, Limits())
+    process = RunProcess([*command[:2], killed + command[2]], VERSIONS, RunLimits())
     if kills < 3:
         assert play(process, "nothing", tmp_path / "1") == ("done", "")
     else:
-        with pytest.raises(SimulationError, match="their program ended with status -9: it said nothing"):
+        with pytest.raises(SimulationError, match="their program ended with status -9: it printed nothing"):
             play(process, "nothing", tmp_path / "1")
     assert len(starts.read_text()) == 3
     process.close()
@@ -158,7 +158,7 @@ def test_a_folder_that_cannot_be_written_is_not_the_draws_fault(process, tmp_pat
 
 
 def test_other_versions_are_refused(program, tmp_path):
-    process = DrawProcess(program[0], {"program": "of users"}, Limits())
+    process = RunProcess(program[0], {"program": "of users"}, RunLimits())
     with pytest.raises(SimulationError, match=r"other versions .*: program of tests instead of of users"):
         play(process, "nothing", tmp_path / "1")
 
@@ -167,13 +167,13 @@ def test_other_versions_are_refused(program, tmp_path):
     "command, words",
     [
         ([sys.executable, "-c", "import sys; sys.exit('no module of that name')"], "status 1: no module of that name"),
-        (["/nowhere/blender"], "/nowhere/blender: draws cannot be run by it: No such file"),
+        (["/nowhere/blender"], "/nowhere/blender: runs cannot be made by it: No such file"),
     ],
     ids=["that ends", "that is not there"],
 )
 def test_a_program_that_cannot_run_draws_says_why(tmp_path, command, words):
     with pytest.raises(SimulationError, match=words):
-        play(DrawProcess(command, VERSIONS, Limits()), "nothing", tmp_path / "1")
+        play(RunProcess(command, VERSIONS, RunLimits()), "nothing", tmp_path / "1")
 
 
 @pytest.mark.parametrize("deed", ["nothing", "hang"])

@@ -1,8 +1,8 @@
-"""A process that runs draws, one after another: what becomes of it becomes of the draw at work and of nothing else.
+"""A process that makes runs, one after another: a crash costs only the current run.
 
 The program reads a request from its standard input, one line of JSON, and answers on its standard output with a line of
-JSON behind `MARK`; other lines there are somebody else's. Its first answer says which versions it runs. It leaves files
-in the folder that the request names.
+JSON behind `MARK`; other lines there come from other code. Its first answer says which versions it runs. It leaves
+files in the folder that the request names.
 """
 
 from __future__ import annotations
@@ -20,28 +20,30 @@ import threading
 import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
 from ..errors import ScenarioError, SimulationError
-from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT
-from ..model.study.settings import StudySettings
+from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT, RunOutcome
+from ..model.study.settings import EnsembleSettings
 
 MARK = "bda-draw "
 """What begins the program's own lines on its standard output."""
 
 UNWRITABLE = "unwritable"
-"""Status of an answer of a program that could not write; no draw's."""
+"""Status of an answer of a program that could not write; no run's."""
 
-DRAWS_PER_PROCESS = 50
-"""After so many, a process is replaced: Blender gives back little of the memory that a draw took."""
+RUNS_PER_PROCESS = 50
+"""After so many, a process is replaced: Blender gives back little of the memory that a run took."""
 
 _MOST_STARTS = 3
-"""How often a program is started that somebody kills before it has begun."""
+"""How often a program is started that is killed before it has begun."""
 
 _LOOK_EVERY_S = 0.25
-_BY_SOMEBODY = [getattr(signal, name) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP") if hasattr(signal, name)]
+_KILLING_SIGNALS = [
+    getattr(signal, name) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP") if hasattr(signal, name)
+]
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Each process has a core of its own, and numpy's threads would wait for each other on it."""
 
@@ -53,8 +55,8 @@ _VMSTAT = Path("/proc/vmstat")
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
-    """When a draw is ended.
+class RunLimits:
+    """When a run is ended.
 
     Attributes
     ----------
@@ -68,8 +70,8 @@ class Limits:
     memory_mb: float | None = None
 
     @classmethod
-    def of(cls, settings: StudySettings) -> Self:
-        """Return those of a study.
+    def of(cls, settings: EnsembleSettings) -> Self:
+        """Return those of a study, a search or an optimisation.
 
         Raises
         ------
@@ -77,57 +79,34 @@ class Limits:
             It limits memory, and this is not Linux.
         """
         if settings.memory_limit_mb is not None and sys.platform != "linux":
-            raise ScenarioError("study.memory_limit_mb: memory can be limited on Linux only; leave it out")
+            raise ScenarioError(f"{settings.table}.memory_limit_mb: memory can be limited on Linux only; leave it out")
         return cls(settings.time_limit_s, settings.memory_limit_mb)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class End:
-    """What became of a draw.
-
-    Attributes
-    ----------
-    status : str
-        One of `STATUSES` of the table of runs.
-    reason : str
-        Why it is not done.
-    outputs, fingerprint : dict
-        What the program gave, where it is done: values, and digests of the run.
-    wall_time_s : float
-        How long it took.
-    """
-
-    status: str
-    reason: str = ""
-    outputs: Mapping[str, Any] = field(default_factory=dict)
-    fingerprint: Mapping[str, str] = field(default_factory=dict)
-    wall_time_s: float = 0.0
-
-
-class DrawProcess:
-    """Runs draws in a process, and starts another where that one ends.
+class RunProcess:
+    """Makes runs in a process, and starts another where that one ends.
 
     Parameters
     ----------
     command
         Program and arguments.
     versions
-        What it has to run: from another version nothing is taken.
+        Versions that it has to run: from another nothing is taken.
     limits
-        When a draw is ended.
+        When a run is ended.
     """
 
-    def __init__(self, command: Sequence[str], versions: Mapping[str, str], limits: Limits):
+    def __init__(self, command: Sequence[str], versions: Mapping[str, str], limits: RunLimits):
         self._command, self._versions, self._limits = list(command), dict(versions), limits
         self._program: _Program | None = None
         self._closing = threading.Lock()
         self._is_closed = False
 
-    def play(self, request: Mapping[str, Any], folder: Path) -> End:
-        """Run a draw whose files go to a folder, which is made anew.
+    def play(self, request: Mapping[str, Any], folder: Path) -> RunOutcome:
+        """Make a run whose files go to a folder, which is cleared first.
 
-        A draw that takes the process with it is played once more in a fresh one, if it shared it with earlier draws, or
-        if somebody killed it: so how draws are spread over processes does not show.
+        A run whose process ends is made again in a fresh one, if the process had made earlier runs, or if another
+        program killed it: so the result does not depend on how runs are spread over processes.
 
         Raises
         ------
@@ -137,13 +116,13 @@ class DrawProcess:
         began = time.monotonic()
         program = self._ready_program()
         is_fresh = program.played == 0
-        end = self._play_once(program, request, folder, began)
-        if end.status == KILLED or (not is_fresh and end.status in (CRASHED, OUT_OF_MEMORY)):
-            end = self._play_once(self._ready_program(), request, folder, time.monotonic())
-        return end
+        outcome = self._play_once(program, request, folder, began)
+        if outcome.status == KILLED or (not is_fresh and outcome.status in (CRASHED, OUT_OF_MEMORY)):
+            outcome = self._play_once(self._ready_program(), request, folder, time.monotonic())
+        return outcome
 
     def close(self) -> None:
-        """End the process, and the draw that is at work in it."""
+        """End the process, and the run that is under way in it."""
         with self._closing:
             self._is_closed = True
             program = self._program
@@ -162,20 +141,20 @@ class DrawProcess:
                 self._program = None
         return self._program
 
-    def _play_once(self, program: _Program, request: Mapping[str, Any], folder: Path, began: float) -> End:
-        _make_anew(folder)
+    def _play_once(self, program: _Program, request: Mapping[str, Any], folder: Path, began: float) -> RunOutcome:
+        _clear(folder)
         answer = self._answer(program, {**request, "folder": str(folder)})
         status = answer["status"]
-        if status not in (DONE, REFUSED) or program.played >= DRAWS_PER_PROCESS:
+        if status not in (DONE, REFUSED) or program.played >= RUNS_PER_PROCESS:
             program.end()
             self._program = None
         if status == UNWRITABLE:
             raise SimulationError(answer["reason"])
         given = {name: answer[name] for name in ("reason", "outputs", "fingerprint") if name in answer}
-        return End(status, **given, wall_time_s=time.monotonic() - began)
+        return RunOutcome(status, **given, wall_time_s=time.monotonic() - began)
 
     def _answer(self, program: _Program, request: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the program's answer, or what has to be said in its place."""
+        """Return the program's answer, or one in its place."""
         limits, began, kills = self._limits, time.monotonic(), _kills_for_memory()
         program.ask(request)
         while True:
@@ -211,11 +190,11 @@ class _Program:
                 creationflags=subprocess.CREATE_NEW_PROCESS_GROUP if sys.platform == "win32" else 0,
             )
         except OSError as error:
-            raise SimulationError(f"{command[0]}: draws cannot be run by it: {error.strerror}") from error
-        threading.Thread(target=self._read, name="answers of draws", daemon=True).start()
+            raise SimulationError(f"{command[0]}: runs cannot be made by it: {error.strerror}") from error
+        threading.Thread(target=self._read, name="answers of runs", daemon=True).start()
 
     def begin(self, versions: Mapping[str, str], *, may_be_killed: bool) -> bool:
-        """Wait for the first answer, see that the versions are those expected, and return whether nobody killed it.
+        """Wait for the first answer, see that the versions are those expected, and return whether it was not killed.
 
         Raises
         ------
@@ -225,17 +204,19 @@ class _Program:
         answer = self.answers.get()
         if answer is None:
             code = self.ended()
-            if may_be_killed and -code in _BY_SOMEBODY:
+            if may_be_killed and -code in _KILLING_SIGNALS:
                 return False
-            raise SimulationError(f"draws cannot be run: their program ended with status {code}: {self._said}")
+            raise SimulationError(f"runs cannot be made: their program ended with status {code}: {self._last_line}")
         if error := answer.get("error"):
             self.end()
             raise SimulationError(error)
-        other = {name: found for name, found in answer["versions"].items() if versions.get(name) != found}
+        other = {name: here for name, here in answer["versions"].items() if versions.get(name) != here}
         if other:
             self.end()
-            found = ", ".join(f"{name} {version} instead of {versions.get(name)}" for name, version in other.items())
-            raise SimulationError(f"draws would be run by other versions than those of the study: {found}")
+            differing = ", ".join(
+                f"{name} {version} instead of {versions.get(name)}" for name, version in other.items()
+            )
+            raise SimulationError(f"runs would be made by other versions than those of the study: {differing}")
         return True
 
     def ask(self, request: Mapping[str, Any]) -> None:
@@ -268,10 +249,10 @@ class _Program:
         return code
 
     @property
-    def _said(self) -> str:
+    def _last_line(self) -> str:
         self._last_words.seek(0)
         lines = self._last_words.read().decode("utf-8", "replace").strip().splitlines()
-        return lines[-1][-_LAST_WORDS:] if lines else "it said nothing"
+        return lines[-1][-_LAST_WORDS:] if lines else "it printed nothing"
 
     def _read(self) -> None:
         with self._process.stdout as lines:
@@ -282,10 +263,10 @@ class _Program:
 
 
 def _meaning(code: int, for_memory: bool) -> dict[str, str]:
-    """Return what became of a draw whose process ended with a status, maybe as the system's memory had run out."""
+    """Return the outcome of a run whose process ended with a status, maybe as the system's memory had run out."""
     if code >= 0:
         return {"status": CRASHED, "reason": f"its process ended with status {code}"}
-    if -code not in _BY_SOMEBODY:
+    if -code not in _KILLING_SIGNALS:
         return {"status": CRASHED, "reason": f"its process crashed with {_signal_name(-code)}"}
     if for_memory:
         return {"status": OUT_OF_MEMORY, "reason": "the system ended its process, as memory had run out"}
@@ -308,7 +289,7 @@ def _kills_for_memory() -> int:
     return next((int(line.split()[1]) for line in lines if line.startswith("oom_kill ")), 0)
 
 
-def _make_anew(folder: Path) -> None:
+def _clear(folder: Path) -> None:
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)

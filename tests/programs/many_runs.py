@@ -7,14 +7,12 @@ them in MB.
 
 import sys
 import time
-from contextlib import closing
 from pathlib import Path
 
 from bridge_demolition_addon.model.study.file import read_study
-from bridge_demolition_addon.studies.draw_process import Limits
-from bridge_demolition_addon.studies.folder import StudyFolder
-from bridge_demolition_addon.studies.local import LocalProcesses
-from bridge_demolition_addon.studies.study_run import StudyRun
+from bridge_demolition_addon.studies.engine import LocalProcesses
+from bridge_demolition_addon.studies.run_process import RunLimits
+from bridge_demolition_addon.studies.session import EnsembleSession
 
 VERSIONS = {"program": "that does nothing"}
 DOES_NOTHING = """
@@ -33,13 +31,12 @@ def memory_mb():
 *studies, output = map(Path, sys.argv[1:])
 for number, path in enumerate(studies):
     study = read_study(path)
-    engine = LocalProcesses(1, Limits(), [sys.executable, "-S", "-c", DOES_NOTHING], VERSIONS)
-    with closing(engine), StudyFolder(output / str(number), study, VERSIONS) as folder:
-        run = StudyRun(study, folder, engine)
-        began = time.process_time()
-        while not run.is_finished:
-            run.step(1.0)
-        each_ms = 1e3 * (time.process_time() - began) / run.total
-        run.write_tables()
+    engine = LocalProcesses(1, RunLimits(), [sys.executable, "-S", "-c", DOES_NOTHING], VERSIONS)
+    run = EnsembleSession(study, output / str(number), engine)
+    began = time.process_time()
+    while not run.is_finished:
+        run.step(1.0)
+    each_ms = 1e3 * (time.process_time() - began) / run.total
+    run.stop()
     print(run.total, each_ms, memory_mb(), flush=True)
 assert "bpy" not in sys.modules

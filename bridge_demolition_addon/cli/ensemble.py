@@ -1,0 +1,93 @@
+"""What the commands ``study``, ``search`` and ``optimise`` share: where runs are made, progress, what is printed."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from ..errors import OutputError
+from ..model.ensemble.folder import RETRIED
+from ..model.study.file import Ensemble
+from ..model.study.planner import EnsembleResult
+from ..studies.engine import Engine, LocalProcesses, cores
+from ..studies.run_process import RunLimits
+from ..studies.session import EnsembleSession
+from ..system.signals import Interrupted, signals_noted
+from .progress import progress_on
+
+_LOOK_EVERY_S = 0.2
+_SHOWN_REASONS = 5
+_MOST_JOBS = 1000
+
+
+def add_ensemble_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where runs are made, and what is printed."""
+    parser.add_argument("--jobs", metavar="N", type=_jobs, help="runs at a time (as many as this machine has cores)")
+    parser.add_argument(
+        "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def run_ensemble(
+    ensemble: Ensemble, arguments: argparse.Namespace
+) -> tuple[EnsembleSession, EnsembleResult, list[Path]]:
+    """Make all runs, unless a signal stops that, and return the session, its result and the files that it wrote."""
+    if arguments.output.is_file():
+        raise OutputError(f"{arguments.output}: expected a folder for the {ensemble.kind}, found a file")
+    progress = progress_on(sys.stdout, quiet=arguments.quiet)
+    with signals_noted() as signals:
+        session = EnsembleSession(ensemble, arguments.output, _engine(ensemble, arguments))
+        try:
+            while not session.is_finished:
+                session.step(_LOOK_EVERY_S)
+                progress.runs(session.done, session.total, session.lost)
+                if signals and not session.is_finished:
+                    raise Interrupted(signals[0])
+            progress.finish()
+            return session, *session.finish()
+        finally:
+            progress.finish()
+            session.stop()
+
+
+def print_ensemble(session: EnsembleSession, sentences: Iterable[str], paths: Iterable[Path]) -> None:
+    """Print what all runs state, why some did not finish, and the files that were written."""
+    print()
+    for line in sentences:
+        print(line)
+    reasons, ensemble = session.reasons, session.planner.ensemble
+    for number, reason in list(reasons.items())[:_SHOWN_REASONS]:
+        print(f"run {number} did not finish: {reason}")
+    if len(reasons) > _SHOWN_REASONS:
+        print(f"{len(reasons) - _SHOWN_REASONS} more did not finish, see status in {ensemble.table_file}")
+    if again := sum(session.statuses.get(status, 0) for status in RETRIED):
+        print(f"{again} of them were killed or had no memory: the same command makes these runs again")
+    print()
+    for path in paths:
+        print(path)
+
+
+def _engine(ensemble: Ensemble, arguments: argparse.Namespace) -> Engine:
+    """Return what makes the runs, by the options of the command line."""
+    limits = RunLimits.of(ensemble.settings)
+    if arguments.dask is None:
+        return LocalProcesses(arguments.jobs or cores(), limits)
+    if arguments.jobs is not None:
+        raise OutputError("--jobs is for this machine: leave it out with --dask, whose workers say how many they take")
+    from ..studies.dask_cluster import DaskCluster  # loading Dask takes a second
+
+    return DaskCluster(arguments.dask, limits)
+
+
+def whole_number(text: str, largest: int) -> int:
+    """Return a whole number from 1 on that an option was given."""
+    if not (text.isascii() and text.isdecimal() and len(text) < 9 and 1 <= int(text) <= largest):
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a whole number from 1 to {largest}")
+    return int(text)
+
+
+def _jobs(text: str) -> int:
+    return whole_number(text, _MOST_JOBS)

@@ -1,0 +1,53 @@
+"""Numbers in sentences. What is stated with confidence is rounded to the side of safety."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+
+_MOST_NAMES = 6
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names in a sentence; of many only how many there are."""
+    if len(names) > _MOST_NAMES:
+        return f"{len(names)} quantities"
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def ordinal(rank: int) -> str:
+    """Return ``largest``, ``2nd largest`` and so on."""
+    if rank == 1:
+        return "largest"
+    ending = "th" if rank % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(rank % 10, "th")
+    return f"{rank}{ending} largest"
+
+
+def percent(share: float) -> str:
+    """Return a share that a user chose, with the digits it has."""
+    return f"{100.0 * share:.10g} %"
+
+
+def percent_up(share: float) -> str:
+    """Return a share in percent, rounded up to the second decimal."""
+    return f"{rounded_up(100.0 * share, '0.01')} %"
+
+
+def percent_down(share: float) -> str:
+    """Return a share in percent, rounded down to the second decimal."""
+    return f"{rounded_down(100.0 * share, '0.01')} %"
+
+
+def rounded_up(value: float, step: str) -> str:
+    """Return a number, rounded up to a decimal step such as 0.1; rounding errors of binary fractions do not count."""
+    return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_CEILING))
+
+
+def rounded_down(value: float, step: str) -> str:
+    """Return a number, rounded down to a decimal step; see `rounded_up`."""
+    return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_FLOOR))
+
+
+def four_digits(value: float) -> str:
+    """Return a number with four digits, without an exponent where it need not have one."""
+    return f"{float(f'{value:.4g}'):.10g}"

@@ -1,0 +1,157 @@
+"""Sentences on the results of a study. They are rounded so that each is true as it stands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from ...engineering.statistics.order_limits import least_runs
+from ...model.study.conclusions import Conclusions, DebrisLimit, Proportion
+from ...model.study.file import Study
+from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded_down, rounded_up
+
+
+def input_names(study: Study) -> list[str]:
+    """Return what varies, as the study names it: a key of all tables of a list only once."""
+    return [vary.key for vary in study.settings.vary] + ["the seed of the fracture"]
+
+
+def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
+    """Yield what a study states, the limit of the debris distance first."""
+    exclusion = study.scenario.exclusion
+    buffer_m = exclusion.buffer_m if exclusion else None
+    yield limit_sentence(conclusions.reach, input_names(study), study.settings.least_mass_kg, buffer_m)
+    if conclusions.reach.is_known:
+        yield repeat_sentence(conclusions.reach)
+    for criterion in conclusions.criteria:
+        yield success_sentence(criterion)
+    if conclusions.success and len(conclusions.criteria) > 1:
+        yield success_sentence(conclusions.success)
+
+
+def too_few_sentence(limit: DebrisLimit) -> str:
+    """Return how many runs a limit needs, where there are too few."""
+    first = least_runs(limit.quantile, limit.confidence)
+    other = f" (or {first} with study.rank = 1)" if first < limit.runs_needed else ""
+    return (
+        f"Too few runs for a limit yet: it needs {limit.runs_needed} runs{other}, has {limit.runs}. So many runs it "
+        f"takes until the {ordinal(limit.rank)} debris distance is one that {percent(limit.quantile)} of all runs stay "
+        f"within, with {percent(limit.confidence)} confidence. Raise study.runs, and start the study again in the same "
+        "folder: all runs that are done stay."
+    )
+
+
+def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: float, buffer_m: float | None) -> str:
+    """Return the limit of the debris distance, or why there is none.
+
+    Parameters
+    ----------
+    limit
+        Its numbers.
+    inputs
+        Names of what varied from run to run.
+    least_mass_kg
+        Lightest shard that counts.
+    buffer_m
+        What the scenario adds for what the model leaves out; None where it says nothing.
+    """
+    if not limit.has_enough_runs:
+        return too_few_sentence(limit)
+    if not limit.is_known:
+        return (
+            f"These runs set no limit: {limit.unfinished} of {limit.runs} did not finish, each of them counts as one "
+            f"of unlimited debris distance, and the limit was to be the {ordinal(limit.rank)} distance. Find out why "
+            "they stopped, and make the study again without that."
+        )
+    debris = f"debris of {least_mass_kg:g} kg or more" if least_mass_kg > 0.0 else "debris"
+    most = f"all but {limit.exceedances}" if limit.exceedances else "all of them"
+    unfinished = f", {_unfinished(limit)}" if limit.unfinished else ""
+    added = "a buffer has to be added"
+    if buffer_m is not None:
+        added = f"the buffer of {buffer_m:g} m is added, {rounded_up(limit.limit_m + buffer_m, '0.1')} m in all"
+    limit_m, drawn = rounded_up(limit.limit_m, "0.1"), "was drawn" if len(inputs) == 1 else "were drawn"
+    return (
+        f"In {limit.runs} independent runs, in which {listed(inputs)} {drawn} from the distributions of this study, "
+        f"{debris} stayed within {limit_m} m of the bridge's plan in {most}{unfinished}. With "
+        f"{percent(limit.confidence)} confidence at least {percent(limit.quantile)} of such runs stay within it. This "
+        "says how the model scatters; it does not cover what the model leaves out, such as pieces smaller than a "
+        f"shard, for which {added}."
+    )
+
+
+def repeat_sentence(limit: DebrisLimit) -> str:
+    """Return how much the limit itself scatters."""
+    ends = []
+    if math.isfinite(limit.repeat_above_m):
+        ends.append(f"above {rounded_down(limit.repeat_above_m, '0.1')} m")
+    if math.isfinite(limit.repeat_below_m):
+        ends.append(f"not above {rounded_up(limit.repeat_below_m, '0.1')} m")
+    confidence = f"with {percent(limit.confidence)} confidence{' each' if len(ends) > 1 else ''}"
+    within = f"its limit would lie {' and '.join(ends)}, {confidence}; " if ends else ""
+    return (
+        f"Were the study made again, with other runs, {within}in {percent_up(limit.repeat_exceedance)} of such "
+        "studies it would lie beyond every distance seen here."
+    )
+
+
+def success_sentence(proportion: Proportion) -> str:
+    """Return how often runs do something that is good."""
+    return (
+        f"{_counted(proportion)}. With {percent(proportion.confidence)} confidence at least "
+        f"{percent_down(proportion.at_least)} of such runs do."
+    )
+
+
+def harm_sentence(proportion: Proportion) -> str:
+    """Return how often runs do something that is bad."""
+    return (
+        f"{_counted(proportion)}. With {percent(proportion.confidence)} confidence at most "
+        f"{percent_up(proportion.at_most)} of such runs do."
+    )
+
+
+def verified_sentence(left: Proportion, quantile: float) -> str:
+    """Return what runs that left a zone, or did not, state about it; the zone was fixed before any of them."""
+    if left.at_most <= 1.0 - quantile:
+        meaning = f"So it holds {percent(quantile)} of such runs"
+    else:
+        needed = [least_runs(quantile, left.confidence, rank) for rank in (1, 2)]
+        meaning = (
+            f"That does not show that it holds {percent(quantile)} of them: {needed[0]} runs would, of which none "
+            f"leaves it, or {needed[1]}, of which one does"
+        )
+    return (
+        f"{harm_sentence(left)} {meaning}. This is so where the zone was fixed before these runs; if it was made from "
+        "a study, that study must have used another seed."
+    )
+
+
+def shape_sentence(corners: int, quantile: float, confidence: float) -> str:
+    """Return why a zone that is drawn around runs holds less than it seems to, and what to do instead.
+
+    Parameters
+    ----------
+    corners
+        Of the convex hull of what the runs covered: each may be another run's.
+    quantile, confidence
+        What is asked of it.
+    """
+    return (
+        "A zone that is drawn around what these runs covered is no such limit: the runs chose its shape, whose convex "
+        f"hull has {corners} corners. Even had their number been fixed beforehand, such a zone would be known to hold "
+        f"{percent(quantile)} of other runs, with {percent(confidence)} confidence, only from "
+        f"{least_runs(quantile, confidence, corners)} runs on. Take the limit instead, whose shape was fixed before "
+        "the first run, or verify the zone: write it into [[zones]] of the scenario, give the study another seed, and "
+        "ask bda study with --verify what its runs state."
+    )
+
+
+def _unfinished(limit: DebrisLimit) -> str:
+    if limit.unfinished < limit.exceedances:
+        return f"{limit.unfinished} of which did not finish"
+    return "which did not finish" if limit.unfinished == 1 else "none of which finished"
+
+
+def _counted(proportion: Proportion) -> str:
+    counts = {0: f"None of {proportion.runs}", proportion.runs: f"All {proportion.runs}"}
+    return f"{counts.get(proportion.count, f'{proportion.count} of {proportion.runs}')} runs {proportion.what}"
