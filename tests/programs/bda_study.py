@@ -19,9 +19,9 @@ from pathlib import Path  # noqa: E402
 
 from support.run_programs import VERSIONS, command_with  # noqa: E402
 
-from bridge_demolition_addon.cli import study  # noqa: E402
+from bridge_demolition_addon.cli import ensemble  # noqa: E402
 from bridge_demolition_addon.cli.main import entry  # noqa: E402
 
-study.LocalProcesses = partial(study.LocalProcesses, command=command_with(Path(LOG)), versions=VERSIONS)
+ensemble.LocalProcesses = partial(ensemble.LocalProcesses, command=command_with(Path(LOG)), versions=VERSIONS)
 sys.argv[1:] = ["study", *ARGUMENTS]
 entry()

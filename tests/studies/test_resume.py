@@ -198,7 +198,7 @@ def test_the_number_of_runs_may_be_raised_and_what_is_done_stays(tmp_path):
     printed = finish(few, output, tmp_path / "second log")
     assert sum(counted(tmp_path / "second log").values()) == 4 and "Too few" not in printed
     rows = (output / "runs.csv").read_text(encoding="utf-8").splitlines()[1:]
-    assert rows[:2] == first and len(rows) == 6
+    assert [row.split(",")[:5] for row in rows[:2]] == [row.split(",")[:5] for row in first] and len(rows) == 6
     assert "runs = 6" in (output / "study.toml").read_text(encoding="utf-8")
     finish(few, tmp_path / "whole", tmp_path / "third log")
     assert tables_in(output) == tables_in(tmp_path / "whole")
