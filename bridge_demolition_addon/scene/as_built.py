@@ -100,7 +100,7 @@ def _moved(scene: bpy.types.Scene, built: dict[str, np.ndarray], bodies: BodySet
     if like_rubble and len(moved) >= max(_LEAST_RUBBLE, _RUBBLE_SHARE * len(rows)):
         raise SimulationError(
             f"scene {scene.name!r} begins with rubble: {len(moved)} of {len(rows)} shards are not where they were "
-            f"built, {example}; undo what moved them, or build the scenario anew"
+            f"built, {example}; undo what moved them, or build the scenario again"
         )
     yield f"{_count(moved, 'shard')} moved, {example}"
 
@@ -129,7 +129,7 @@ def check_start(setup: RunSetup, positions_m: np.ndarray) -> None:
         raise SimulationError(
             f"the simulation begins with {len(moved)} of {len(rows)} shards elsewhere than the scene has them, such as "
             f"{bodies.names[rows[farthest]]!r} by {away_m[farthest]:.2g} m: go to the start frame and run again, or "
-            "build the scenario anew"
+            "build the scenario again"
         )
 
 

@@ -69,7 +69,7 @@ def decides(
     hashed
         What of it is in the digest of what was built.
     compared
-        What of it is compared with the scene as it was built, by what the user is told where it differs.
+        What of it is compared with the scene as it was built, by the words for what differs.
     written
         How it is written into the scenario of a run.
     """
@@ -324,7 +324,7 @@ class RunSetup:
         return digest(parts)
 
     def compared(self) -> dict[str, str]:
-        """Return the digest of all that is compared with the scene as it was built, by what the user is told."""
+        """Return the digest of all that is compared with the scene as it was built, by the words for what differs."""
         return {
             text: digest(parts(self)) for compared in self._metadata("compared") for text, parts in compared.items()
         }
