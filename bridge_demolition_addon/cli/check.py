@@ -9,7 +9,7 @@ from ..model.bridge.preparation import prepared_members
 from ..model.scenario import Charge, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import ModelWorksite, checked_model
-from ..model.stages.made_elastic import made_elastic
+from ..model.stages.standing import made_elastic
 from ..model.structure.facts import connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.terrain.built import terrain_facts

@@ -11,11 +11,9 @@ from pathlib import Path
 from ..errors import OutputError
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.stages.made_elastic import made_elastic
-from ..model.stages.sentences import criticality_sentences, stage_sentences
 from ..model.stages.stages import Criticality, Stage, criticality, stages_of
-from ..model.stages.standing import StandingBridge
-from ..model.stages.tables import FILES, write_tables
+from ..model.stages.standing import StandingBridge, made_elastic
+from ..model.stages.tables import FILES, criticality_sentences, stage_sentences, write_tables
 from ..system.disk import writing
 from .arguments import naming
 from .progress import progress_on

@@ -14,9 +14,8 @@ from ..model.debris.throws import debris_of
 from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE
 from ..model.scenario.file import scenario_text
 from ..model.sequence.checked_model import checked_model
-from ..model.stages.made_elastic import made_elastic
 from ..model.stages.stages import criticality, stages_of
-from ..model.stages.standing import StandingBridge
+from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..system.progress import Progress
 from .document.blocks import Document, Report

@@ -11,7 +11,7 @@ from bridge_demolition_addon.ifc.folder import write_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.stages.made_elastic import made_elastic
+from bridge_demolition_addon.model.stages.standing import made_elastic
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 
 UPPER_KG = VOLUMES_M3["girder"] * STEEL_KG_M3 + VOLUMES_M3["deck"] * DECK_KG_M3

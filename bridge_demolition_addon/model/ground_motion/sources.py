@@ -6,16 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
+from ...engineering.arithmetic import cosine, sine
 from ...engineering.ground_motion.record import LARGEST_ACCELERATION_M_S2, GroundRecord, corrected
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..schema import given
 from .accelerogram_file import accelerogram_from_file
-from .settings import DIRECTIONS, GroundMotion
+from .settings import DIRECTIONS, GroundMotion, Sweep
 from .spectral_record import spectral_record
-from .sweep import swept
 
 _IN_M_S2 = {"g": STANDARD_GRAVITY_M_S2, "m/s2": 1.0, "cm/s2": 0.01}
+
+_SAMPLES_PER_CYCLE = 100
+"""Straight lines between so many samples are off a sine by less than 0.1 %."""
 
 
 def ground_record(motion: GroundMotion, seed: int) -> GroundRecord:
@@ -36,7 +39,7 @@ def _accelerations(motion: GroundMotion, seed: int) -> tuple[np.ndarray, np.ndar
     """Return times (k,) in s and the accelerations in each of its directions (k, d), m/s²."""
     count = len(motion.directions)
     if motion.sweep:
-        times, values = swept(motion.sweep)
+        times, values = _swept(motion.sweep)
         return times, np.repeat(values[:, None], count, axis=1)
     if motion.spectrum:
         random = np.random.Generator(np.random.PCG64(seed))
@@ -54,3 +57,18 @@ def _accelerations(motion: GroundMotion, seed: int) -> tuple[np.ndarray, np.ndar
             f"{LARGEST_ACCELERATION_M_S2 / STANDARD_GRAVITY_M_S2:g} g; see in which unit the file is"
         )
     return times, values
+
+
+def _swept(sweep: Sweep) -> tuple[np.ndarray, np.ndarray]:
+    """Return a sine whose frequency changes evenly: times (k,) in s and accelerations (k,) in m/s².
+
+    The first and the last cycle fade in and out.
+    """
+    highest = max(sweep.from_hz, sweep.to_hz)
+    count = int(np.ceil(sweep.duration_s * highest * _SAMPLES_PER_CYCLE)) + 1
+    times = np.linspace(0.0, sweep.duration_s, count)
+    rise = (sweep.to_hz - sweep.from_hz) / sweep.duration_s
+    cycles = times * (sweep.from_hz + 0.5 * rise * times)
+    in_fade = np.minimum(np.minimum(cycles, cycles[-1] - cycles), 1.0)
+    faded = 0.5 * (1.0 - cosine(np.pi * in_fade))
+    return times, sweep.acceleration_m_s2 * faded * sine(2.0 * np.pi * cycles)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
 from ...engineering.mechanics.section_cuts import worst_around
 from ...engineering.mechanics.section_forces import SectionForces, section_axes
 from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...errors import ScenarioError
+from ..scenario import Scenario
+from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..structure.equilibrium import at_rest, held_motions, inertias_of, member_sections_of, overloads_of
 from ..structure.model import Model
 
@@ -246,3 +250,25 @@ def _directions(judge: Overloads, rows: np.ndarray, borne: SectionForces) -> np.
     ]
     names = np.array((TENSION, SHEAR, TORSION, BENDING))[np.argmax(used, axis=0)]
     return np.where((names == TENSION) & (borne.axial_n < 0.0), COMPRESSION, names)
+
+
+def made_elastic(scenario: Scenario) -> Scenario:
+    """Return a scenario with elastic connections, where they break by a force as stiff as the others.
+
+    Where all do, they are as stiff as reinforced concrete.
+
+    Raises
+    ------
+    ScenarioError
+        They cannot be elastic: they stand for no faces, or are of a type that has no stiffness.
+    """
+    between = tuple(
+        replace(each, breaking_force_n=None, breaking_force_kgf=None) for each in scenario.connections.between
+    )
+    changes: dict[str, Any] = {"stiffness": "elastic", "between": between}
+    if scenario.connections.material is None and scenario.connections.method == "face":
+        changes |= {"breaking_force_n": None, "breaking_force_kgf": None, "material": MATERIAL_OF_LARGE_MODELS}
+    try:
+        return replace(scenario, connections=replace(scenario.connections, **changes))
+    except ScenarioError as error:
+        raise ScenarioError(f"how a bridge rests is worked out with elastic connections, but {error}") from error

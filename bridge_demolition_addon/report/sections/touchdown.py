@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...model.debris.touchdown import EXPONENT, TOGETHER_S, VELOCITY_M_S, Shaking, landings, shaking_at
-from ...model.debris.vibration_limits import LIMITS, reached
+from ...model.debris.touchdown import EXPONENT, LIMITS, TOGETHER_S, VELOCITY_M_S, Shaking, landings, reached, shaking_at
 from ...model.results.arrays import Results
 from ...model.scenario import Neighbour
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section

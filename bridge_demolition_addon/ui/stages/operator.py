@@ -7,11 +7,9 @@ import bpy
 from ...display.contour_quantities import ContourQuantity
 from ...display.stage_contours import StageContours
 from ...model.sequence.checked_model import checked_model
-from ...model.stages.made_elastic import made_elastic
-from ...model.stages.sentences import criticality_sentences, stage_sentences
 from ...model.stages.stages import criticality, stages_of
-from ...model.stages.standing import StandingBridge
-from ...model.stages.tables import stage_row, write_tables
+from ...model.stages.standing import StandingBridge, made_elastic
+from ...model.stages.tables import criticality_sentences, stage_row, stage_sentences, write_tables
 from ...simulation.blender_events import contours_of
 from ...system.disk import writing
 from ..modal_task import ModalTask, Work

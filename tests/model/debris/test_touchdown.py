@@ -5,8 +5,7 @@ import pytest
 from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
-from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at, touchdown_velocity
-from bridge_demolition_addon.model.debris.vibration_limits import reached
+from bridge_demolition_addon.model.debris.touchdown import landings, reached, shaking_at, touchdown_velocity
 
 
 @pytest.mark.parametrize(

@@ -24,9 +24,8 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.stages.made_elastic import made_elastic
 from bridge_demolition_addon.model.stages.stages import criticality, reactions_n
-from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.stages.standing import StandingBridge, made_elastic
 from bridge_demolition_addon.simulation.motion_run import motion_run
 
 EXCAVATOR = """
