@@ -7,6 +7,7 @@ maps by lightness, so that all can be read in black and white.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -45,7 +46,7 @@ SMALLEST_SHADE_PA = 1e4
 NEAR_RINGS_PA = 15e3
 """Rings of less overpressure are left out of the plan near the charges."""
 
-_LINES = tuple(
+_LINES: tuple[dict[str, Any], ...] = tuple(
     {"color": shade, "linestyle": dash, "linewidth": width_pt}
     for shade, dash, width_pt in (
         ("0.0", "-", 1.6),
@@ -328,8 +329,8 @@ def _figure() -> tuple[Figure, Axes]:
 
 
 def _blank_figure(width_in: float, height_in: float) -> Figure:
-    figure = blank_figure(width_in, height_in, dpi=120, layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.15, h_pad=0.1)
+    figure = blank_figure(width_in, height_in, dpi=120)
+    figure.set_layout_engine("constrained", w_pad=0.15, h_pad=0.1)
     return figure
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 from textwrap import wrap
+from typing import Any
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import imread, imsave
 
 from ..display.colour_bar import colour_bar
@@ -52,11 +54,12 @@ def legend_pixels(height_px: int, settings: ContourSettings, frame: ContourFrame
     axes.set_yticks(bar.tick_shares, bar.tick_texts)
     axes.tick_params(colors="white", labelsize=em_points)
     heading = [*wrap(bar.title, _TITLE_LETTERS), *wrap(bar.subtitle, _TITLE_LETTERS), bar.unit]
-    text = {"color": "white", "fontsize": em_points, "parse_math": False}
+    text: dict[str, Any] = {"color": "white", "fontsize": em_points, "parse_math": False}
     figure.text(left, 1.0 - bottom / 3.0, "\n".join(heading), va="top", **text)
     figure.text(left, bottom / 2.0, f"{bar.frame}\n{bar.time}", va="center", **text)
-    figure.canvas.draw()
-    return np.asarray(figure.canvas.buffer_rgba(), float)[..., :3] / 255.0
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.array(canvas.buffer_rgba(), np.float64)[..., :3] / 255.0
 
 
 def _opaque(pixels: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -55,7 +56,7 @@ def breaking_history(
         axes.plot(times_s, 100.0 * kind.broken / kind.count, **line_style(number + 1), label=label)
     count = sum(kind.count for kind in kinds)
     broken = np.sum([kind.broken for kind in kinds], axis=0)
-    all_of_them = {"color": "black", "linewidth": 2.5, "label": f"all ({broken[-1]} of {count})"}
+    all_of_them: dict[str, Any] = {"color": "black", "linewidth": 2.5, "label": f"all ({broken[-1]} of {count})"}
     axes.plot(times_s, 100.0 * broken / count, **all_of_them)
     axes.set_ylim(0.0, 105.0)
     _finish(figure, axes, impact_s, columns=3)
@@ -125,7 +126,7 @@ def _time_axes(figure: FigureBase, label: str, times_s: np.ndarray) -> Axes:
 
 def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int = 2) -> None:
     for line in axes.lines:
-        if len(line.get_xdata()) == 1:  # a run of one frame has no line to show
+        if np.size(line.get_xdata()) == 1:  # a run of one frame has no line to show
             line.set_marker("o")
     if impact_s is not None:
         axes.axvline(impact_s, color="black", linestyle=(0, (1, 1)), linewidth=1.0, label="impact of the ball")

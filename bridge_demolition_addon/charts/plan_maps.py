@@ -14,6 +14,7 @@ from matplotlib.figure import FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
 
 from ..engineering.geometry.plan_areas import outlines
 from ..engineering.terrain.recorded import RecordedGround
@@ -82,7 +83,7 @@ def debris_map(
         box = {"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "black", "linewidth": 0.6}
         axes.annotate(str(number), last, ha="center", va="center", fontsize=6, bbox=box)
     fit(axes, figure)
-    name_zones(axes, figure, zones)
+    name_zones(axes, zones)
     draw_ground(axes, debris.ground)
 
 
@@ -90,7 +91,7 @@ def draw_ground(axes: Axes, ground: RecordedGround) -> None:
     """Draw contour lines of ground that is not flat, and outlines of surfaces on it, in a map that was fitted."""
     left, right, low, high = (*axes.get_xlim(), *axes.get_ylim())
     for each in ground.surfaces:
-        style = {"fill": False, "edgecolor": _SURFACE_COLOURS.get(each.kind, "0.35"), "linewidth": 0.9}
+        style: dict[str, Any] = {"fill": False, "edgecolor": _SURFACE_COLOURS.get(each.kind, "0.35"), "linewidth": 0.9}
         area = ground.shown(each)
         if area.is_empty():
             continue
@@ -102,9 +103,9 @@ def draw_ground(axes: Axes, ground: RecordedGround) -> None:
         places = np.stack(np.meshgrid(np.linspace(left, right, _SEEN), np.linspace(low, high, _SEEN)), -1)
         levels = _contour_levels(ground.terrain.heights_at(places))
         if len(levels):
-            triangles = ground.terrain.mesh.triangles
+            surface = Triangulation(x, y, ground.terrain.mesh.triangles)
             lines = axes.tricontour(
-                x, y, triangles, heights, levels=levels, colors=_CONTOUR, linewidths=0.5, linestyles="solid", zorder=0.7
+                surface, heights, levels, colors=_CONTOUR, linewidths=0.5, linestyles="solid", zorder=0.7
             )
             axes.clabel(lines, fmt="%g m", fontsize=5)
     axes.set(xlim=(left, right), ylim=(low, high))
@@ -116,7 +117,7 @@ def _contour_levels(heights_m: np.ndarray) -> np.ndarray:
     low, high = float(known.min(initial=np.inf)), float(known.max(initial=-np.inf))
     if not high - low > _FLAT_M:
         return np.zeros(0)
-    levels = MaxNLocator(_CONTOUR_LINES, steps=[1, 2, 5, 10]).tick_values(low, high)
+    levels = np.asarray(MaxNLocator(_CONTOUR_LINES, steps=[1, 2, 5, 10]).tick_values(low, high))
     return levels[(levels > low) & (levels < high)]
 
 
@@ -150,7 +151,7 @@ def exclusion_map(
     draw_area(axes, zone.debris, **style, label="predicted debris")
     draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
     fit(axes, figure)
-    name_zones(axes, figure, zones)
+    name_zones(axes, zones)
     draw_ground(axes, ground)
     _dimension(axes, zone)
 
@@ -218,10 +219,14 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
         axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
 
 
-def name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
+def name_zones(axes: Axes, zones: Iterable[Zone]) -> None:
     """Write each zone's name where no other name is, if there is such a place at its sides."""
-    letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes, figure)
-    style = {"fontsize": _NAME_POINTS, "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}, "zorder": 5}
+    letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes)
+    style: dict[str, Any] = {
+        "fontsize": _NAME_POINTS,
+        "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        "zorder": 5,
+    }
     occupied: list[np.ndarray] = []
     for zone in zones:
         size = letter_m * np.array([_LETTER_SHARE * len(zone.name), _LINE_SHARE])
@@ -229,7 +234,7 @@ def name_zones(axes: Axes, figure: FigureBase, zones: Iterable[Zone]) -> None:
         free = (each for each in choices if not any(_overlap(each[3], other) for other in occupied))
         across, upwards, anchor, box = next(free, choices[0])
         occupied.append(box)
-        axes.annotate(plain(zone.name), anchor, ha=across, va=upwards, **style)
+        axes.annotate(plain(zone.name), (anchor[0], anchor[1]), ha=across, va=upwards, **style)
 
 
 def _name_box(zone: Zone, across: str, upwards: str, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -246,9 +251,10 @@ def _overlap(first: np.ndarray, second: np.ndarray) -> bool:
     return bool((first[0] < second[1]).all() and (second[0] < first[1]).all())
 
 
-def _metres_per_mm(axes: Axes, figure: FigureBase) -> float:
+def _metres_per_mm(axes: Axes) -> float:
     """Return about how many metres of a map are a millimetre of its drawing."""
     shown = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)
+    figure = axes.figure
     drawn_mm = MM_PER_INCH / figure.dpi * np.array([figure.bbox.width, figure.bbox.height]) * _AXES_SHARES
     return float((shown / drawn_mm).max())
 

@@ -27,7 +27,7 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     nearest_last = np.argsort(-results.frames.positions_m[step, shards, 1], kind="stable")
     polygons = _elevations(results, step, shards[nearest_last])
     drawn = PolyCollection(polygons, edgecolors="black", linewidths=0.25, cmap="YlOrRd", norm=scale)
-    drawn.set_array(np.maximum(stresses_mpa[nearest_last], scale.vmin))
+    drawn.set_array(np.maximum(stresses_mpa[nearest_last], largest / 10.0**DECADES))
     axes.add_collection(drawn)
     balls = _elevations(results, step, results.inventory.of_kind("ball"))
     axes.add_collection(PolyCollection(balls, facecolors="0.25", edgecolors="black", linewidths=0.5))

@@ -82,8 +82,8 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
     largest = np.maximum.accumulate(reaches_m)
     axes.step(counts, _drawable(largest), where="post", **line_style(3, 1.0), label="largest so far")
     axes.plot(shown, _drawable(medians), **line_style(2, 1.2), label="median so far")
-    marker = {"marker": "o", "markersize": 2.5} if len(runs) < _FEW_LIMITS else {}
-    style = {"color": LIMIT_COLOUR, "linewidth": 1.8, "label": "limit by the runs so far"}
+    marker: dict[str, Any] = {"marker": "o", "markersize": 2.5} if len(runs) < _FEW_LIMITS else {}
+    style: dict[str, Any] = {"color": LIMIT_COLOUR, "linewidth": 1.8, "label": "limit by the runs so far"}
     axes.step(runs, _drawable(limits_m), where="post", **style, **marker)
     _mark_endless(axes, runs, limits_m, {"marker": "^", "color": LIMIT_COLOUR, "label": "no limit by the runs so far"})
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))

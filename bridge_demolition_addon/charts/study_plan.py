@@ -57,7 +57,7 @@ def study_plan(
         places = np.array([each.place_m[:2] for each in near])
         axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
     fit(axes, figure)
-    name_zones(axes, figure, zones)
+    name_zones(axes, zones)
     for each in near:
         name_neighbour(axes, each, to_the_left=each.place_m[0] > (low[0] + high[0]) / 2.0)
 

@@ -51,7 +51,8 @@ def lay_out(figure: Figure) -> None:
 
     Left to matplotlib, every saving lays it out again and draws it twice.
     """
-    figure.get_layout_engine().execute(figure)
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)
     figure.set_layout_engine(None)
 
 

@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from ..engineering.arrays import FloatArray
 from ..engineering.blast.charge_sizing import (
     smallest_charge_for_impulse,
     smallest_charge_for_overpressure,
@@ -146,6 +147,6 @@ def _fact(name: str, value: str) -> str:
     return f"{name:<24}{value}"
 
 
-def _digits(value: float) -> str:
+def _digits(value: float | FloatArray) -> str:
     """A number in four digits, without a power of ten where it can be."""
-    return f"{float(f'{value:.4g}'):g}"
+    return f"{float(f'{float(value):.4g}'):g}"

@@ -48,7 +48,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Bridge", bridge_facts(scenario.bridge, is_flat=scenario.has_flat_ground))
     yield from _section("Members", member_facts(prepared.members))
     if prepared.notes:
-        yield from _section("Repaired", (note.split(": ", 1) for note in prepared.notes))
+        yield from _section("Repaired", (note.partition(": ")[::2] for note in prepared.notes))
     yield from _section("Time", scenario.time.facts(scenario.timeline))
     model = checked_model(scenario, prepared.members)
     if not model.ground.is_plain:

@@ -4,14 +4,14 @@ import io
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Self
+from typing import Any, Self
 
 
 class StandardStream(io.TextIOWrapper):
     """A standard stream that goes nowhere once its reader, such as ``head``, has gone. Other errors name it."""
 
     @classmethod
-    def of(cls, stream: io.TextIOWrapper) -> Self:
+    def of(cls, stream: Any) -> Self:
         """Return a stream in the place of another, which shows letters that a console lacks as numbers."""
         encoding, by_lines = stream.encoding, stream.line_buffering
         return cls(stream.detach(), encoding, "backslashreplace", line_buffering=by_lines)

@@ -79,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         _say("interrupted")
         return SIGNALLED + (interruption.signal_number if isinstance(interruption, Interrupted) else signal.SIGINT)
     except SystemExit as leaving:  # argparse, after --help
-        return leaving.code or DONE
+        return int(leaving.code or DONE)
     return DONE
 
 

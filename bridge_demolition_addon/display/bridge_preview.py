@@ -14,6 +14,7 @@ from ..model.bridge.substructure import substructure
 from ..model.bridge.superstructure import superstructure
 from ..model.scenario import Ball, Bridge
 from ..model.scenario.ball import BallCable
+from ..model.schema import given
 from .ground_lines import cross_lines, way_lines
 
 _SHARP_DEG = 1.0
@@ -43,8 +44,9 @@ def ball_lines(ball: Ball, surface_m: float | None) -> np.ndarray:
         parts += [*_sphere(ball.cable.start_m, ball.diameter_m), *_swing(ball.cable)]
     elif surface_m is not None:
         for drop in ball.drops:
-            target = np.array((*drop.target_m, surface_m))
-            start = (*target[:2], surface_m + drop.drop_height_m + ball.diameter_m / 2.0)
+            target = np.array((*given(drop.target_m), surface_m))
+            height = surface_m + given(drop.drop_height_m) + ball.diameter_m / 2.0
+            start = (target[0], target[1], height)
             parts += [*_sphere(start, ball.diameter_m), np.stack((start, target)), cross_lines(target, _CROSS_M)]
     return np.concatenate(parts)
 

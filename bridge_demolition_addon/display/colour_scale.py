@@ -74,6 +74,10 @@ def tick_text(number: float) -> str:
 
 @cache
 def _table(colour_map: ColourMap) -> np.ndarray:
-    from matplotlib import colormaps  # takes half a second, which only those wait who show the map
+    # Takes half a second, which only those wait who show the map.
+    from matplotlib import colormaps
+    from matplotlib.colors import ListedColormap
 
-    return np.array(colormaps[colour_map.value].colors)
+    colours = colormaps[colour_map.value]
+    assert isinstance(colours, ListedColormap)
+    return np.array(colours.colors)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import bisect
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -43,6 +43,14 @@ class ContourFrame:
     screen_colours: np.ndarray
 
 
+class RecordedFrames(Protocol):
+    """Frames that are looked up by their row."""
+
+    def __len__(self) -> int: ...
+
+    def __getitem__(self, row: int) -> Frame: ...
+
+
 class ContourSeries:
     """The frames of a recording as contours: of one that still grows, or of a finished one.
 
@@ -60,7 +68,7 @@ class ContourSeries:
         As given.
     """
 
-    def __init__(self, inventory: Inventory, recorded: Sequence[Frame]):
+    def __init__(self, inventory: Inventory, recorded: RecordedFrames):
         self.body_names = inventory.body_names.tolist()
         self.moves, self.pairs, self.points_m = inventory.moves, inventory.pairs, inventory.points_m
         self._counts = inventory.moves & (inventory.body_kinds != _BALL)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from manifold3d import CrossSection
+from numpy.typing import ArrayLike
 
 from ..engineering.geometry.plan_areas import outlines
 from ..engineering.geometry.proximity import ranges
@@ -83,10 +84,11 @@ def way_lines(places_m: np.ndarray) -> np.ndarray:
     return np.stack((places_m[:-1], places_m[1:]), axis=1).reshape(-1, 3)
 
 
-def cross_lines(place_m: Sequence[float], size_m: float) -> np.ndarray:
+def cross_lines(place_m: ArrayLike, size_m: float) -> np.ndarray:
     """Return a cross of three lines, (6, 3) float, m, at a place."""
     arms = size_m * np.eye(3)
-    return np.stack((place_m - arms, place_m + arms), axis=1).reshape(-1, 3)
+    place = np.asarray(place_m, float)
+    return np.stack((place - arms, place + arms), axis=1).reshape(-1, 3)
 
 
 def flash_share(since_s: float) -> float:

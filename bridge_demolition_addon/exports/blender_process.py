@@ -7,14 +7,12 @@ JSON behind `MARK`; other lines there are Blender's own.
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from ..errors import MissingLibraryError, SimulationError
-from ..system.programs import program_command
+from ..system.programs import program_command, start_program
 from ..system.progress import Progress
 from .formats import Format
 
@@ -49,29 +47,18 @@ def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress,
     """
     progress.stage(f"writing {form.name} with Blender")
     with tempfile.TemporaryFile() as last_words:
-        process = subprocess.Popen(
-            program_command("exports.blender_program", blender),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=last_words,
-            text=True,
-            encoding="utf-8",
-            errors="replace",
-            # Ctrl-C is for us: we end it ourselves.
-            start_new_session=sys.platform != "win32",
-            creationflags=subprocess.CREATE_NEW_PROCESS_GROUP if sys.platform == "win32" else 0,
-        )
+        process, requests, answers = start_program(program_command("exports.blender_program", blender), last_words)
         try:
             request = {"format": form.name, "folder": str(folder.resolve()), "path": str(path.resolve())}
-            process.stdin.write(json.dumps(request) + "\n")
-            process.stdin.close()
-            is_done = _follow(process, progress)
+            requests.write(json.dumps(request) + "\n")
+            requests.close()
+            is_done = _follow(answers, progress)
         except BrokenPipeError:  # it ended before it was asked
             is_done = False
         finally:
             process.kill()
             status = process.wait()
-            process.stdout.close()
+            answers.close()
         if not is_done:
             last_words.seek(0)
             lines = last_words.read().decode("utf-8", "replace").strip().splitlines()
@@ -79,9 +66,9 @@ def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress,
             raise SimulationError(f"Blender ended with status {status} before {form.name} was written: {said}")
 
 
-def _follow(process: subprocess.Popen[str], progress: Progress) -> bool:
+def _follow(answers: IO[str], progress: Progress) -> bool:
     """Show how far the program is, and return whether it has written all."""
-    for line in process.stdout:
+    for line in answers:
         if not line.startswith(MARK):
             continue
         answer: dict[str, Any] = json.loads(line.removeprefix(MARK))

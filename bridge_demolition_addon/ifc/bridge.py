@@ -24,11 +24,12 @@ from ..model.scenario import (
     TimeSettings,
 )
 from ..model.scenario.connections import GROUND_NAME
-from ..model.schema import LINE_BREAKING_CATEGORIES
+from ..model.schema import LINE_BREAKING_CATEGORIES, given
 from .bearings import Bearing, bearing_of, bearing_rules, seated
 from .contacts import Contacts
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
+from .kinds import LeftOut
 from .map_place import site_of
 from .materials import MaterialTable, material_table
 from .meshes import element_solids
@@ -73,6 +74,11 @@ class Outcome:
     became: str
     why: str
     mesh: TriangleMesh | None = None
+
+    @property
+    def part(self) -> tuple[Member, Substance]:
+        """The member and what it is made of, of an element that is not left out."""
+        return given(self.member), given(self.substance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +162,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
 
 
 def _check_kinds(path: Path, elements: Sequence[Element]) -> None:
-    found = sorted({each.kind for each in elements if each.is_member})
+    found = sorted({each.member_kind for each in elements if each.is_member})
     for wanted, what in ((_CARRYING, "carries the road"), (_STANDING, "stands on the ground")):
         if not set(found) & set(wanted):
             raise IfcError(
@@ -190,7 +196,7 @@ def _members(
     """Return what becomes of all elements but the bearings, by their numbers in the file."""
     names = _names([each.facts.name for each in members])
     found = {
-        each.entity.id(): Outcome(each, None, None, "left out", "" if each.is_member else each.kind.why)
+        each.entity.id(): Outcome(each, None, None, "left out", each.kind.why if isinstance(each.kind, LeftOut) else "")
         for each in elements
     }
     for element, name, substance, solid in zip(members, names, made_of, solids, strict=False):
@@ -200,7 +206,7 @@ def _members(
             found[number] = Outcome(element, None, None, "left out", "it lies below the ground")
             continue
         why = "; ".join(each for each in (substance.note, "" if kept is solid else "cut off at the ground") if each)
-        member = Member(name, element.kind, kept, substance.density_kg_m3)
+        member = Member(name, element.member_kind, kept, substance.density_kg_m3)
         found[number] = Outcome(element, member, substance, "member", why)
     return found
 
@@ -220,18 +226,18 @@ def _connected(
 ) -> tuple[dict[int, Outcome], list[ConnectionBetween], list[str]]:
     """Return outcomes with those of the bearings, the connections that these are, and what they disagree in."""
     done, found = dict(outcomes), []
-    members = [each for each in outcomes.values() if each.member]
-    contacts, names = Contacts([each.member.solid for each in members]), [each.member.name for each in members]
+    parts = [each.part for each in outcomes.values() if each.member]
+    contacts, names = Contacts([member.solid for member, _ in parts]), [member.name for member, _ in parts]
     for element, solid in zip(bearings, solids, strict=True):
         bearing = bearing_of(element, solid, contacts, names, placement)
         number = element.entity.id()
         if isinstance(bearing, str):
             done[number] = Outcome(element, None, None, "left out", bearing)
             continue
-        below = members[bearing.below]
+        below, substance = parts[bearing.below]
         found.append(bearing)
-        part = Member(below.member.name, below.member.kind, solid, below.member.density_kg_m3)
-        done[number] = Outcome(element, part, below.substance, "connection", _why(bearing, names), seated(solid))
+        part = Member(below.name, below.kind, solid, below.density_kg_m3)
+        done[number] = Outcome(element, part, substance, "connection", _why(bearing, names), seated(solid))
     rules, notes = bearing_rules(found, names)
     return done, rules, notes
 
@@ -251,18 +257,20 @@ def _scenario(
     kept = [each for each in outcomes.values() if each.member]
     if not any(each.became == "member" for each in kept):
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
-    members = [each.member for each in kept if each.became == "member"]
+    members = [each.part[0] for each in kept if each.became == "member"]
     contacts = Contacts([each.solid for each in members])
     supports, held = supports_of(members, contacts)
     # A member that rests on a bearing touches that, not what the bearing lies on.
     connected = {each.member for each in supports} | {name for rule in rules for name in rule.members}
     loose = loose_members(members, contacts, connected)
+    parts = [each.part[0] for each in kept]
     meshes = {
-        _file(number, each.member.name): each.mesh or each.member.solid for number, each in enumerate(kept, start=1)
+        _file(number, part.name): each.mesh or part.solid
+        for number, (each, part) in enumerate(zip(kept, parts, strict=True), start=1)
     }
     geometry = tuple(
-        Geometry(name=each.member.name, file=file, kind=each.member.kind, density_kg_m3=each.member.density_kg_m3)
-        for each, file in zip(kept, meshes, strict=True)
+        Geometry(name=part.name, file=file, kind=part.kind, density_kg_m3=part.density_kg_m3)
+        for part, file in zip(parts, meshes, strict=True)
     )
     main, within = _strength_rules([each for each in kept if each.became == "member"])
     scenario = Scenario(
@@ -281,13 +289,14 @@ def _scenario(
 def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetween]]:
     """Return the strength of most of the bridge by volume, and the connections within members that have another."""
     volumes: dict[str, float] = {}
-    for each in kept:
-        strength = each.substance.row.strength_name
-        volumes[strength] = volumes.get(strength, 0.0) + each.member.volume_m3
-    main = max(volumes, key=volumes.get)
+    parts = [each.part for each in kept]
+    for member, substance in parts:
+        strength = substance.row.strength_name
+        volumes[strength] = volumes.get(strength, 0.0) + member.volume_m3
+    main = max(volumes, key=lambda strength: volumes[strength])
     rules = []
-    for kind, group in groupby(sorted(kept, key=lambda each: each.member.kind), key=lambda each: each.member.kind):
-        of_kind = {each.member.name: each.substance.row.strength_name for each in group}
+    for kind, group in groupby(sorted(parts, key=lambda part: part[0].kind), key=lambda part: part[0].kind):
+        of_kind = {member.name: substance.row.strength_name for member, substance in group}
         alike = set(of_kind.values())
         named = {kind: alike.pop()} if len(alike) == 1 else of_kind
         rules += [
@@ -299,7 +308,7 @@ def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetwee
 
 
 def _own_materials(kept: Sequence[Outcome]) -> tuple[Material, ...]:
-    own = {each.substance.row.own.name: each.substance.row.own for each in kept if each.substance.row.own}
+    own = {material.name: material for each in kept if (material := each.part[1].row.own)}
     return tuple(own.values())
 
 

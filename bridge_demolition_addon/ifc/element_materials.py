@@ -56,11 +56,14 @@ def substances(
     if settings.material is not None and table.row(settings.material) is None:
         raise IfcError(f'material is "{settings.material}", which {_told(settings.materials)} does not know')
     reader = _Reader(source, table, settings.material)
-    found = [reader.substance(each.entity) for each in elements]
+    found = []
     unknown: dict[str, list[str]] = {}
-    for element, substance in zip(elements, found, strict=True):
+    for element in elements:
+        substance = reader.substance(element.entity)
         if isinstance(substance, str):
             unknown.setdefault(substance, []).append(element.facts.name)
+        else:
+            found.append(substance)
     if unknown:
         named = "; ".join(f"{name or 'no material'}: {_some(names)}" for name, names in unknown.items())
         raise IfcError(
@@ -93,14 +96,15 @@ class _Reader:
         material = library("util.element").get_material(entity, should_skip_usage=True)
         parts = _parts_of(material)
         if not parts:
-            row = self.otherwise and self.table.row(self.otherwise)
-            return Substance(self.otherwise, row.density_kg_m3, row, "the file gives no material") if row else ""
+            if self.otherwise and (row := self.table.row(self.otherwise)):
+                return Substance(self.otherwise, row.density_kg_m3, row, "the file gives no material")
+            return ""
         found = [self._one(part) for part, _ in parts]
         known = [each for each in found if isinstance(each, Substance)]
         if not known:
             return found[0]
-        shares = [share for _, share in parts]
-        if len(known) < len(found) or len(found) == 1 or None in shares:
+        shares = [share for _, share in parts if share is not None]
+        if len(known) < len(found) or len(found) == 1 or len(shares) < len(parts):
             more = f"made of {len(found)} materials, of which {known[0].name} counts" if len(found) > 1 else ""
             note = "; ".join(each for each in (known[0].note, more) if each)
             return Substance(known[0].name, known[0].density_kg_m3, known[0].row, note)

@@ -53,9 +53,15 @@ class Element:
         return isinstance(self.kind, str)
 
     @property
+    def member_kind(self) -> str:
+        """What a member is."""
+        assert isinstance(self.kind, str)
+        return self.kind
+
+    @property
     def names(self) -> tuple[str, ...]:
         """What a user may call it by, its kind included."""
-        return (*self.facts.names, self.kind) if self.is_member else self.facts.names
+        return (*self.facts.names, self.member_kind) if self.is_member else self.facts.names
 
     @property
     def title(self) -> str:

@@ -22,8 +22,10 @@ SCENARIO_FILE = "scenario.toml"
 ELEMENTS_FILE = "elements.csv"
 REPORT_FILE = "import.txt"
 
-_COLUMNS = ("element", "class", "global_id", "became", "name", "kind", "material", "density_kg_m3")
-_COLUMNS += ("volume_m3", "mass_kg", "why")
+_COLUMNS = (
+    *("element", "class", "global_id", "became", "name", "kind", "material", "density_kg_m3"),
+    *("volume_m3", "mass_kg", "why"),
+)
 
 
 def check_new(folder: Path) -> None:
@@ -151,12 +153,13 @@ def _table(bridge: ImportedBridge) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_COLUMNS)
     for each in bridge.outcomes:
-        facts, member = each.element.facts, each.member
+        facts = each.element.facts
         row = [facts.name, facts.classes[0], facts.global_id, each.became]
-        if member is None:
+        if each.member is None:
             row += ["", "", "", "", "", ""]
         else:
-            row += [member.name, member.kind, each.substance.name, f"{member.density_kg_m3:.6g}"]
+            member, substance = each.part
+            row += [member.name, member.kind, substance.name, f"{member.density_kg_m3:.6g}"]
             row += [f"{member.volume_m3:.6g}", f"{member.mass_kg:.6g}"]
         writer.writerow([*row, each.why])
     return text.getvalue()

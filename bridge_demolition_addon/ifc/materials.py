@@ -8,7 +8,7 @@ from typing import ClassVar
 from ..engineering.mechanics.strength import MATERIALS
 from ..errors import IfcError, OutputError, ScenarioError
 from ..model.materials.materials import MODULUS, Material
-from ..model.schema import Table, key
+from ..model.schema import Table, given, key
 from ..model.toml_tables import document_of_file, table_of_document, toml_document
 from ..system.disk import whole_file, writing
 from .settings import matches
@@ -39,23 +39,23 @@ class MaterialRow(Table):
         """Return the material with the strengths that the row gives, called as the row; None without them."""
         if self.strength is not None:
             return None
-        given = {name: getattr(self, name) for name in (*_OWN, "elastic_modulus_n_mm2")}
-        return Material(name=self.name.replace("*", "").strip() or "as told", **given)
+        values = {name: getattr(self, name) for name in (*_OWN, "elastic_modulus_n_mm2")}
+        return Material(name=self.name.replace("*", "").strip() or "as told", **values)
 
     @property
     def strength_name(self) -> str:
         """Return the material that its connections break by, as a scenario calls it."""
-        return self.strength or self.own.name
+        return self.strength or given(self.own).name
 
     def _check_together(self) -> None:
-        given = [name for name in (*_OWN, "elastic_modulus_n_mm2") if getattr(self, name) is not None]
+        named = [name for name in (*_OWN, "elastic_modulus_n_mm2") if getattr(self, name) is not None]
         missing = [name for name in _OWN if getattr(self, name) is None]
         if self.strength is None and missing:
             raise ScenarioError(
                 f'materials for "{self.name}": {missing[0]} is missing: expected strength, or all of {", ".join(_OWN)}'
             )
-        if self.strength is not None and given:
-            raise ScenarioError(f'materials for "{self.name}": strength and {given[0]} are given: expected one of them')
+        if self.strength is not None and named:
+            raise ScenarioError(f'materials for "{self.name}": strength and {named[0]} are given: expected one of them')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -63,7 +64,7 @@ def _meshes(source: IfcSource, elements: Sequence[Element]) -> dict[int, Triangl
     return {number: mesh for number, mesh in _shapes(iterator, source.scale) if len(mesh.triangles)}
 
 
-def _shapes(iterator: object, scale: float) -> Iterator[tuple[int, TriangleMesh]]:
+def _shapes(iterator: Any, scale: float) -> Iterator[tuple[int, TriangleMesh]]:
     if not iterator.initialize():
         return
     while True:

@@ -71,7 +71,7 @@ def naming_contradictions(path: Path) -> Iterator[None]:
         yield
     except (AttributeError, IndexError, KeyError, RuntimeError, TypeError, ValueError) as error:
         frames = traceback.extract_tb(error.__traceback__)
-        if Path(library().__file__).parent not in Path(frames[-1].filename).parents:
+        if Path(library().__file__ or "").parent not in Path(frames[-1].filename).parents:
             raise
         raise IfcError(
             f"{path}: contradicts its schema ({error}); check it with a validator of IFC, or export it again"
@@ -100,11 +100,11 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
         raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
     own_m = _unit_of_file(model)
-    if settings.unit is None and own_m is None:
+    unit_m = own_m if settings.unit is None else UNITS[settings.unit]
+    if unit_m is None:
         raise IfcError(
             f"{path}: has no unit of length that is known; say which it is, one of {', '.join(UNITS)}, by --unit"
         )
-    unit_m = own_m if settings.unit is None else UNITS[settings.unit]
     if own_m is not None and unit_m != own_m:
         notes = (*notes, f"lengths are taken for {settings.unit}, though the file says that its unit is {own_m:g} m")
     taken_m = library("util.unit").calculate_unit_scale(model)

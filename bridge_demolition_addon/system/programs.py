@@ -1,7 +1,10 @@
 """Programs of this package that run in processes of their own."""
 
+import subprocess
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import IO
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -25,3 +28,30 @@ def program_command(module: str, blender: str = "") -> list[str]:
     if not blender:
         return [sys.executable, "-c", start]
     return [blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
+
+
+def start_program(
+    command: Sequence[str], errors: IO[bytes], environment: Mapping[str, str] | None = None
+) -> tuple[subprocess.Popen[str], IO[str], IO[str]]:
+    """Start a program, and return it with the stream of what it is asked and that of its answers.
+
+    Ctrl-C does not reach it: the process that started it ends it.
+    """
+    if sys.platform == "win32":
+        new_group = subprocess.CREATE_NEW_PROCESS_GROUP
+    else:
+        new_group = 0
+    process = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=errors,
+        env=environment,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        start_new_session=sys.platform != "win32",
+        creationflags=new_group,
+    )
+    assert process.stdin and process.stdout  # they are pipes
+    return process, process.stdin, process.stdout
