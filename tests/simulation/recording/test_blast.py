@@ -3,6 +3,7 @@
 import csv
 import math
 
+import bpy  # noqa: F401  mathutils is there once it is imported
 import numpy as np
 import pytest
 from mathutils import Euler
