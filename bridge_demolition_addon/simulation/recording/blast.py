@@ -9,6 +9,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
+from ...bullet.bodies import BodyTable
 from ...bullet.field_filter import ignore_fields, let_fields_act
 from ...bullet.world import BulletWorld
 from ...engineering.geometry.vectors import length
@@ -20,6 +21,7 @@ from ...scene.blast.field_reach import FieldReach, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
 from ...scene.blast.settings import blast_of
 from ...scene.run_setup import RunSetup
+from .drivers import Driver
 
 
 class FieldBlast:
@@ -36,12 +38,12 @@ class FieldBlast:
 
     Attributes
     ----------
-    left : int
+    lost_loads : int
         How often a body has left the reach of its field within a frame, and lost a part of its load.
     """
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], explosion: Explosion):
-        self.left = 0
+        self.lost_loads = 0
         self._scene = scene
         self._fields = ForceFields(scene, bodies)
         self._explosion = explosion
@@ -93,7 +95,7 @@ class FieldBlast:
             )
         if len(self._pushed):
             moves = (centres - self._centres)[self._pushed]
-            self.left += int((~self._reaches.contain(moves, self._directions)).sum())
+            self.lost_loads += int((~self._reaches.contain(moves, self._directions)).sum())
         return self._loads
 
     def rest(self) -> None:
@@ -114,18 +116,15 @@ class DirectBlast:
 
     Parameters
     ----------
-    world : BulletWorld
-        The bound world.
+    bodies : BodyTable
     rows : (n,) int
-        Which of its bodies can be pushed.
+        Which of them can be pushed.
     explosion : Explosion
         The charges and these bodies.
     """
 
-    left = 0
-
-    def __init__(self, world: BulletWorld, rows: np.ndarray, explosion: Explosion):
-        self._world, self._rows, self._explosion = world, rows, explosion
+    def __init__(self, bodies: BodyTable, rows: np.ndarray, explosion: Explosion):
+        self._bodies, self._rows, self._explosion = bodies, rows, explosion
         self._elapsed_s = 0.0
         self._loads: list[StepLoads] = []
 
@@ -138,13 +137,13 @@ class DirectBlast:
         start_s, self._elapsed_s = self._elapsed_s, self._elapsed_s + substep_s
         if self._explosion.is_quiet(start_s, self._elapsed_s):
             return
-        centres, rotations = self._world.bodies.positions()
+        centres, rotations = self._bodies.positions()
         loads = self._explosion.loads(start_s, self._elapsed_s, centres[self._rows], rotations[self._rows])
         if not len(loads):
             return
         pushed = np.flatnonzero(np.bincount(loads.bodies, minlength=len(self._rows)))
         forces = loads.vectors(len(self._rows))[pushed] / substep_s
-        self._world.bodies.push(self._rows[pushed], forces)
+        self._bodies.push(self._rows[pushed], forces)
         self._loads.append(loads)
 
     def after_frame(self) -> StepLoads:
@@ -153,7 +152,7 @@ class DirectBlast:
         return loads
 
 
-class Blast:
+class Blast(Driver):
     """The explosion of a scene while it is simulated.
 
     Parameters
@@ -178,32 +177,32 @@ class Blast:
         if setup.blast.apply == Apply.FIELDS:
             self._fields = FieldBlast(scene, [setup.bodies.objects[row] for row in self._rows], explosion)
         elif world is not None:
-            self._direct = DirectBlast(world, self._rows, explosion)
+            self._direct = DirectBlast(world.bodies, self._rows, explosion)
         else:
             raise SimulationError(
                 "blast cannot be applied directly, as Bullet's memory is not as expected: apply it by force fields"
             )
 
     @property
-    def left(self) -> int:
+    def lost_loads(self) -> int:
         """Return how often a body has left the reach of its field within a frame, and lost a part of its load."""
-        return self._fields.left if self._fields else 0
+        return self._fields.lost_loads if self._fields else 0
 
-    def before_frame(self, start_s: float, frame_s: float, places: np.ndarray, rotations: np.ndarray) -> None:
-        """Prepare a frame that begins at a time, is that long, and finds all bodies at these places."""
+    def before_frame(self, start_s: float, frame_s: float, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        """Prepare a frame that begins at a time, is that long, and finds all bodies at positions (n, 3)."""
         if self._fields:
-            self._fields.before_frame(start_s, frame_s, places[self._rows], rotations[self._rows])
+            self._fields.before_frame(start_s, frame_s, positions_m[self._rows], rotations[self._rows])
         else:
             self._direct.begin_frame(start_s)
 
-    def before_substep(self, substep_s: float) -> None:
-        """Prepare a sub-step of a length in s."""
+    def before_substep(self, elapsed_s: float, substep_s: float) -> None:
+        """Push the bodies in a sub-step of a length in s, where forces do."""
         if self._direct:
             self._direct.before_substep(substep_s)
 
-    def after_frame(self, places: np.ndarray) -> tuple[StepLoads, np.ndarray]:
+    def after_frame(self, positions_m: np.ndarray) -> tuple[StepLoads, np.ndarray]:
         """Return the loads of the frame, after which all bodies are at these positions, and their impulses (n, 3)."""
-        loads = self._fields.after_frame(places[self._rows]) if self._fields else self._direct.after_frame()
+        loads = self._fields.after_frame(positions_m[self._rows]) if self._fields else self._direct.after_frame()
         loads = replace(loads, bodies=self._rows[loads.bodies])
         return loads, loads.vectors(self._count)
 

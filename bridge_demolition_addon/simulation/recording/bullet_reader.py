@@ -8,21 +8,27 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...bullet.bodies import BodyTable
 from ...bullet.world import BulletWorld
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
+from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...errors import LayoutError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...scene.run_setup import RunSetup
 from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
+from .breaking import Breaker, Breaks, ElasticPrediction, Resistance
+from .drivers import LastSubstepLoads, ThresholdScale, WarmUp
 from .elastic_connections import ElasticConnections
 from .events import AppliedEvent, Events
+from .frame_sums import FrameSums
 from .ground_drive import GroundDrive
 from .loads import Loads
-from .substeps import Breaks, SubstepRecorder
+from .meter import Meter
+from .motion_reader import unknown_loads
+from .reinforcement import Reinforcement
+from .substeps import SubstepRecorder, in_order
 
 
 class BulletReader:
@@ -44,8 +50,8 @@ class BulletReader:
 
     Attributes
     ----------
-    elasticity : Elasticity or None
-        How the bridge gives way; None where connections are rigid.
+    resting_state : RestingState or None
+        How the bridge deforms under its own weight; None where connections are rigid.
     rigid_because : LayoutError or None
         Why connections that are meant to be elastic are rigid.
     """
@@ -60,48 +66,68 @@ class BulletReader:
         every_substep: bool,
         loads: bool,
     ):
-        self._scene, self._world, self._every_substep = scene, world, every_substep
-        inventory, breaking = setup.inventory, setup.breaking
-        self._inventory, self._substeps_of_frame = inventory, scene.rigidbody_world.substeps_per_frame
+        self._scene, self._setup, self._world, self._every_substep = scene, setup, world, every_substep
+        self._inventory, self._substeps_of_frame = setup.inventory, scene.rigidbody_world.substeps_per_frame
         self.rigid_because: LayoutError | None = None
         self._built_positions_m, self._built_rotations = world.bodies.positions()
         elastic = self._elastic_connections(setup) if setup.elasticity and len(setup.connections) else None
-        self.elasticity = elastic.elasticity if elastic else None
-        self._events = Events(world, inventory.pairs, setup.events)
-        work = WorkAccumulator(
-            inventory.masses_kg,
-            np.array(setup.bodies.rigid["linear_damping"]),
-            np.array(setup.bodies.rigid["angular_damping"]),
-            setup.gravity_m_s2,
-            _motion(world.bodies),
-        )
-        self._substeps = SubstepRecorder(
-            world,
-            inventory,
-            breaking,
-            self._events,
-            blast,
-            Loads(world, setup.placed_loads),
-            setup.time.step.substep_s,
-            work,
-            elastic,
-            self._member_sections(setup.elasticity.thicknesses_m) if elastic and breaking.strength else None,
-            self._ground_drive(setup),
-            every_substep=every_substep,
-            loads=loads,
-        )
+        self.resting_state = elastic.resting_state if elastic else None
+        self._last_loads = None if every_substep else LastSubstepLoads(world.constraints)
+        self._sums: FrameSums | None = None
+        self._no_loads = None if loads else unknown_loads(setup.inventory)
+        self._substeps = self._substep_recorder(elastic, blast, loads)
         world.call_around_substeps(
             self._substeps.before_substep, self._substeps.after_substep if every_substep else None
         )
 
+    def _substep_recorder(
+        self, elastic: ElasticConnections | None, blast: Blast | None, loads: bool
+    ) -> SubstepRecorder:
+        """Return what Bullet calls, with all drivers, and what is measured and breaks."""
+        setup, world, inventory = self._setup, self._world, self._inventory
+        breaking, constraints = setup.breaking, world.constraints
+        self._events = events = Events(world, inventory.pairs, setup.events)
+        reinforcement = None
+        if breaking.ductility and elastic:
+            elastic.reinforce(breaking, events.remaining_strength)
+        elif breaking.ductility:
+            reinforcement = Reinforcement(world.bodies, inventory, breaking, events.remaining_strength)
+        warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
+        meter = Meter(world, inventory, elastic, reinforcement)
+        holding = elastic if breaking.ductility and elastic else reinforcement
+        resistance = Resistance(self._overloads(elastic), events.remaining_strength, elastic, holding)
+        breaker = Breaker(constraints, meter, resistance, warm_up)
+        drivers = in_order(
+            (
+                self._last_loads,
+                warm_up,
+                self._ground_drive(),
+                events,
+                ThresholdScale(constraints, setup.time.step.substep_s),
+                reinforcement,
+                blast,
+                Loads(world.bodies, setup.placed_loads),
+                ElasticPrediction(elastic, breaker) if elastic else None,
+            )
+        )
+        if loads:
+            self._sums = FrameSums(meter, inventory, self._work(), every_substep=self._every_substep)
+        return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
+
     def before_frame(self, substeps: int) -> None:
         """Know how many sub-steps the coming frame has."""
         self._substeps_of_frame = substeps
-        self._substeps.before_frame(substeps)
+        if self._last_loads:
+            self._last_loads.before_frame(substeps)
 
     def close(self) -> None:
         """Read nothing any more; what is still worked out is waited for."""
-        self._substeps.close()
+        if self._sums:
+            self._sums.close()
+
+    def _free_shards(self) -> np.ndarray:
+        """Shards (s,) that can move."""
+        return np.flatnonzero((self._inventory.body_kinds == "shard") & self._inventory.moves)
 
     def _elastic_connections(self, setup: RunSetup) -> ElasticConnections | None:
         """Return the connections, None where Bullet's memory does not let them be elastic."""
@@ -113,23 +139,34 @@ class BulletReader:
             self.rigid_because = error
             return None
 
-    def _ground_drive(self, setup: RunSetup) -> GroundDrive | None:
+    def _ground_drive(self) -> GroundDrive | None:
         """Return what moves the ground, None where it rests."""
+        setup = self._setup
         if setup.ground_motion is None:
             return None
-        moves = (self._inventory.body_kinds == "shard") & (self._inventory.masses_kg > 0.0)
         rows = rows_on_moving_ground(setup.bodies.objects)
-        return GroundDrive(self._world, rows, np.flatnonzero(moves), setup.ground_motion)
+        return GroundDrive(self._world.bodies, rows, self._free_shards(), setup.ground_motion)
 
-    def _member_sections(self, thicknesses_m: np.ndarray) -> MemberSections:
-        """Return the sections across members, as they were built, that connections are judged by."""
-        inventory = self._inventory
-        return MemberSections(
-            inventory.faces,
-            self._built_positions_m,
-            inventory.moves,
-            kinds_of(inventory.body_members[inventory.pairs]),
-            thicknesses_m,
+    def _overloads(self, elastic: ElasticConnections | None) -> Overloads | None:
+        """Return what judges connections by their strength; elastic ones by sections of members as they were built."""
+        strength, inventory, sections = self._setup.breaking.strength, self._inventory, None
+        if not strength:
+            return None
+        if elastic:
+            kinds = kinds_of(inventory.body_members[inventory.pairs])
+            thicknesses_m = self._setup.elasticity.thicknesses_m
+            sections = MemberSections(inventory.faces, self._built_positions_m, inventory.moves, kinds, thicknesses_m)
+        return Overloads(inventory.faces, inventory.moves, strength, sections)
+
+    def _work(self) -> WorkAccumulator:
+        """Return what adds up the work in each frame, from how bodies move now."""
+        bodies, rigid = self._world.bodies, self._setup.bodies.rigid
+        return WorkAccumulator(
+            self._inventory.masses_kg,
+            np.array(rigid["linear_damping"]),
+            np.array(rigid["angular_damping"]),
+            self._setup.gravity_m_s2,
+            Motion(bodies.positions()[0][None], bodies.velocities()[None], bodies.angular_velocities()[None]),
         )
 
     @property
@@ -139,11 +176,11 @@ class BulletReader:
 
     def take_ball_history(self) -> BallHistory:
         """Return what hit the balls since this was asked last."""
-        return self._substeps.take_ball_history()
+        return self._sums.take_ball_history() if self._sums else BallHistory.unknown()
 
     def take_contacts(self, frame: int) -> ContactHistory:
         """Return the contacts in the last sub-step since this was asked last, which is that of a frame."""
-        contacts = self._substeps.take_last_contacts()
+        contacts = self._sums.take_last_contacts() if self._sums else None
         if contacts is None:
             return ContactHistory.none()
         return ContactHistory(
@@ -166,11 +203,11 @@ class BulletReader:
         Where connections are elastic, and have put the bodies where they rest, it shows them as they were built.
         """
         self._substeps.skip(substep_s * self._scene.rigidbody_world.substeps_per_frame)
-        loads, work, _ = self._substeps.finish_frame()
+        loads, work, _ = self._finish_frame()
         if substep_s > 0.0:
             loads, work = loads.unknown(), FrameWork.unknown(len(self._inventory.masses_kg))
         frame = self._frame(substep_s, loads, work)
-        if self.elasticity is None or substep_s > 0.0:
+        if self.resting_state is None or substep_s > 0.0:
             return frame
         return replace(frame, positions_m=self._built_positions_m, rotations=self._built_rotations)
 
@@ -181,10 +218,16 @@ class BulletReader:
             self._substeps.skip(substep_s * (self._substeps_of_frame - 1))
         if self._substeps.error:
             raise self._substeps.error
-        loads, work, breaks = self._substeps.finish_frame()
+        loads, work, breaks = self._finish_frame()
         if not self._every_substep:
             work = FrameWork.unknown(len(self._inventory.masses_kg))
         return self._frame(substep_s, loads, work), breaks
+
+    def _finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
+        """Return loads and work of the frame, and what broke in it; unknown where loads are not read."""
+        if self._sums:
+            return self._sums.finish_frame()
+        return self._no_loads, FrameWork.unknown(len(self._inventory.masses_kg)), []
 
     def _frame(self, substep_s: float, loads: FrameLoads, work: FrameWork) -> Frame:
         positions, rotations = self._world.bodies.positions()
@@ -202,8 +245,3 @@ class BulletReader:
             loads=loads,
             work=work,
         )
-
-
-def _motion(bodies: BodyTable) -> Motion:
-    """How bodies move now, as of one sub-step."""
-    return Motion(bodies.positions()[0][None], bodies.velocities()[None], bodies.angular_velocities()[None])

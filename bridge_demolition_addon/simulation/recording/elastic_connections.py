@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import bpy
 import numpy as np
@@ -28,13 +28,13 @@ from ...scene.world import scene_time_step
 
 
 @dataclass(frozen=True, slots=True)
-class Elasticity:
-    """How a bridge gives way before anything acts on it but its weight.
+class RestingState:
+    """How a bridge deforms and vibrates before anything acts on it but its weight.
 
     Attributes
     ----------
-    sag_m : float
-        How far the shard goes down that goes down farthest.
+    deflection_m : float
+        Largest downward displacement of a shard.
     frequency_hz : float
         First frequency; 0 where nothing is held.
     damping_ratio : float
@@ -43,10 +43,15 @@ class Elasticity:
         Bodies that connections to a support hold; the others fall, or lie on what holds them by contact alone.
     """
 
-    sag_m: float
+    deflection_m: float
     frequency_hz: float
     damping_ratio: float
     held_bodies: int
+
+    def stored(self) -> dict[str, float]:
+        """Return the values by the names that summaries have for them."""
+        values = asdict(self)
+        return {"sag_m": values.pop("deflection_m")} | values
 
 
 class ElasticConnections:
@@ -64,7 +69,7 @@ class ElasticConnections:
     damping_ratio : float
         Damping of the first frequency, as a share of the critical one.
     soil : SoilSprings or None
-        What footings stand on, where the ground gives way.
+        What footings stand on, where the ground yields.
 
     Raises
     ------
@@ -128,7 +133,7 @@ class ElasticConnections:
             Part of the strength that it has, layers of bars, how far a crack opens until they rupture, and what they
             are made of.
         left : (m,) float
-            Part of its strength that each connection has left, kept up to date by whoever gives it.
+            Part of its strength that each connection has left, kept up to date by the events.
         """
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
         self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
@@ -163,13 +168,13 @@ class ElasticConnections:
         self._cracks.add(rows, first, second, places, outwards, motion.positions_m, motion.rotations)
 
     @property
-    def elasticity(self) -> Elasticity:
-        """How the bridge gives way."""
+    def resting_state(self) -> RestingState:
+        """How the bridge deforms under its own weight."""
         rest, start = self._rest, self._built.positions_m
         fallen = (start - rest.positions_m)[2, rest.held]
         frequency = rest.frequency_hz
         ratio = max(self._damping_ratio, np.pi * frequency * self._shortest_s) if frequency else 0.0
-        return Elasticity(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
+        return RestingState(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
 
     @property
     def parts(self) -> np.ndarray:

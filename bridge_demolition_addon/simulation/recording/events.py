@@ -9,6 +9,7 @@ import numpy as np
 
 from ...bullet.world import BulletWorld
 from ...model.sequence.events import Event
+from .drivers import Driver
 
 _ROUNDING = 1e-3
 """Part of a sub-step by which adding up sub-steps may be off."""
@@ -24,7 +25,7 @@ class AppliedEvent:
     connections: np.ndarray
 
 
-class Events:
+class Events(Driver):
     """All events of a world, each before the first sub-step that begins at its time or later.
 
     Parameters

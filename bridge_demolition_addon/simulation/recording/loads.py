@@ -6,24 +6,25 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...bullet.world import BulletWorld
+from ...bullet.bodies import BodyTable
 from ...engineering.geometry.vectors import cross, transformed, transformed_back
 from ...model.sequence.loads import PlacedLoad
+from .drivers import Driver
 
 
-class Loads:
-    """All loads of a world that was bound just now, before any time passes.
+class Loads(Driver):
+    """Pushes bodies with all loads.
 
     Parameters
     ----------
-    world : BulletWorld
+    bodies : BodyTable
     loads : sequence of PlacedLoad
         On its bodies.
     """
 
-    def __init__(self, world: BulletWorld, loads: Sequence[PlacedLoad]):
-        self._world = world
-        self._courses = [each.load for each in loads]
+    def __init__(self, bodies: BodyTable, loads: Sequence[PlacedLoad]):
+        self._table = bodies
+        self._loads = [each.load for each in loads]
         counts = [len(each.bodies) for each in loads]
         self._load_of = np.repeat(np.arange(len(loads)), counts)
         self._bodies = np.concatenate([np.zeros(0, int), *(each.bodies for each in loads)])
@@ -34,27 +35,27 @@ class Loads:
         self._turns = np.flatnonzero(at_points[self._load_of])
         arms = np.array([each.arm_m for each in loads if each.arm_m is not None]).reshape(-1, 3)
         self._arms = transformed_back(
-            world.bodies.positions()[1][self._bodies[self._turns]], arms
+            bodies.positions()[1][self._bodies[self._turns]], arms
         )  # in the axes of the bodies
         self._begins_s = 0.0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Push with the means of loads in a sub-step of a length in s; simulated time is known once a frame at least.
 
-        What was removed bears nothing, and its part of the load is gone with it.
+        What was removed carries nothing, and its part of the load is gone with it.
         """
-        if not self._courses:
+        if not self._loads:
             return
         self._begins_s = max(self._begins_s, elapsed_s)
         middle_s = self._begins_s + substep_s / 2.0
         self._begins_s += substep_s
-        sizes_n = np.array([each.force_n(middle_s) for each in self._courses])[self._load_of]
+        sizes_n = np.array([each.force_n(middle_s) for each in self._loads])[self._load_of]
         forces = sizes_n[:, None] * self._unit_forces
         torques = np.zeros_like(forces)
         if len(self._turns):
-            arms = transformed(self._world.bodies.positions()[1][self._bodies[self._turns]], self._arms)
+            arms = transformed(self._table.positions()[1][self._bodies[self._turns]], self._arms)
             torques[self._turns] = cross(arms, forces[self._turns])
-        pushed = np.flatnonzero((sizes_n > 0.0) & ~self._world.bodies.removed[self._bodies])
+        pushed = np.flatnonzero((sizes_n > 0.0) & ~self._table.removed[self._bodies])
         if len(pushed):
-            self._world.bodies.wake(self._bodies[pushed])
-            self._world.bodies.add_forces(self._bodies[pushed], forces[pushed], torques[pushed])
+            self._table.wake(self._bodies[pushed])
+            self._table.add_forces(self._bodies[pushed], forces[pushed], torques[pushed])

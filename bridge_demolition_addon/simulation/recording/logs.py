@@ -26,7 +26,7 @@ from ...model.run_folder.logs import (
     FrameBlast,
 )
 from ...system.disk import writing
-from .substeps import Breaks
+from .breaking import Breaks
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,8 +58,7 @@ class MomentumReader:
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory):
         self._scene, self._bodies, self._masses_kg = scene, bodies, inventory.masses_kg
-        nothing = LoadAccumulator(inventory.pairs, inventory.volumes_m3, lambda _: np.zeros((0, 3))).finish()
-        self._no_loads = nothing.unknown()
+        self._no_loads = unknown_loads(inventory)
         self._last: Frame | None = None
 
     def read_frame(self, depsgraph: bpy.types.Depsgraph) -> Frame:
@@ -97,3 +96,9 @@ class MomentumReader:
         """Net forces under accelerations (n, 3); everything else is unknown."""
         forces = self._masses_kg[:, None] * (accelerations - np.array(self._scene.gravity, float))
         return replace(self._no_loads, body_forces_n=forces, body_peaks_n=length(forces))
+
+
+def unknown_loads(inventory: Inventory) -> FrameLoads:
+    """Return loads of which nothing is known, nan throughout."""
+    normals = np.zeros((len(inventory.pairs), 3))
+    return LoadAccumulator(inventory.pairs, inventory.volumes_m3, lambda _: normals).finish().unknown()

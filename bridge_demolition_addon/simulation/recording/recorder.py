@@ -25,7 +25,7 @@ from ...scene.time_scale import time_step_at
 from ...scene.tools.ball import begin_lifts, lifts_of
 from .blast import Blast, check_blast
 from .bullet_reader import BulletReader
-from .elastic_connections import Elasticity
+from .elastic_connections import RestingState
 from .logs import LogFiles, Logs
 from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader, check_motion_is_enough
@@ -187,7 +187,7 @@ class Recording(RecordedFrames):
     @property
     def lost_blast_loads(self) -> int:
         """How often a body has left the reach of its force field within a frame, and lost a part of its load."""
-        return self._blast.left if self._blast else 0
+        return self._blast.lost_loads if self._blast else 0
 
     @property
     def applied_events(self) -> list[dict[str, Any]]:
@@ -204,9 +204,9 @@ class Recording(RecordedFrames):
         ]
 
     @property
-    def elasticity(self) -> Elasticity | None:
+    def resting_state(self) -> RestingState | None:
         """How the bridge deforms under its own weight; None where its connections are rigid."""
-        return self._reader.elasticity if self._reader else None
+        return self._reader.resting_state if self._reader else None
 
     @property
     def rigid_because(self) -> LayoutError | None:

@@ -4,29 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...bullet.world import BulletWorld
+from ...bullet.bodies import BodyTable
 from ...engineering.geometry.vectors import dot, transformed, transformed_back
-from ...engineering.mechanics.reinforcement import FaceBars, effective_masses, parting, tie_forces
-from ...engineering.mechanics.strength import Ductility
+from ...engineering.mechanics.reinforcement import effective_masses, parting, tie_forces
 from ...model.results.inventory import Inventory
+from ...scene.connections.breaking_settings import Breaking
+from .drivers import Driver
 
 
-class Reinforcement:
-    """All reinforcement of a world that holds on across a crack: one tie for each connection that broke.
+class Reinforcement(Driver):
+    """Pulls across the cracks of rigid connections with reinforcement, by one force for each that broke.
 
     Parameters
     ----------
-    world : BulletWorld
+    bodies : BodyTable
     inventory : Inventory
-        Its bodies and connections.
-    ductility : Ductility
-        What is left of a connection, and how far that stretches.
-    tension_pa : float
-        Strength of the intact connections in tension.
+        The same bodies, and their connections.
+    breaking : Breaking
+        What is left of a connection, how far that stretches, and layers of bars besides.
     remaining_strength : (m,) float
-        Part of it that each connection has left, kept up to date by whoever gives it.
-    bars : FaceBars or None
-        Layers of bars besides.
+        Part of its strength that each connection has left, kept up to date by the events.
 
     Attributes
     ----------
@@ -34,29 +31,21 @@ class Reinforcement:
         Force on the first body of each connection in the coming sub-step.
     """
 
-    def __init__(
-        self,
-        world: BulletWorld,
-        inventory: Inventory,
-        ductility: Ductility,
-        tension_pa: float,
-        remaining_strength: np.ndarray,
-        bars: FaceBars | None = None,
-    ):
-        self._bodies, self._inventory, self._ductility = world.bodies, inventory, ductility
+    def __init__(self, bodies: BodyTable, inventory: Inventory, breaking: Breaking, remaining_strength: np.ndarray):
+        self._bodies, self._inventory, self._ductility = bodies, inventory, breaking.ductility
         self._remaining_strength = remaining_strength
-        self._yield_n = ductility.strength_share * tension_pa * inventory.areas_m2
+        self._yield_n = breaking.ductility.strength_share * breaking.strength.tension_pa * inventory.areas_m2
         self._offsets_m = self._reader = None
-        if bars:
-            bars = bars.with_even(self._yield_n)
+        if breaking.bars:
+            bars = breaking.bars.with_even(self._yield_n)
             self._yield_n, self._offsets_m, self._reader = bars.yield_n, bars.offsets_m, self._bodies.motion()
         self._rows = np.zeros(0, int)
         self._anchors = np.zeros((0, 2, 3))
         self._holding_n = np.zeros(0)
         self.forces_n = np.zeros((len(inventory.pairs), 3))
 
-    def add(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
-        """Let connections (r,), broken just now, hold on as ties.
+    def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
+        """Let the reinforcement of connections (r,) hold that broke just now.
 
         Parameters
         ----------
@@ -76,7 +65,7 @@ class Reinforcement:
         self._anchors = np.concatenate((self._anchors, anchors))
         self._holding_n = np.concatenate((self._holding_n, np.zeros(len(rows))))
 
-    def before_substep(self, substep_s: float) -> None:
+    def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Let go what has stretched too far, and pull with the rest in the coming sub-step."""
         self.forces_n[:] = 0.0
         if not len(self._rows):
@@ -98,9 +87,9 @@ class Reinforcement:
         self._rows, self._anchors, self._holding_n = self._rows[holds], self._anchors[holds], self._holding_n[holds]
 
     def _turning(self, pairs: np.ndarray, levers: np.ndarray, directions: np.ndarray) -> np.ndarray | float:
-        """By how much a unit impulse along ties (t,) has their points part, as it turns their bodies, 1/kg.
+        """By how much a unit impulse along bars (t,) has their points part, as it turns their bodies, 1/kg.
 
-        Ties at the middles of faces hardly turn their bodies; those at the depth of a layer do.
+        Bars at the middles of faces hardly turn their bodies; those at the depth of a layer do.
         """
         if self._reader is None:
             return 0.0

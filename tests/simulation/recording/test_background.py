@@ -10,10 +10,11 @@ from support.blocks import Blocks
 from bridge_demolition_addon.errors import LayoutError
 from bridge_demolition_addon.model.results.fingerprint import result_digest
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
-from bridge_demolition_addon.simulation.recording import substeps
+from bridge_demolition_addon.simulation.recording import frame_sums
 from bridge_demolition_addon.simulation.recording.background import THREAD_NAME, BackgroundWork
+from bridge_demolition_addon.simulation.recording.frame_sums import FrameSums
+from bridge_demolition_addon.simulation.recording.meter import Meter
 from bridge_demolition_addon.simulation.recording.recorder import Recording
-from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder
 
 FRAMES = 12
 
@@ -42,16 +43,16 @@ def threads():
 
 def hand_over(monkeypatch, size):
     """Have every sub-step handed over that takes more than so many bytes; return the threads of the jobs."""
-    monkeypatch.setattr(substeps, "_BATCH_BYTES", size)
-    monkeypatch.setattr(substeps, "_WORTH_HANDING_OVER_BYTES", size)
-    used, work_out = set(), SubstepRecorder._work_out
+    monkeypatch.setattr(frame_sums, "_BATCH_BYTES", size)
+    monkeypatch.setattr(frame_sums, "_WORTH_HANDING_OVER_BYTES", size)
+    used, work_out = set(), FrameSums.work_out
 
-    def noted(recorder, each, *, work_counts):
-        if each:
+    def noted(sums, substeps, *, work_counts):
+        if substeps:
             used.add(threading.current_thread().name.startswith(THREAD_NAME))
-        work_out(recorder, each, work_counts=work_counts)
+        work_out(sums, substeps, work_counts=work_counts)
 
-    monkeypatch.setattr(SubstepRecorder, "_work_out", noted)
+    monkeypatch.setattr(FrameSums, "work_out", noted)
     return used
 
 
@@ -72,15 +73,15 @@ def test_same_results_to_the_bit_beside_bullet_and_not(blender, tmp_path, monkey
 
 def test_error_beside_bullet_ends_the_recording_with_its_message(row, tmp_path, monkeypatch):
     hand_over(monkeypatch, 0)
-    loads, thread = SubstepRecorder._loads, []
+    loads, thread = Meter.loads, []
 
-    def broken(recorder, each):
+    def broken(meter, readings):
         thread.append(threading.current_thread().name)
         if len(thread) == 25:
             raise LayoutError("a contact names a body that is not in the scene")
-        return loads(recorder, each)
+        return loads(meter, readings)
 
-    monkeypatch.setattr(SubstepRecorder, "_loads", broken)
+    monkeypatch.setattr(Meter, "loads", broken)
     recording = Recording(row.scene, tmp_path)
     start_recording(recording)
     for frame in range(1, FRAMES):
@@ -106,7 +107,7 @@ def test_recording_closed_within_a_frame_leaves_no_thread(row, tmp_path, monkeyp
         goes_on.wait(10.0)
         ended.append(True)
 
-    recorder._background.begin(job)
+    recording._reader._sums._background.begin(job)
     threading.Timer(0.1, goes_on.set).start()
     stop_recording()
     assert ended == [True]

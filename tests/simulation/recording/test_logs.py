@@ -16,8 +16,8 @@ from bridge_demolition_addon.model.run_folder.logs import (
     LogColumn,
     LogTable,
 )
+from bridge_demolition_addon.simulation.recording.breaking import Breaks
 from bridge_demolition_addon.simulation.recording.logs import Logs
-from bridge_demolition_addon.simulation.recording.substeps import Breaks
 
 TABLE = LogTable(("body",), (LogColumn("", "m", lambda values: values, ("x", "y")),))
 

@@ -8,6 +8,7 @@ from bridge_demolition_addon.bullet.world import BulletWorld
 from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
+from bridge_demolition_addon.simulation.recording.meter import Meter
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder
 
@@ -34,22 +35,27 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         kind = ("FIXED", "POINT", "HINGE")[i % 3]
         place = (np.array(bodies[i].location) + np.array(bodies[i + 1].location)) / 2
         blocks.connect(kind, tuple(place), bodies[i], bodies[i + 1], 2e4)
-    errors = []
-    record = SubstepRecorder._record
+    errors, velocities, read = [], [np.zeros((33, 3))], Meter.read
+    recording = Recording(blocks.scene, tmp_path)
 
-    def compare(recorder, substep_s):
-        before = getattr(recorder, "velocities_before", np.zeros((33, 3)))
-        record(recorder, substep_s)
-        after = recorder._world.bodies.velocities()
-        one = LoadAccumulator(recorder._inventory.pairs, recorder._inventory.volumes_m3, recorder._reader.normals)
-        one.add(recorder._loads(recorder._waiting[-1:])[1])
-        masses = recorder._inventory.masses_kg[1:, None]
+    def compare(meter, substep_s, end_s):
+        reading = read(meter, substep_s, end_s)
+        bodies, loads = meter.loads([reading])
+        before, after, inventory = velocities[-1], bodies.velocities[0], recording.inventory
+        one = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
+        one.add(loads)
+        masses = inventory.masses_kg[1:, None]
         impulses = one.finish().body_forces_n[1:] * substep_s + masses * GRAVITY * substep_s
         errors.append(abs(masses * (after - before)[1:] - impulses).max() / largest_impulse(one.finish(), substep_s))
-        recorder.velocities_before = after.copy()
+        velocities.append(after.copy())
+        return reading
 
-    monkeypatch.setattr(SubstepRecorder, "_record", compare)
-    results = blocks.play(tmp_path, 60)
+    monkeypatch.setattr(Meter, "read", compare)
+    start_recording(recording)
+    for frame in range(blocks.scene.frame_start, blocks.scene.frame_start + 62):
+        blocks.scene.frame_set(frame)
+    stop_recording()
+    results = recording.results()
     assert len(errors) == 600
     assert (~results.frames.intact[-1]).any()
     # Bullet works in double precision; masses reach it in single precision, as they do here.
@@ -96,15 +102,15 @@ def test_loads_of_the_last_substep_alone_are_written(blender, tmp_path, monkeypa
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((3, 0, 9), mass)
     blocks.connect("POINT", (0, 0, 9), ceiling, block)
     substeps = []
-    prepare = SubstepRecorder.before_substep
+    recording = Recording(blocks.scene, tmp_path, every_substep=False)
+    prepare, world = SubstepRecorder.before_substep, recording.world
 
     def note(recorder, substep_s):
         prepare(recorder, substep_s)
-        world = recorder._world
         substeps.append((world.bodies.velocities()[1].copy(), world.constraints.feedback.copy(), substep_s))
 
     monkeypatch.setattr(SubstepRecorder, "before_substep", note)
-    start_recording(recording := Recording(blocks.scene, tmp_path, every_substep=False))
+    start_recording(recording)
     for frame in range(1, 23):
         blocks.scene.frame_set(frame)
     stop_recording()

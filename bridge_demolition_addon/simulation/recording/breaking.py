@@ -1,0 +1,178 @@
+"""Breaking by strength: after a sub-step by what was measured, before it by what elastic connections will carry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...bullet.constraints import ConstraintTable
+from ...engineering.mechanics.frame_loads import Moment
+from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
+from ...engineering.mechanics.section_forces import SectionForces
+from .drivers import Driver, WarmUp
+from .elastic_connections import ElasticConnections
+from .meter import Meter, Reading
+from .reinforcement import Reinforcement
+
+_MOST_ROUNDS = 20
+"""How often connections break one after another in one sub-step, before the rest waits for the next."""
+
+_NONE = np.zeros(0, int)
+
+
+@dataclass(frozen=True, slots=True)
+class Breaks:
+    """Connections that broke in one sub-step.
+
+    Attributes
+    ----------
+    time_s : float
+        Simulated time at its end; at its beginning, of what broke before it.
+    connections : (b,) int
+        Which connections.
+    loads : SectionForces
+        What they broke under, in their own axes.
+    """
+
+    time_s: float
+    connections: np.ndarray
+    loads: SectionForces
+
+
+@dataclass(frozen=True, slots=True)
+class Resistance:
+    """What resists in m connections.
+
+    Attributes
+    ----------
+    overloads : Overloads or None
+        Judges them by their strength; None where Bullet's own thresholds alone break them.
+    remaining_strength : (m,) float
+        Part of its strength that each has left, kept up to date by the events.
+    elastic : ElasticConnections or None
+        The connections, where they are elastic.
+    reinforcement : ElasticConnections, Reinforcement or None
+        What resists in place of those that broke.
+    """
+
+    overloads: Overloads | None
+    remaining_strength: np.ndarray
+    elastic: ElasticConnections | None = None
+    reinforcement: ElasticConnections | Reinforcement | None = None
+
+
+class Breaker:
+    """Breaks what is overloaded, and lets bodies collide that nothing holds together any more.
+
+    Parameters
+    ----------
+    constraints : ConstraintTable
+    meter : Meter
+    resistance : Resistance
+    warm_up : WarmUp
+        Nothing breaks before it is over.
+
+    Attributes
+    ----------
+    uses_strength : bool
+        Whether strength breaks anything.
+    """
+
+    def __init__(self, constraints: ConstraintTable, meter: Meter, resistance: Resistance, warm_up: WarmUp):
+        self._constraints, self._meter, self._resistance, self._warm_up = constraints, meter, resistance, warm_up
+        self.uses_strength = resistance.overloads is not None
+        self._intact = constraints.intact()
+        self._broken_before: list[Breaks] = []
+
+    def break_overloaded(self, reading: Reading) -> np.ndarray:
+        """Break what is overloaded after a sub-step, and return it (b,).
+
+        Bullet's own threshold has been at work within the sub-step.
+        """
+        rows = self._candidates(reading.snapshot.loads)
+        if not len(rows):
+            return _NONE
+        loads = self._meter.moment(reading)
+        rows = self._overloaded(rows, loads)
+        self._break(rows, loads)
+        return rows
+
+    def break_predicted(self, both_sides: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
+        """Break what predicted loads (2, 6, m) on the bodies of connections would overload, and return it (b,)."""
+        loads = self._meter.predicted_loads(both_sides)
+        rows = self._candidates(loads)
+        if not len(rows):
+            return _NONE
+        moment = self._meter.moment(self._meter.predicted(loads, substep_s, begin_s))
+        rows = self._overloaded(rows, moment)
+        if len(rows):
+            self._broken_before.append(Breaks(begin_s, rows, self._meter.section_forces(moment, rows)))
+            self._break(rows, moment)
+            self._intact[rows] = False
+            self._let_collide()
+        return rows
+
+    def take_broken_before(self) -> list[Breaks]:
+        """Return what broke before the sub-step."""
+        broken, self._broken_before = self._broken_before, []
+        return broken
+
+    def follow(self, intact: np.ndarray) -> np.ndarray:
+        """Take over what is intact (m,) after a sub-step; return what broke in it (b,)."""
+        broken = np.flatnonzero(self._intact & ~intact)
+        self._intact = intact
+        self._let_collide()
+        return broken
+
+    def _candidates(self, loads: np.ndarray) -> np.ndarray:
+        """Intact connections (k,) whose loads (6, m) are large enough to break them, whatever they act on."""
+        if not self._warm_up.is_over or not self.uses_strength:
+            return _NONE
+        resistance = self._resistance
+        rows = resistance.overloads.candidates(loads, self._meter.lever_arms_m, resistance.remaining_strength)
+        return rows[self._intact[rows]]
+
+    def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
+        """Which of connections (r,) break (k,)."""
+        loads = ConnectionLoads(moment.connection_forces_n, moment.connection_moments_nm, moment.connection_points_m)
+        axes, resistance = self._meter.section_axes(moment.rotations, rows), self._resistance
+        parts = resistance.elastic.parts if resistance.elastic else None
+        return resistance.overloads.breaking(rows, loads, axes, self._intact, resistance.remaining_strength, parts)
+
+    def _break(self, rows: np.ndarray, loads: Moment) -> None:
+        """Break connections (b,) under loads; their reinforcement holds on."""
+        self._constraints.break_rows(rows)
+        if len(rows) and self._resistance.reinforcement:
+            axes = self._meter.section_axes(loads.rotations, rows)
+            self._resistance.reinforcement.tear(rows, loads.connection_points_m[rows], axes)
+
+    def _let_collide(self) -> None:
+        """Let bodies collide that no connection holds together, nor reinforcement in place of one."""
+        elastic = self._resistance.elastic
+        self._constraints.let_broken_collide(elastic.holding(self._intact) if elastic else self._intact)
+
+
+class ElasticPrediction(Driver):
+    """Puts elastic connections into each sub-step, without those that would break in it.
+
+    A connection that carries more than its strength in a sub-step would push its bodies more than a real one.
+
+    Parameters
+    ----------
+    elastic : ElasticConnections
+    breaker : Breaker
+    """
+
+    def __init__(self, elastic: ElasticConnections, breaker: Breaker):
+        self._elastic, self._breaker = elastic, breaker
+
+    def before_substep(self, elapsed_s: float, substep_s: float) -> None:
+        """Predict loads, and break what they overload, until nothing more breaks."""
+        self._elastic.begin_substep(substep_s)
+        for _ in range(_MOST_ROUNDS):
+            if not len(self._breaker.break_predicted(self._elastic.predict(), elapsed_s, substep_s)):
+                break
+        else:
+            self._elastic.predict()
+        self._elastic.apply()

@@ -1,0 +1,194 @@
+"""What all sub-steps of a frame come to: loads, work, breaking, and the hits of the balls.
+
+While Bullet waits, nothing is done but copying what it holds. The loads of many sub-steps are then worked out at once,
+which takes a fraction of the time: all those of a frame, or as many as fit into `_BATCH_BYTES`. In larger models that
+is done beside Bullet, in a thread of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from ...bullet.contacts import Contacts
+from ...bullet.snapshots import BodyHistory
+from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
+from ...engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
+from ...model.results.frames import BallHistory
+from ...model.results.inventory import Inventory
+from .background import BackgroundWork
+from .breaking import Breaks
+from .meter import Meter, Reading
+
+_BATCH_BYTES = 1_000_000
+"""Copies of sub-steps that are kept until they are worked out; fewer take longer each, more leave more to wait for at
+the end of a frame."""
+
+_WORTH_HANDING_OVER_BYTES = 200_000
+"""Copies of fewer bytes are worked out sooner than they are handed over."""
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredSubstep:
+    """A sub-step that is still to be worked out.
+
+    Attributes
+    ----------
+    reading : Reading
+        What was read after it.
+    broken : (b,) int
+        Connections that broke in it.
+    broken_before : sequence of Breaks
+        What broke before it.
+    stored_j : (m,) float or None
+        Energy in elastic connections at its end.
+    """
+
+    reading: Reading
+    broken: np.ndarray
+    broken_before: Sequence[Breaks]
+    stored_j: np.ndarray | None
+
+
+class FrameSums:
+    """Adds up the sub-steps of each frame.
+
+    Parameters
+    ----------
+    meter : Meter
+    inventory : Inventory
+        Bodies and connections.
+    work : WorkAccumulator
+        Adds up the work in each frame.
+    every_substep : bool
+        Whether every sub-step is measured: the work of a frame is known only then.
+    """
+
+    def __init__(self, meter: Meter, inventory: Inventory, work: WorkAccumulator, *, every_substep: bool):
+        self._meter, self._inventory, self._work, self._every_substep = meter, inventory, work, every_substep
+        self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
+        self._waiting: list[MeasuredSubstep] = []
+        self._background = BackgroundWork()
+        self._substeps, self._substeps_before = 0, 0
+        self._work_counts = True
+        self._breaks: list[Breaks] = []
+        self._balls = np.flatnonzero(inventory.body_kinds == "ball")
+        self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
+        self._last: Reading | None = None
+
+    def let_work_count(self, counts: bool) -> None:
+        """Set whether the work of the sub-steps to come counts."""
+        if counts != self._work_counts:
+            self._hand_over()
+            self._work_counts = counts
+
+    def add(self, substep: MeasuredSubstep) -> None:
+        """Take over a sub-step, and work out many once it is worth it."""
+        self._substeps += 1
+        self._last = substep.reading
+        self._waiting.append(substep)
+        if self._is_worth_handing_over():
+            self._hand_over()
+
+    def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
+        """Return loads and work of the frame and what broke in it, and begin the next frame.
+
+        Raises
+        ------
+        LayoutError
+            Bullet's memory was not as expected.
+        """
+        self._background.finish()
+        waiting, self._waiting = self._waiting, []
+        self.work_out(waiting, work_counts=self._work_counts)
+        self._substeps, self._substeps_before = 0, self._substeps
+        loads, work, breaks = self._frame.finish(), self._work.finish(), self._breaks
+        self._frame.begin()
+        self._breaks = []
+        return loads, work, breaks
+
+    def close(self) -> None:
+        """Leave nothing that still works on what was measured."""
+        self._background.close()
+
+    def take_ball_history(self) -> BallHistory:
+        """Return the hits of the balls in every sub-step since this was asked last."""
+        if not self._hits:
+            return BallHistory.unknown()
+        times, impulses, velocities = map(np.array, zip(*self._hits, strict=True))
+        self._hits.clear()
+        return BallHistory(self._balls, times, impulses, velocities)
+
+    def take_last_contacts(self) -> Contacts | None:
+        """Return the contacts in the last sub-step since this was asked last; None where there was none."""
+        last, self._last = self._last, None
+        return None if last is None else self._meter.contacts(last)
+
+    def work_out(self, substeps: Sequence[MeasuredSubstep], *, work_counts: bool) -> None:
+        """Add up loads and work of sub-steps, and note what broke and what hit the balls.
+
+        Only one thread at a time does this, and it reads nothing but copies.
+        """
+        if not substeps:
+            return
+        bodies, loads = self._meter.loads([substep.reading for substep in substeps])
+        resultants_n = self._frame.add(loads)
+        motion = Motion(bodies.positions, bodies.velocities, bodies.angular_velocities)
+        if self._every_substep and work_counts:
+            resultants_ns = loads.substeps_s[:, None, None] * resultants_n
+            of_connections, of_contacts = _impulses(self._inventory.pairs, loads, _stored_j(substeps))
+            self._work.add(motion, bodies.can_move, of_connections, of_contacts, resultants_ns, loads.substeps_s)
+        elif self._every_substep:
+            self._work.pass_over(motion)
+        for number, substep in enumerate(substeps):
+            self._breaks += substep.broken_before
+            if len(substep.broken):
+                forces = self._meter.section_forces(loads.moment(number), substep.broken)
+                self._breaks.append(Breaks(substep.reading.end_s, substep.broken, forces))
+            if len(self._balls):
+                self._note_balls(bodies, loads, number, substep.reading.end_s)
+
+    def _is_worth_handing_over(self) -> bool:
+        """Whether enough sub-steps wait, or as many as the frame probably has: Blender now moves its objects."""
+        size = sum(substep.reading.snapshot.size for substep in self._waiting)
+        ends_frame = self._substeps == self._substeps_before
+        return self._every_substep and size > (_WORTH_HANDING_OVER_BYTES if ends_frame else _BATCH_BYTES)
+
+    def _hand_over(self) -> None:
+        """Have the sub-steps that wait worked out beside what Blender does next."""
+        waiting, self._waiting = self._waiting, []
+        if waiting:
+            self._background.begin(partial(self.work_out, waiting, work_counts=self._work_counts))
+
+    def _note_balls(self, bodies: BodyHistory, loads: SubstepLoads, substep: int, end_s: float) -> None:
+        contacts = loads.contacts_of(substep)
+        first, second = loads.contact_pairs[contacts].T
+        points = np.ascontiguousarray(loads.contact_impulses_ns[contacts])  # sums follow the order in memory
+        impulses = [points[first == ball].sum(axis=0) - points[second == ball].sum(axis=0) for ball in self._balls]
+        # A ball that is lifted moves as animation says: what it pushes off does not hit it.
+        free = bodies.can_move[substep, self._balls, None]
+        self._hits.append((end_s, np.where(free, impulses, 0.0), bodies.velocities[substep, self._balls]))
+
+
+def _stored_j(substeps: Sequence[MeasuredSubstep]) -> np.ndarray | None:
+    """Energies (s, m) in elastic connections after sub-steps; None where they are rigid."""
+    stored = [substep.stored_j for substep in substeps]
+    return None if stored[0] is None else np.stack(stored)
+
+
+def _impulses(pairs: np.ndarray, loads: SubstepLoads, stored_j: np.ndarray | None) -> tuple[PairImpulses, PairImpulses]:
+    """Impulses of connections between pairs (m, 2) of bodies in sub-steps, and those of contacts."""
+    of_connections = PairImpulses(
+        pairs,
+        loads.connection_impulses_ns,
+        loads.connection_points_m,
+        loads.connection_angular_impulses_nms,
+        stored_j=stored_j,
+    )
+    of_contacts = PairImpulses(
+        loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m, substeps=loads.contact_substeps
+    )
+    return of_connections, of_contacts
