@@ -99,23 +99,6 @@ def test_no_two_test_modules_have_one_name():
 
 MOST_METHODS, MOST_PARAMETERS = 20, 7
 
-STILL_EQUAL = {
-    "Change",
-    "Choice",
-    "Contacts",
-    "Ground",
-    "Model",
-    "Motion",
-    "Normal",
-    "Outcome",
-    "Progress",
-    "Quantity",
-    "Row",
-    "Span",
-    "Surface",
-}
-"""Names of several public classes that are still to be told apart. It only shrinks."""
-
 
 def classes():
     """All classes of the package with their modules."""
@@ -148,4 +131,4 @@ def test_no_two_public_classes_have_one_name():
     for module, class_ in classes():
         if not class_.name.startswith("_"):
             modules.setdefault(class_.name, []).append(module)
-    assert {name: found for name, found in modules.items() if len(found) > 1 and name not in STILL_EQUAL} == {}
+    assert {name: found for name, found in modules.items() if len(found) > 1} == {}

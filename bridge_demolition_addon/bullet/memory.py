@@ -174,7 +174,7 @@ def _indices(addresses: np.ndarray | int, item_size: int) -> np.ndarray:
 
 
 def _linux_reader() -> Callable[[int, int], bytes | None]:
-    class Span(ctypes.Structure):
+    class IoVector(ctypes.Structure):
         _fields_ = (("base", ctypes.c_void_p), ("length", ctypes.c_size_t))
 
     library = ctypes.CDLL(None, use_errno=True)
@@ -182,7 +182,7 @@ def _linux_reader() -> Callable[[int, int], bytes | None]:
 
     def read_linux(address: int, size: int) -> bytes | None:
         buffer = ctypes.create_string_buffer(size)
-        local, remote = Span(ctypes.addressof(buffer), size), Span(address, size)
+        local, remote = IoVector(ctypes.addressof(buffer), size), IoVector(address, size)
         done = library.process_vm_readv(os.getpid(), ctypes.byref(local), 1, ctypes.byref(remote), 1, 0)
         if done == size:
             return buffer.raw

@@ -12,7 +12,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import union
 from ..engineering.geometry.vectors import transformed
 from ..model.scenario import ConnectionBetween
-from .contacts import TOUCHING_M, Contacts
+from .contacts import TOUCHING_M, NearbyMembers
 from .elements import Element
 from .library import library
 from .placement import Placement
@@ -62,7 +62,7 @@ class Bearing:
 
 
 def bearing_of(
-    element: Element, solid: TriangleMesh, contacts: Contacts, names: Sequence[str], placement: Placement
+    element: Element, solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str], placement: Placement
 ) -> Bearing | str:
     """Return what a bearing connects, or why it is left out.
 
@@ -72,7 +72,7 @@ def bearing_of(
         The bearing.
     solid : TriangleMesh
         Its body, in its place.
-    contacts : Contacts
+    contacts : NearbyMembers
         Of the members.
     names : sequence of str
         Of the members.
@@ -94,7 +94,7 @@ def seated(solid: TriangleMesh) -> TriangleMesh:
     return union([solid, TriangleMesh(solid.vertices - (0.0, 0.0, SEAT_M), solid.triangles)])
 
 
-def _gaps(solid: TriangleMesh, contacts: Contacts, names: Sequence[str]) -> str:
+def _gaps(solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str]) -> str:
     apart = [(gap, index) for gap, index in contacts.near_to(solid) if gap > TOUCHING_M]
     if not apart:
         return ""

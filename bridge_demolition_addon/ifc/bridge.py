@@ -26,7 +26,7 @@ from ..model.scenario import (
 from ..model.scenario.connections import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES, given
 from .bearings import Bearing, bearing_of, bearing_rules, seated
-from .contacts import Contacts
+from .contacts import NearbyMembers
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
 from .kinds import LeftOut
@@ -227,7 +227,7 @@ def _connected(
     """Return outcomes with those of the bearings, the connections that these are, and what they disagree in."""
     done, found = dict(outcomes), []
     parts = [each.part for each in outcomes.values() if each.member]
-    contacts, names = Contacts([member.solid for member, _ in parts]), [member.name for member, _ in parts]
+    contacts, names = NearbyMembers([member.solid for member, _ in parts]), [member.name for member, _ in parts]
     for element, solid in zip(bearings, solids, strict=True):
         bearing = bearing_of(element, solid, contacts, names, placement)
         number = element.entity.id()
@@ -258,7 +258,7 @@ def _scenario(
     if not any(each.became == "member" for each in kept):
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
     members = [each.part[0] for each in kept if each.became == "member"]
-    contacts = Contacts([each.solid for each in members])
+    contacts = NearbyMembers([each.solid for each in members])
     supports, held = supports_of(members, contacts)
     # A member that rests on a bearing touches that, not what the bearing lies on.
     connected = {each.member for each in supports} | {name for rule in rules for name in rule.members}

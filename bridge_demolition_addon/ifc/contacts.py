@@ -18,7 +18,7 @@ NEAR_M = 0.5
 """Gap up to which a neighbour is looked for."""
 
 
-class Contacts:
+class NearbyMembers:
     """Members, and what is near each of them.
 
     Parameters

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 from ..model.bridge.member import Member
 from ..model.scenario.bodies import Support
-from .contacts import TOUCHING_M, Contacts
+from .contacts import TOUCHING_M, NearbyMembers
 
 _ON_GROUND_M = 1e-3
 """Height above the ground up to which a member stands on it: as far as one may reach below it."""
@@ -15,14 +15,14 @@ _STANDING = ("pier", "abutment", "wall")
 """Kinds of members that stand on something."""
 
 
-def supports_of(members: Sequence[Member], contacts: Contacts) -> tuple[list[Support], list[str]]:
+def supports_of(members: Sequence[Member], contacts: NearbyMembers) -> tuple[list[Support], list[str]]:
     """Return what never moves, and sentences on what is held though it is no footing.
 
     Parameters
     ----------
     members : sequence of Member
         In their places.
-    contacts : Contacts
+    contacts : NearbyMembers
         Between their solids.
     """
     held = [Support(member="footing")] if any(each.kind == "footing" for each in members) else []
@@ -38,14 +38,14 @@ def supports_of(members: Sequence[Member], contacts: Contacts) -> tuple[list[Sup
     return held, notes
 
 
-def loose_members(members: Sequence[Member], contacts: Contacts, connected: Collection[str]) -> list[str]:
+def loose_members(members: Sequence[Member], contacts: NearbyMembers, connected: Collection[str]) -> list[str]:
     """Return sentences on members that touch neither the ground nor another member, and so fall at once.
 
     Parameters
     ----------
     members : sequence of Member
         In their places.
-    contacts : Contacts
+    contacts : NearbyMembers
         Between their solids.
     connected : collection of str
         Names and kinds of members that are held, or lie on bearings.

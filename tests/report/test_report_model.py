@@ -11,7 +11,7 @@ import trimesh
 from support.exported_runs import turning_run
 
 from bridge_demolition_addon.exports.gltf import animated_glb
-from bridge_demolition_addon.report.document.blocks import Document, Model
+from bridge_demolition_addon.report.document.blocks import AnimatedModel, Document
 from bridge_demolition_addon.report.document.html import write_html
 from bridge_demolition_addon.report.sections import model
 from bridge_demolition_addon.report.sections.model import model_section
@@ -55,4 +55,4 @@ def test_a_model_that_is_too_large_is_left_out_and_that_is_said(monkeypatch):
 
 def test_the_same_model_gives_the_same_text():
     content = animated_glb(turning_run())
-    assert Model.of(content, "").packed == Model.of(content, "").packed
+    assert AnimatedModel.of(content, "").packed == AnimatedModel.of(content, "").packed

@@ -15,7 +15,7 @@ from ...errors import BlastError
 from ..arithmetic import cube_root, exponential
 from ..arrays import BoolArray, FloatArray, IntArray
 from . import kingery_bulmash, kinney_graham
-from .wave import Burst, Choice, Wave, checked, scaled_distance
+from .wave import Burst, NamedChoice, Wave, checked, scaled_distance
 
 REPORT_DECAY = 1.0
 """The one decay of the report of 2019, for any charge and stand-off."""
@@ -35,7 +35,7 @@ _SERIES = [
 _MOST_STEPS = 50
 
 
-class BlastModel(Choice):
+class BlastModel(NamedChoice):
     """Where peak, impulse, arrival and duration come from."""
 
     KINGERY_BULMASH = "kingery-bulmash"
@@ -93,7 +93,7 @@ def blast_wave(
     return unit_wave(anywhere, Burst(burst)).scaled(cube_root(tnt_kg))
 
 
-class Loading(Choice):
+class Loading(NamedChoice):
     """Which pressure loads a body."""
 
     INCIDENT = "incident"

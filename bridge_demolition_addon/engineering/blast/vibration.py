@@ -21,7 +21,7 @@ DAMAGE_LIMIT_M_S = 0.0508
 
 
 @dataclass(frozen=True, slots=True)
-class Ground:
+class VibratingGround:
     """How ground carries vibration.
 
     Attributes
@@ -39,9 +39,9 @@ class Ground:
     exponent: float
 
 
-FREE_FACE_HARD = Ground("free face, hard or highly structured rock", 0.500, 1.6)
-FREE_FACE_AVERAGE = Ground("free face, average rock", 1.140, 1.6)
-CONFINED = Ground("heavily confined charge", 5.000, 1.6)
+FREE_FACE_HARD = VibratingGround("free face, hard or highly structured rock", 0.500, 1.6)
+FREE_FACE_AVERAGE = VibratingGround("free face, average rock", 1.140, 1.6)
+CONFINED = VibratingGround("heavily confined charge", 5.000, 1.6)
 """Constants from Dyno Nobel, *Blasting and Explosives Quick Reference Guide* (2010); the one for average rock is that
 of Australian Standard AS 2187.2, and is 160 in/s at 1 ft/lb^(1/2) in the units of American handbooks."""
 
@@ -49,7 +49,7 @@ GROUNDS = {"hard": FREE_FACE_HARD, "average": FREE_FACE_AVERAGE, "confined": CON
 
 
 def peak_particle_velocity(
-    distance_m: ArrayLike, charge_kg: ArrayLike, ground: Ground = FREE_FACE_AVERAGE
+    distance_m: ArrayLike, charge_kg: ArrayLike, ground: VibratingGround = FREE_FACE_AVERAGE
 ) -> FloatArray:
     """Return the peak particle velocity, m/s.
 
@@ -59,7 +59,7 @@ def peak_particle_velocity(
         Distances from the charge, m, above 0.
     charge_kg : (...) float
         Explosive that detonates within one delay, kg, at least 0. Its own mass: the constants are not for TNT.
-    ground : Ground
+    ground : VibratingGround
         What carries the vibration.
 
     Raises
@@ -72,7 +72,7 @@ def peak_particle_velocity(
 
 
 def charge_per_delay(
-    distance_m: ArrayLike, limit_m_s: ArrayLike = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
+    distance_m: ArrayLike, limit_m_s: ArrayLike = DAMAGE_LIMIT_M_S, ground: VibratingGround = FREE_FACE_AVERAGE
 ) -> FloatArray:
     """Return the explosive that may detonate within one delay so that a velocity is kept at distances, kg."""
     limit = checked(limit_m_s, "limit", "m/s")
@@ -80,7 +80,7 @@ def charge_per_delay(
 
 
 def distance_for_velocity(
-    charge_kg: ArrayLike, limit_m_s: ArrayLike = DAMAGE_LIMIT_M_S, ground: Ground = FREE_FACE_AVERAGE
+    charge_kg: ArrayLike, limit_m_s: ArrayLike = DAMAGE_LIMIT_M_S, ground: VibratingGround = FREE_FACE_AVERAGE
 ) -> FloatArray:
     """Return the distance from which on a charge keeps a velocity (above 0), m."""
     limit = checked(limit_m_s, "limit", "m/s")

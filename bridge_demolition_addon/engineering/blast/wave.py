@@ -30,7 +30,7 @@ density of 1630 kg/m³ has a radius of 0.0527 m.
 """
 
 
-class Choice(StrEnum):
+class NamedChoice(StrEnum):
     """Base of the few things to choose between; each is equal to the text that names it."""
 
     @classmethod
@@ -38,7 +38,7 @@ class Choice(StrEnum):
         raise BlastError(f"{cls.__name__} is {value!r}: expected one of {', '.join(cls)}")
 
 
-class Burst(Choice):
+class Burst(NamedChoice):
     """Where a charge detonates."""
 
     AIR = "air"

@@ -12,7 +12,7 @@ TYPES = ("FIXED", "POINT", "HINGE", "GENERIC", "GENERIC_SPRING")
 """Kinds of connections that can be built."""
 
 
-class Motion(StrEnum):
+class JointMotion(StrEnum):
     """How one body can move against the other: along and about the axes of the world, as they are built."""
 
     MOVE_X = "move x"
@@ -25,10 +25,10 @@ class Motion(StrEnum):
     @property
     def turns(self) -> bool:
         """Whether the body turns about an axis, instead of moving along it."""
-        return self in (Motion.TURN_X, Motion.TURN_Y, Motion.TURN_Z)
+        return self in (JointMotion.TURN_X, JointMotion.TURN_Y, JointMotion.TURN_Z)
 
 
-MOTIONS = tuple(motion.value for motion in Motion)
+MOTIONS = tuple(motion.value for motion in JointMotion)
 """What a scenario calls these motions."""
 
 
@@ -49,7 +49,7 @@ class Springs:
     turning_stiffness_nm_rad: float = 0.0
     turning_damping_nms_rad: float = 0.0
 
-    def of(self, motion: Motion) -> tuple[float, float]:
+    def of(self, motion: JointMotion) -> tuple[float, float]:
         """Return stiffness and damping of the spring in a motion."""
         if motion.turns:
             return self.turning_stiffness_nm_rad, self.turning_damping_nms_rad

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.special import log_ndtr
 
 from ..arrays import FloatArray
-from .probit import Normal, Trials, fitted
+from .probit import SuccessCurve, Trials, fitted
 
 SHRINKS = 0.8
 """By how much the guess of the spread shrinks with each trial without overlap."""
@@ -80,14 +80,14 @@ class NeyerTest:
         """The next level, and the guess of the spread after it."""
         if trials.overlap and (found := fitted(trials)):
             low, high = trials.levels.min(), trials.levels.max()
-            normal = Normal(float(np.clip(found.median, low, high)), min(found.spread, high - low))
+            normal = SuccessCurve(float(np.clip(found.median, low, high)), min(found.spread, high - low))
             return most_informative(np.concatenate((trials.levels, under_way)), normal), guess
         place, width = self._search(trials, guess)
         if place is not None:
-            return most_informative(under_way, Normal(place, width)) if len(under_way) else place, guess
+            return most_informative(under_way, SuccessCurve(place, width)) if len(under_way) else place, guess
         low, high = trials.levels.min(), trials.levels.max()
         middle = float(np.clip((trials.lowest_success + trials.highest_failure) / 2.0, low, high))
-        normal = Normal(middle, min(guess, high - low))
+        normal = SuccessCurve(middle, min(guess, high - low))
         return most_informative(np.concatenate((trials.levels, under_way)), normal), SHRINKS * guess
 
     def _search(self, trials: Trials, guess: float) -> tuple[float | None, float]:
@@ -107,7 +107,7 @@ class NeyerTest:
         return None, guess
 
 
-def most_informative(levels: FloatArray, normal: Normal) -> float:
+def most_informative(levels: FloatArray, normal: SuccessCurve) -> float:
     """Level that adds most to the determinant of the information that levels (n,) give on a distribution."""
     scores = (levels - normal.median) / normal.spread
     weights = information(scores)

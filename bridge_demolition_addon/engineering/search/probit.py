@@ -24,7 +24,7 @@ _STEEPEST = 1e6
 
 
 @dataclass(frozen=True, slots=True)
-class Normal:
+class SuccessCurve:
     """How the probability of success rises.
 
     Attributes
@@ -77,20 +77,20 @@ class Trials:
         return bool(self.levels[self.successes].mean() > self.levels[~self.successes].mean())
 
 
-def fitted(trials: Trials) -> Normal | None:
+def fitted(trials: Trials) -> SuccessCurve | None:
     """Return the likeliest distribution; None where trials are all of one kind, or succeed the less the higher."""
     if trials.successes.all() or not trials.successes.any():
         return None
     if trials.overlap:
         return _likeliest(trials)
     if trials.lowest_success > trials.highest_failure:
-        return Normal((trials.lowest_success + trials.highest_failure) / 2.0, 0.0)
+        return SuccessCurve((trials.lowest_success + trials.highest_failure) / 2.0, 0.0)
     if trials.lowest_success == trials.highest_failure:
-        return Normal(trials.lowest_success, 0.0)
+        return SuccessCurve(trials.lowest_success, 0.0)
     return None
 
 
-def _likeliest(trials: Trials) -> Normal:
+def _likeliest(trials: Trials) -> SuccessCurve:
     """By Newton's method: the logarithm of the likelihood is concave in 1 / σ and -μ / σ."""
     middle, unit = trials.levels.mean(), np.ptp(trials.levels)
     x = (trials.levels - middle) / unit
@@ -116,10 +116,10 @@ def _likeliest(trials: Trials) -> Normal:
         (intercept, slope), gain, value = tried, better - value, max(better, value)
         if gain <= _SAME:
             break
-    return Normal(middle - intercept / slope * unit, unit / slope)
+    return SuccessCurve(middle - intercept / slope * unit, unit / slope)
 
 
-def log_likelihood(trials: Trials, normal: Normal) -> float:
+def log_likelihood(trials: Trials, normal: SuccessCurve) -> float:
     """Logarithm of the probability of what trials came to."""
     if normal.spread == 0.0:
         return 0.0 if trials.highest_failure <= normal.median <= trials.lowest_success else -np.inf
@@ -184,7 +184,7 @@ def limit(trials: Trials, probability: float, confidence: float, side: int) -> f
     return side * np.inf
 
 
-def chance(normal: Normal, places: FloatArray) -> FloatArray:
+def chance(normal: SuccessCurve, places: FloatArray) -> FloatArray:
     """Probability of success (k,) at places (k,)."""
     if normal.spread == 0.0:
         return np.where(places >= normal.median, 1.0, 0.0)

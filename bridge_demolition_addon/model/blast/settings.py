@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.blast.pulses import BlastModel, Loading
-from ...engineering.blast.wave import Choice
+from ...engineering.blast.wave import NamedChoice
 from ...engineering.timing.timeline import SlowMotion
 from ...errors import ScenarioError
 from ..actions import Fact
@@ -17,7 +17,7 @@ MOST_FIELDS = 300
 """Force fields up to which they cost less than the rest of a frame: Blender tests every one against every body."""
 
 
-class Apply(Choice):
+class Apply(NamedChoice):
     """How blast loads reach the bodies."""
 
     FIELDS = "fields"

@@ -120,7 +120,7 @@ class Photo:
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class AnimatedModel:
     """An animated model, which a page shows and paper does not.
 
     Attributes
@@ -140,7 +140,7 @@ class Model:
         return cls(b64encode(gzip.compress(content, mtime=0)).decode("ascii"), title)
 
 
-Block = Paragraph | Listing | DataTable | Picture | Photo | Model
+Block = Paragraph | Listing | DataTable | Picture | Photo | AnimatedModel
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from html import escape
 from pathlib import Path
 
 from ...system.disk import write_whole_text
-from .blocks import Block, DataTable, Document, Listing, Model, Paragraph, Photo, Picture, Section
+from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
 from .drawings import Drawings, svg
 
 _ALLOWED = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
@@ -72,7 +72,7 @@ def _lines(document: Document, drawings: Drawings) -> Iterator[str]:
     yield "</ol>"
     for number, section in enumerate(document.sections, start=1):
         yield from _section(number, section, drawings)
-    if any(isinstance(block, Model) for block in document.blocks()):
+    if any(isinstance(block, AnimatedModel) for block in document.blocks()):
         yield f"<script>\n{_VIEWER.read_text(encoding='utf-8')}</script>"
     yield "</body>\n</html>"
 
@@ -97,7 +97,7 @@ def _block(block: Block, drawings: Drawings) -> str:
             return _figure("image/svg+xml", svg(drawings[block]), block.title)
         case Photo():
             return _figure("image/png", block.path.read_bytes(), block.title)
-        case Model():
+        case AnimatedModel():
             return _model(block)
 
 
@@ -107,7 +107,7 @@ def _figure(kind: str, content: bytes, title: str) -> str:
     return f'<figure>\n<img alt="{caption}" src="{source}">\n<figcaption>{caption}</figcaption>\n</figure>'
 
 
-def _model(model: Model) -> str:
+def _model(model: AnimatedModel) -> str:
     speeds = "".join(f'<option value="{slower}">{text}</option>' for slower, text in _SPEEDS.items())
     return (
         f'<figure class="model" data-model="{model.packed}">\n<canvas aria-label="{escape(model.title)}"></canvas>\n'

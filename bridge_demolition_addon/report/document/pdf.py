@@ -15,7 +15,7 @@ from matplotlib.image import imread
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure
 from ...system.disk import whole_file
-from .blocks import Block, DataTable, Document, Listing, Model, Paragraph, Photo, Picture
+from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 from .drawings import Drawings
 from .page import PAGE_MM, Font, Line, Page, width_mm
 
@@ -107,7 +107,7 @@ class _Pages:
                 self._picture(self._drawings[block], block.height_mm, block.title)
             case Photo():
                 self._photo(block)
-            case Model():
+            case AnimatedModel():
                 pass  # what is said beside it tells where it is
 
     def heading(self, text: str, first: Block | None) -> None:

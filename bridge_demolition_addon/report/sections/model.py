@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...exports.gltf import animated_glb
 from ...model.results.arrays import Results
-from ..document.blocks import Block, Model, Paragraph, Section
+from ..document.blocks import AnimatedModel, Block, Paragraph, Section
 
 MOST_BYTES = 20_000_000
 """Of a model as it stands in a page: beyond that, browsers take seconds to open it."""
@@ -12,7 +12,9 @@ MOST_BYTES = 20_000_000
 
 def model_section(results: Results) -> Section:
     """Return the section."""
-    model = Model.of(animated_glb(results), "The run: drag to turn, drag with Shift to move, wheel to come closer.")
+    model = AnimatedModel.of(
+        animated_glb(results), "The run: drag to turn, drag with Shift to move, wheel to come closer."
+    )
     megabytes = len(model.packed) / 1e6
     how = "bda export --to gltf writes it as a file for other programs."
     blocks: tuple[Block, ...]

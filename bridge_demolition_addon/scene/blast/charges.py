@@ -13,7 +13,7 @@ from ...errors import BlastError, DemolitionError
 from ...model.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
-from ..rendering.materials import Surface, material_of
+from ..rendering.materials import SurfaceMaterial, material_of
 from ..time_scale import curves_of
 
 MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
@@ -105,7 +105,7 @@ def _symbol() -> bpy.types.Collection:
         return found
     solid = sphere(_SYMBOL_SIZE_M, _SYMBOL_SEGMENTS)
     ball = bpy.data.objects.new("Charge symbol", mesh_of("Charge symbol", solid))
-    ball.data.materials.append(material_of(Surface.CHARGE))
+    ball.data.materials.append(material_of(SurfaceMaterial.CHARGE))
     collection = bpy.data.collections.new("Charge symbol")
     collection[_SYMBOL_MARK] = True
     collection.objects.link(ball)

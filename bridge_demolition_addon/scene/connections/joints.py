@@ -7,18 +7,18 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ...engineering.mechanics.joint import Joint, Motion
+from ...engineering.mechanics.joint import Joint, JointMotion
 from ...engineering.timing.time_step import TimeStep
 from .breaking_settings import set_strength
 from .breaking_thresholds import set_breaking_force
 
 _BLENDER_NAMES = {
-    Motion.MOVE_X: ("lin_x", "x"),
-    Motion.MOVE_Y: ("lin_y", "y"),
-    Motion.MOVE_Z: ("lin_z", "z"),
-    Motion.TURN_X: ("ang_x", "ang_x"),
-    Motion.TURN_Y: ("ang_y", "ang_y"),
-    Motion.TURN_Z: ("ang_z", "ang_z"),
+    JointMotion.MOVE_X: ("lin_x", "x"),
+    JointMotion.MOVE_Y: ("lin_y", "y"),
+    JointMotion.MOVE_Z: ("lin_z", "z"),
+    JointMotion.TURN_X: ("ang_x", "ang_x"),
+    JointMotion.TURN_Y: ("ang_y", "ang_y"),
+    JointMotion.TURN_Z: ("ang_z", "ang_z"),
 }
 """How the names of Blender's properties for the limits and for the spring of each motion end."""
 

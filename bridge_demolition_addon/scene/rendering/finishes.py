@@ -10,16 +10,20 @@ import numpy as np
 from ...model.structure.finishes import Finish, finishes
 from ...model.structure.model import Model
 from ..bodies import Kind, kind_of, member_of
-from .materials import BUILT_AT, Surface, material_of
+from .materials import BUILT_AT, SurfaceMaterial, material_of
 
-_OF_FINISH = {Finish.CAST: Surface.CONCRETE, Finish.BROKEN: Surface.BROKEN_CONCRETE, Finish.ROAD: Surface.ASPHALT}
-_OF_KIND = {
-    Kind.BALL: Surface.STEEL,
-    Kind.TOOL: Surface.STEEL,
-    Kind.CRANE: Surface.PAINT,
-    Kind.GROUND: Surface.SOIL,
+_OF_FINISH = {
+    Finish.CAST: SurfaceMaterial.CONCRETE,
+    Finish.BROKEN: SurfaceMaterial.BROKEN_CONCRETE,
+    Finish.ROAD: SurfaceMaterial.ASPHALT,
 }
-_OF_SURFACE = {"water": Surface.WATER, "carriageway": Surface.ASPHALT}
+_OF_KIND = {
+    Kind.BALL: SurfaceMaterial.STEEL,
+    Kind.TOOL: SurfaceMaterial.STEEL,
+    Kind.CRANE: SurfaceMaterial.PAINT,
+    Kind.GROUND: SurfaceMaterial.SOIL,
+}
+_OF_SURFACE = {"water": SurfaceMaterial.WATER, "carriageway": SurfaceMaterial.ASPHALT}
 """Of surfaces on the ground, by their kind."""
 
 

@@ -13,7 +13,7 @@ BUILT_AT = "bda_built_at_m"
 _ROLE = "bda_role"
 
 
-class Surface(StrEnum):
+class SurfaceMaterial(StrEnum):
     """What a face is made of."""
 
     CONCRETE = "Concrete"
@@ -54,28 +54,30 @@ class _Look:
 
 
 _LOOKS = {
-    Surface.CONCRETE: _Look(
+    SurfaceMaterial.CONCRETE: _Look(
         (0.60, 0.58, 0.54), (0.25, 0.24, 0.22), (0.40, 0.39, 0.36), 0.75, grain_m=2.5, depth_m=0.004
     ),
-    Surface.BROKEN_CONCRETE: _Look(
+    SurfaceMaterial.BROKEN_CONCRETE: _Look(
         (0.86, 0.84, 0.79), (0.45, 0.43, 0.39), (0.70, 0.68, 0.63), 1.0, grain_m=0.25, depth_m=0.04
     ),
-    Surface.ASPHALT: _Look(
+    SurfaceMaterial.ASPHALT: _Look(
         (0.085, 0.085, 0.09), (0.022, 0.022, 0.024), (0.060, 0.060, 0.062), 0.9, grain_m=0.6, depth_m=0.004
     ),
-    Surface.STEEL: _Look((0.08, 0.09, 0.10), (0.04, 0.04, 0.045), (0.10, 0.10, 0.105), 0.35, metallic=0.9, grain_m=0.4),
-    Surface.PAINT: _Look((0.60, 0.37, 0.02), (0.55, 0.33, 0.02), (0.65, 0.41, 0.03), 0.4, grain_m=0.5),
-    Surface.WATER: _Look(
+    SurfaceMaterial.STEEL: _Look(
+        (0.08, 0.09, 0.10), (0.04, 0.04, 0.045), (0.10, 0.10, 0.105), 0.35, metallic=0.9, grain_m=0.4
+    ),
+    SurfaceMaterial.PAINT: _Look((0.60, 0.37, 0.02), (0.55, 0.33, 0.02), (0.65, 0.41, 0.03), 0.4, grain_m=0.5),
+    SurfaceMaterial.WATER: _Look(
         (0.10, 0.20, 0.26), (0.012, 0.035, 0.045), (0.02, 0.05, 0.06), 0.12, grain_m=9.0, depth_m=0.01
     ),
-    Surface.SOIL: _Look(
+    SurfaceMaterial.SOIL: _Look(
         (0.18, 0.17, 0.12), (0.075, 0.075, 0.035), (0.165, 0.145, 0.085), 1.0, grain_m=6.0, depth_m=0.03
     ),
-    Surface.CHARGE: _Look((0.80, 0.05, 0.02), (0.75, 0.04, 0.015), (0.85, 0.06, 0.02), 0.5, grain_m=0.2),
+    SurfaceMaterial.CHARGE: _Look((0.80, 0.05, 0.02), (0.75, 0.04, 0.015), (0.85, 0.06, 0.02), 0.5, grain_m=0.2),
 }
 
 
-def material_of(surface: Surface) -> bpy.types.Material:
+def material_of(surface: SurfaceMaterial) -> bpy.types.Material:
     """Return the material of a surface, which is made when it is first asked for."""
     found = next((each for each in bpy.data.materials if each.get(_ROLE) == surface and not each.library), None)
     if found:
@@ -93,7 +95,7 @@ def material_of(surface: Surface) -> bpy.types.Material:
 
 def remove_unused_materials() -> None:
     """Remove the materials of surfaces that nothing has any more."""
-    ours = [each for each in bpy.data.materials if each.get(_ROLE) in set(Surface) and not each.library]
+    ours = [each for each in bpy.data.materials if each.get(_ROLE) in set(SurfaceMaterial) and not each.library]
     bpy.data.batch_remove([each for each in ours if not each.users])
 
 

@@ -12,7 +12,7 @@ from ...model.scenario.recording import PictureSettings
 from ..bodies import SOIL, bodies_of, is_uneven_ground, mesh_of, scaled_mesh
 from ..collections import collection_for, find_collection
 from .camera import aim_camera
-from .materials import Surface, material_of
+from .materials import SurfaceMaterial, material_of
 from .startup_objects import bring_startup_objects_back, put_startup_objects_away
 
 _ROLE = "Surroundings"
@@ -110,7 +110,7 @@ def _land(half_size_m: float, height_m: float) -> bpy.types.Object:
     """Make ground to the horizon, just below that of the simulation."""
     size = 2.0 * half_size_m
     mesh = mesh_of("Land", box((size, size, _LAND_THICKNESS_M), (0.0, 0.0, min(height_m, 0.0) - _LAND_THICKNESS_M)))
-    mesh.materials.append(material_of(Surface.SOIL))
+    mesh.materials.append(material_of(SurfaceMaterial.SOIL))
     land = bpy.data.objects.new("Land", mesh)
     land.color, land.hide_select = SOIL, True
     return land

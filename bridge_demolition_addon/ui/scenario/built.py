@@ -40,7 +40,7 @@ Kept = dict[str, Any] | None
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class ChangedValue:
     """A value that has changed since the scene was built.
 
     Attributes
@@ -84,13 +84,13 @@ def built_values(settings: bpy.types.PropertyGroup) -> Kept:
     return _parsed(settings.built_values) if settings.built_values else None
 
 
-def changes(settings: bpy.types.PropertyGroup) -> list[Change]:
+def changes(settings: bpy.types.PropertyGroup) -> list[ChangedValue]:
     """Return all values that have changed since the scene was built; none where it was not."""
     kept = built_values(settings)
     return [] if kept is None else list(changes_in(settings.scenario, Scenario, kept))
 
 
-def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: Kept) -> Iterator[Change]:
+def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: Kept) -> Iterator[ChangedValue]:
     """Return the values of a table, and of those in it, that are not as they were when the scene was built."""
     if kept is not None:
         for item, is_used, is_vector in _readings(table_class):  # for each redraw: nothing is looked up that is alike
@@ -102,7 +102,7 @@ def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: K
         yield from changes_of_table(group, item, kept)
 
 
-def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Iterator[Change]:
+def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Iterator[ChangedValue]:
     """Return what has changed in the table, or the tables, of one field of a group."""
     if not counts_in_building(item):
         return
@@ -118,21 +118,25 @@ def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) ->
         yield from changes_in(now, inner_class, then)
 
 
-def change_of_use(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Change | None:
+def change_of_use(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> ChangedValue | None:
     """Return whether a table is used where it was not, or the other way round, or how many more or less there are."""
     if not counts_in_building(item):
         return None
     table, then = subtable_class(item).table, (kept or {}).get(item.name)
     if holds_many(item):
         now = len(getattr(group, item.name))
-        return None if now == len(then or []) else Change(table, f"a list of {now}", f"with {len(then or [])} of them")
+        return (
+            None
+            if now == len(then or [])
+            else ChangedValue(table, f"a list of {now}", f"with {len(then or [])} of them")
+        )
     is_used = not is_optional(item) or getattr(group, USE + item.name)
     if is_used == (then is not None):
         return None
-    return Change(table, *(("used", "without") if is_used else ("not used", "with it")))
+    return ChangedValue(table, *(("used", "without") if is_used else ("not used", "with it")))
 
 
-def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, kept: Kept) -> Change | None:
+def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, kept: Kept) -> ChangedValue | None:
     """Return how one value differs from what was built; None where it does not, or there was no such table."""
     if kept is None or not counts_in_building(item):
         return None
@@ -140,7 +144,7 @@ def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Fi
     if now == then or (is_written_out(item) and _listed(now, item) == _listed(then, item)):
         return None
     built = "without" if then is None else f"with {_in_words(item, then)}"
-    return Change(key_name(table_class, item), "not given" if now is None else _in_words(item, now), built)
+    return ChangedValue(key_name(table_class, item), "not given" if now is None else _in_words(item, now), built)
 
 
 @cache
@@ -163,7 +167,7 @@ def shown_site(settings: bpy.types.PropertyGroup) -> dict[str, Any]:
     return {name: inner_of(settings.scenario, fields[name]) for name in _SITE}
 
 
-def changed_in_blender(scene: bpy.types.Scene) -> list[Change]:
+def changed_in_blender(scene: bpy.types.Scene) -> list[ChangedValue]:
     """Return how the scene cuts time otherwise than it was built; a run goes by the scene."""
     kept = built_values(scene.bda)
     if kept is None or scene.rigidbody_world is None:
@@ -172,7 +176,7 @@ def changed_in_blender(scene: bpy.types.Scene) -> list[Change]:
     for name, value in time_settings(scene).items():
         if value != kept["time"][name]:
             built = f"with {_in_words(fields[name], kept['time'][name])}"
-            found.append(Change(key_name(TimeSettings, fields[name]), _in_words(fields[name], value), built))
+            found.append(ChangedValue(key_name(TimeSettings, fields[name]), _in_words(fields[name], value), built))
     return found
 
 
@@ -196,7 +200,7 @@ def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
     return to_run
 
 
-def _sentence(changed: list[Change]) -> str:
+def _sentence(changed: list[ChangedValue]) -> str:
     listed = [f"{each.key} ({each.shown}, built {each.built})" for each in changed[:_LISTED_IN_MESSAGE]]
     if len(changed) > _LISTED_IN_MESSAGE:
         listed.append(f"{len(changed) - _LISTED_IN_MESSAGE} more")

@@ -16,7 +16,7 @@ from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from ..task_progress import draw_task_progress, going_on
 from .breaking_note import breaking_note
-from .built import Change, Kept, built_values, change_of, change_of_use, changes, changes_of_table
+from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .next_step import next_step
 from .number_rows import draw_rows, numbers_in_row
 from .prop import INDEX, USE, label_of, shown_tables, vector_length
@@ -176,7 +176,7 @@ def draw_run(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, *, h
     run.build_anew, run.pictures = has_changed, settings.pictures_of_run
 
 
-def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed: Sequence[Change]) -> None:
+def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed: Sequence[ChangedValue]) -> None:
     """Draw which values have changed since the scene was built, and what can be done about it."""
     box = layout.box()
     draw_sentence(box, context, "Values have changed since this was built:", icon=CHANGED)

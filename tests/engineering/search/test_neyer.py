@@ -6,7 +6,7 @@ from scipy.special import ndtr, ndtri
 
 from bridge_demolition_addon.engineering.search.bisection import median_interval
 from bridge_demolition_addon.engineering.search.neyer import NeyerTest, most_informative
-from bridge_demolition_addon.engineering.search.probit import Normal, Trials, fitted, limit
+from bridge_demolition_addon.engineering.search.probit import SuccessCurve, Trials, fitted, limit
 
 SEARCHES = 60
 """Repetitions. `scripts/experiments/search_coverage.py` makes 500 of each kind, for docs/search.md."""
@@ -25,7 +25,7 @@ def test_levels_are_those_of_the_published_example():
 def test_the_best_place_for_a_trial_of_many_is_where_one_in_eight_or_seven_of_eight_succeed():
     # H. Chernoff (1979): for equally many trials on either side, at ± 1.138 σ.
     either = np.repeat((-1.138, 1.138), 500)
-    assert abs(most_informative(either, Normal(0.0, 1.0))) == pytest.approx(1.138, abs=1e-3)
+    assert abs(most_informative(either, SuccessCurve(0.0, 1.0))) == pytest.approx(1.138, abs=1e-3)
 
 
 def search(median, spread, rng, trials, pending=0):
@@ -92,7 +92,7 @@ def test_the_next_level_depends_on_outcomes_that_are_there():
 
 def test_trials_that_do_not_overlap_have_a_median_and_no_spread():
     trials = Trials(np.array([1.0, 2.0, 3.0, 4.0]), np.array([False, False, True, True]))
-    assert fitted(trials) == Normal(2.5, 0.0)
+    assert fitted(trials) == SuccessCurve(2.5, 0.0)
     assert limit(trials, 0.9, 0.95, 1) >= 3.0
     assert fitted(Trials(np.array([1.0, 2.0]), np.array([True, True]))) is None
     assert fitted(Trials(np.array([1.0, 2.0, 3.0]), np.array([True, True, False]))) is None

@@ -12,7 +12,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_
 from bridge_demolition_addon.model.scenario.time import TimeSettings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
-from bridge_demolition_addon.ui.scenario.built import Change, changed_in_blender
+from bridge_demolition_addon.ui.scenario.built import ChangedValue, changed_in_blender
 
 FRAMES, SHARDS = 20, 12
 
@@ -158,7 +158,7 @@ def test_several_changes_at_once_are_written_as_they_ran(built, tmp_path):
 def test_the_panel_says_how_time_runs_otherwise_than_it_was_built(built):
     assert changed_in_blender(built.context.scene) == []
     built.context.scene.render.fps = 60
-    assert changed_in_blender(built.context.scene) == [Change("time.frames_per_second", "60", "with 24")]
+    assert changed_in_blender(built.context.scene) == [ChangedValue("time.frames_per_second", "60", "with 24")]
 
 
 def test_a_second_run_finds_nothing_changed(built, tmp_path):
