@@ -43,7 +43,7 @@ class ContourFrame:
     screen_colours: np.ndarray
 
 
-class RecordedFrames(Protocol):
+class FrameLookup(Protocol):
     """Frames that are looked up by their row."""
 
     def __len__(self) -> int: ...
@@ -68,7 +68,7 @@ class ContourSeries:
         As given.
     """
 
-    def __init__(self, inventory: Inventory, recorded: RecordedFrames):
+    def __init__(self, inventory: Inventory, recorded: FrameLookup):
         self.body_names = inventory.body_names.tolist()
         self.moves, self.pairs, self.points_m = inventory.moves, inventory.pairs, inventory.points_m
         self._counts = inventory.moves & (inventory.body_kinds != _BALL)
