@@ -131,9 +131,10 @@ def _interface() -> tuple:
     from .simulation import blender_events
     from .ui import registration, scene_settings
     from .ui.contours import decorator, view
+    from .ui.ensemble import prop as ensemble_prop
+    from .ui.ensemble import study
     from .ui.ground import decorator as ground_decorator
     from .ui.preview import decorator as preview_decorator
-    from .ui.study import decorator as study_decorator
 
-    drawings = (decorator, ground_decorator, study_decorator, preview_decorator)
+    drawings = (decorator, ground_decorator, study, ensemble_prop, preview_decorator)
     return (blender_events, scene_settings, view, registration, *drawings)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 from ..errors import OutputError
 from ..model.ensemble.folder import RETRIED
@@ -15,7 +16,7 @@ from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession
 from ..system.signals import Interrupted, signals_noted
-from .progress import progress_on
+from .progress import CommandProgress, progress_on
 
 _LOOK_EVERY_S = 0.2
 _SHOWN_REASONS = 5
@@ -28,12 +29,43 @@ def add_ensemble_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
     )
+    parser.add_argument("--report", action="store_true", help="make a report at the end, in DIR/report")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 
-def run_ensemble(
-    ensemble: Ensemble, arguments: argparse.Namespace
-) -> tuple[EnsembleSession, EnsembleResult, list[Path]]:
+def execute_ensemble(
+    ensemble: Ensemble,
+    arguments: argparse.Namespace,
+    sentences: Callable[[Any], Iterable[str]],
+    before_report: Callable[[EnsembleSession, CommandProgress], None] | None = None,
+) -> None:
+    """Make all runs, write a report if it is wanted, and print what the runs state.
+
+    Parameters
+    ----------
+    ensemble, arguments
+        What is asked, and the options of the command.
+    sentences
+        Puts the result into words.
+    before_report
+        Makes what the report also shows, such as pictures of single runs.
+    """
+    session, result, paths = _run(ensemble, arguments)
+    if arguments.report:
+        from ..report.write import write_report  # loading matplotlib takes a second
+
+        progress = progress_on(sys.stdout, quiet=arguments.quiet)
+        try:
+            if before_report:
+                before_report(session, progress)
+            paths += write_report([arguments.output], None, progress=progress)
+        finally:
+            progress.finish()
+    if not arguments.quiet:
+        _print(session, sentences(result), paths)
+
+
+def _run(ensemble: Ensemble, arguments: argparse.Namespace) -> tuple[EnsembleSession, EnsembleResult, list[Path]]:
     """Make all runs, unless a signal stops that, and return the session, its result and the files that it wrote."""
     if arguments.output.is_file():
         raise OutputError(f"{arguments.output}: expected a folder for the {ensemble.kind}, found a file")
@@ -53,7 +85,7 @@ def run_ensemble(
             session.stop()
 
 
-def print_ensemble(session: EnsembleSession, sentences: Iterable[str], paths: Iterable[Path]) -> None:
+def _print(session: EnsembleSession, sentences: Iterable[str], paths: Iterable[Path]) -> None:
     """Print what all runs state, why some did not finish, and the files that were written."""
     print()
     for line in sentences:

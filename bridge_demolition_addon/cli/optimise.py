@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..model.optimise.file import read_optimisation
 from ..report.wording.optimise import optimise_sentences
-from .ensemble import add_ensemble_options, print_ensemble, run_ensemble
+from .ensemble import add_ensemble_options, execute_ensemble
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -28,6 +28,4 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Make the runs of an optimisation."""
-    session, best, paths = run_ensemble(read_optimisation(arguments.optimise), arguments)
-    if not arguments.quiet:
-        print_ensemble(session, optimise_sentences(best), paths)
+    execute_ensemble(read_optimisation(arguments.optimise), arguments, optimise_sentences)

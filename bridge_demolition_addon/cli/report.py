@@ -16,7 +16,11 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         allow_abbrev=False,
     )
     parser.add_argument(
-        "folders", metavar="DIR", type=Path, nargs="+", help="folder that bda run, study, search or stages made"
+        "folders",
+        metavar="DIR",
+        type=Path,
+        nargs="+",
+        help="folder that bda run, study, search, optimise or stages made",
     )
     parser.add_argument("--output", metavar="DIR", type=Path, help="folder for the report (the run's own)")
     parser.add_argument("--trajectories", action="store_true", help="draw the paths of the shards on the map of debris")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..model.search.file import read_search
 from ..report.wording.search import search_sentences
-from .ensemble import add_ensemble_options, print_ensemble, run_ensemble
+from .ensemble import add_ensemble_options, execute_ensemble
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -27,6 +27,4 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Make the runs of a search."""
-    session, answer, paths = run_ensemble(read_search(arguments.search), arguments)
-    if not arguments.quiet:
-        print_ensemble(session, search_sentences(answer), paths)
+    execute_ensemble(read_search(arguments.search), arguments, search_sentences)

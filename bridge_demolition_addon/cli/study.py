@@ -5,19 +5,21 @@ from __future__ import annotations
 import argparse
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 from ..errors import OutputError, SimulationError
 from ..model.ensemble.folder import outcome_in, study_in, versions_of
-from ..model.study.file import Study, read_study
+from ..model.study.file import read_study
 from ..model.study.files import AGAIN_FOLDER, RUNS_FOLDER
-from ..model.study.runs_table import DONE, RunsTable
+from ..model.study.runs_table import DONE
 from ..model.study.sampled_runs import sampled_run
 from ..model.study.verification import holds, proportion_leaving
 from ..report.wording.study import study_sentences, verified_sentence
 from ..studies.engine import cores
+from ..studies.session import EnsembleSession
 from ..system.programs import program_command
-from .ensemble import add_ensemble_options, print_ensemble, run_ensemble, whole_number
+from .ensemble import add_ensemble_options, execute_ensemble, whole_number
 from .progress import CommandProgress, progress_on
 from .run import run_with_everything
 from .study_check import study_facts
@@ -37,7 +39,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     )
     parser.add_argument("--output", metavar="DIR", type=Path, help="folder of the study, made if new")
     add_ensemble_options(parser)
-    parser.add_argument("--report", action="store_true", help="make the report of the study at its end, in DIR/report")
     parser.add_argument("--check", action="store_true", help="print some runs and how long it takes, and run nothing")
     parser.add_argument("--again", metavar="N", type=_number, help="make run N of a study again, and keep everything")
     parser.add_argument(
@@ -63,30 +64,16 @@ def execute(arguments: argparse.Namespace) -> None:
         return
     if arguments.output is None:
         raise OutputError("--output is missing: name the folder of the study")
-    _run(study, arguments)
+    execute_ensemble(study, arguments, partial(study_sentences, study), _make_pictures)
 
 
-def _run(study: Study, arguments: argparse.Namespace) -> None:
-    session, conclusions, paths = run_ensemble(study, arguments)
-    if arguments.report:
-        progress = progress_on(sys.stdout, quiet=arguments.quiet)
-        paths += _report(session.planner.table, arguments.output, progress)
-    if not arguments.quiet:
-        print_ensemble(session, study_sentences(study, conclusions), paths)
-
-
-def _report(table: RunsTable, output: Path, progress: CommandProgress) -> list[Path]:
-    """Write the report of a study, with pictures of its median and of its worst run."""
-    from ..report.write import write_report  # loading matplotlib takes a second
-
-    try:
-        for row in dict.fromkeys([table.median_row, table.worst_row]):
-            if row is not None and not (output / AGAIN_FOLDER / str(table.numbers[row])).exists():
-                progress.stage(f"making run {table.numbers[row]} again for its pictures")
-                _repeat_elsewhere(output, int(table.numbers[row]))
-        return write_report([output], None, progress=progress)
-    finally:
-        progress.finish()
+def _make_pictures(session: EnsembleSession, progress: CommandProgress) -> None:
+    """Make the median and the worst run again, for their pictures in the report."""
+    table, output = session.planner.table, session.folder.path
+    for row in dict.fromkeys([table.median_row, table.worst_row]):
+        if row is not None and not (output / AGAIN_FOLDER / str(table.numbers[row])).exists():
+            progress.stage(f"making run {table.numbers[row]} again for its pictures")
+            _repeat_elsewhere(output, int(table.numbers[row]))
 
 
 def _repeat_elsewhere(path: Path, number: int) -> None:
@@ -122,10 +109,10 @@ def _repeat(path: Path, number: int, *, quiet: bool) -> None:
 
 def _verified(path: Path, name: str) -> str:
     """Return what the runs of the study in a folder state about a zone of its scenario."""
-    from ..report.ensemble.study_folder import read_study_runs
+    from ..report.ensemble.study_runs import read_study_runs
 
     runs = read_study_runs(path)
-    settings, zones = runs.study.settings, {zone.name: zone for zone in runs.study.scenario.zones}
+    settings, zones = runs.ensemble.settings, {zone.name: zone for zone in runs.ensemble.scenario.zones}
     if len(runs.table) < settings.runs:
         raise OutputError(f"{path}: {len(runs.table)} of {settings.runs} runs are there: go on with the study first")
     if name not in zones:

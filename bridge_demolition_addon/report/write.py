@@ -13,7 +13,7 @@ from ..errors import OutputError, text_of
 from ..model.ensemble.folder import holds_ensemble
 from ..model.run_folder.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..model.run_folder.folder import holds_run
-from ..model.study.files import REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
+from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from .comparison import comparison
@@ -21,9 +21,10 @@ from .document.blocks import Report, write_tables
 from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
+from .ensemble.optimise import optimise_report, read_candidates
 from .ensemble.search import read_answer, search_report
 from .ensemble.study import study_report
-from .ensemble.study_folder import read_study_runs
+from .ensemble.study_runs import read_study_runs
 from .run import run_report
 from .run_folder import read_run
 from .sections.cover import add_on_version
@@ -58,24 +59,21 @@ class FolderKind:
     subfolder: str = ""
 
 
+def _ensemble_kind(
+    name: str,
+    command: str,
+    file_name: str,
+    read: Callable[[Path], Any],
+    report: Callable[[Any, Path, Progress], Report],
+) -> FolderKind:
+    return FolderKind(name, command, partial(holds_ensemble, file_name=file_name), read, report, REPORT_FOLDER)
+
+
 RUN = FolderKind("run", "bda run", holds_run, read_run, run_report)
 KINDS = (
-    FolderKind(
-        "study",
-        "bda study",
-        partial(holds_ensemble, file_name=STUDY_FILE),
-        read_study_runs,
-        study_report,
-        REPORT_FOLDER,
-    ),
-    FolderKind(
-        "search",
-        "bda search",
-        partial(holds_ensemble, file_name=SEARCH_FILE),
-        read_answer,
-        search_report,
-        REPORT_FOLDER,
-    ),
+    _ensemble_kind("study", "bda study", STUDY_FILE, read_study_runs, study_report),
+    _ensemble_kind("search", "bda search", SEARCH_FILE, read_answer, search_report),
+    _ensemble_kind("optimisation", "bda optimise", OPTIMISE_FILE, read_candidates, optimise_report),
     RUN,
     FolderKind("set of stages", "bda stages", has_stages, Path, stages_report),
 )

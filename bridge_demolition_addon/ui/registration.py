@@ -11,6 +11,8 @@ from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
 from .contours import ui as contour_ui
+from .ensemble import optimise, search, study
+from .ensemble import session as ensemble_session
 from .ground import operator as ground_operator
 from .ground import ui as ground_ui
 from .ifc import operator as ifc_operator
@@ -25,24 +27,20 @@ from .results import ui as results_ui
 from .scenario import number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
 from .scenario import ui as scenario_ui
-from .search import operator as search_operator
-from .search import session as search_session
-from .search import ui as search_ui
 from .stages import checked as checked_stages
 from .stages import operator as stages_operator
 from .stages import ui as stages_ui
-from .study import operator as study_operator
-from .study import session as study_session
-from .study import ui as study_ui
 
 _OPERATORS = (
     *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, first_help, workspace),
     *(user_meshes, table_list),
     *(recording_operator, run, pictures, log_paths, blast_operator, contour_operator, ground_operator),
-    *(results_operator, study_operator, search_operator, stages_operator, preview_operator, gizmos),
+    *(results_operator, stages_operator, preview_operator, gizmos),
 )
-_PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui, study_ui, search_ui)
+_PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui)
 """Below those of the scenario, in the order of the work."""
+
+_ENSEMBLES = (study, search, optimise)
 
 
 @cache
@@ -50,8 +48,10 @@ def classes() -> tuple[type, ...]:
     """Return all classes; a panel comes after the one that it stands in."""
     return (
         *(each for module in _OPERATORS for each in module.CLASSES),
+        *(operator for kind in _ENSEMBLES for operator in kind.OPERATORS),
         *scenario_ui.panels(),
         *(each for module in _PANELS for each in module.CLASSES),
+        *(panel for kind in _ENSEMBLES for panel in kind.PANELS),
         *scenario_ui.inner_panels(),
     )
 
@@ -64,8 +64,7 @@ def register() -> None:
 
 def unregister() -> None:
     """End a run, recording, study or search that goes on, and unregister all classes."""
-    study_session.unregister()
-    search_session.unregister()
+    ensemble_session.unregister()
     checked_stages.unregister()
     modal_task.unregister()
     workspace.unregister()

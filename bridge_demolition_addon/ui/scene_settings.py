@@ -4,16 +4,14 @@ import bpy
 from bpy.props import BoolProperty, PointerProperty, StringProperty
 
 from ..model.scenario import Scenario
-from ..model.study.settings import StudySettings
 from .blast.prop import ChargeProperties
 from .contours.prop import ContourProperties
+from .ensemble.prop import EnsembleProperties
 from .ground.prop import GroundProperties
 from .preview.prop import PreviewProperties
 from .scenario import prop as scenario_properties
-from .search.prop import SearchProperties
 from .sidebar import path_property
 from .stages.prop import StageProperties
-from .study.prop import StudyProperties
 
 
 class BDA_PG_settings(
@@ -21,12 +19,11 @@ class BDA_PG_settings(
     ChargeProperties,
     GroundProperties,
     PreviewProperties,
-    StudyProperties,
-    SearchProperties,
+    EnsembleProperties,
     StageProperties,
     bpy.types.PropertyGroup,
 ):
-    """Settings that the panels show; the groups of scenario and study are added when they are made."""
+    """Settings that the panels show; those from the schema are added when they are made."""
 
     scenario_path: path_property(
         "Scenario", "Scenario file (TOML) to load or to save; Build Scenario loads one that was not loaded yet"
@@ -58,7 +55,7 @@ class BDA_PG_settings(
 def register() -> None:
     """Give every scene its settings."""
     scenario_properties.register()
-    for name, table in (("scenario", Scenario), ("study", StudySettings)):
+    for name, table in {"scenario": Scenario, **scenario_properties.ENSEMBLES}.items():
         group = scenario_properties.registered_group(scenario_properties.group_name(table))
         BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=table.__doc__)
     bpy.utils.register_class(BDA_PG_settings)

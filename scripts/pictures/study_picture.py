@@ -14,8 +14,7 @@ from matplotlib.figure import Figure
 from bridge_demolition_addon.charts.study_charts import reach_distribution
 from bridge_demolition_addon.charts.study_plan import study_plan
 from bridge_demolition_addon.model.study.files import CONCLUSIONS_FILE, RUNS_FILE
-from bridge_demolition_addon.report.ensemble.study_folder import read_study_runs
-from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
+from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns, read_study_runs
 from bridge_demolition_addon.report.wording.numbers import percent, rounded_up
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -41,12 +40,12 @@ def drawn(runs: StudyRuns) -> Figure:
     """Plan and distribution beside each other."""
     figure = Figure(figsize=(11.0, 4.6), dpi=120, layout="constrained")
     plan, distribution = figure.subfigures(1, 2, width_ratios=(5, 4))
-    settings, limits = runs.study.settings, runs.limits
+    settings, limits = runs.ensemble.settings, runs.limits
     likely = {f"probability above {percent(level)}": area for level, area in runs.likely.items()}
     named = {f"{name}, {rounded_up(far_m, '0.1')} m": area for name, (far_m, area) in limits.items()}
-    study_plan(plan, runs.bridge, likely, named, runs.study.scenario.zones)
+    study_plan(plan, runs.bridge, likely, named, runs.ensemble.scenario.zones)
     limit_m = limits["limit"][0]
-    reach_distribution(distribution, runs.reaches_m, (limit_m, f"{rounded_up(limit_m, '0.1')} m"), settings.quantile)
+    reach_distribution(distribution, runs.distances_m, (limit_m, f"{rounded_up(limit_m, '0.1')} m"), settings.quantile)
     return figure
 
 

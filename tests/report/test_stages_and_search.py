@@ -134,11 +134,17 @@ def without_the_quantity(path):
     path.write_text(path.read_text(encoding="utf-8").replace("in.ball.mass_kg", "in.mass_kg"), encoding="utf-8")
 
 
+def test_a_search_that_goes_on_has_a_report_that_says_so(tmp_path):
+    folder, _ = search_folder(tmp_path / "search")
+    without_last_row(folder / "trials.csv")
+    assert main(["report", str(folder), "--quiet"]) == 0
+    assert "19 of up to 20 runs are there: the search states nothing before" in page_of(folder / "report")
+
+
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
         (lambda folder: (folder / "trials.csv").unlink(), "holds no trials.csv yet"),
-        (lambda folder: without_last_row(folder / "trials.csv"), "19 of up to 20 runs are there"),
         (lambda folder: without_the_quantity(folder / "trials.csv"), "trials.csv is damaged"),
         (lambda folder: (folder / "trials.csv").write_text("a,b\n"), "expected a table of runs"),
     ],

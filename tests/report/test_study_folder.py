@@ -19,7 +19,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Zone
 from bridge_demolition_addon.model.study.runs_table import read_runs
-from bridge_demolition_addon.report.ensemble.study_folder import read_study_runs
+from bridge_demolition_addon.report.ensemble.study_runs import read_study_runs
 from bridge_demolition_addon.report.write import write_report
 
 ASKED = {"quantile": 0.5, "confidence": 0.75, "rank": 2}
@@ -51,8 +51,8 @@ def test_the_report_lies_in_a_folder_of_its_own(kept):
 def test_what_is_read_is_what_was_kept(kept):
     folder, _ = kept
     runs, known = read_study_runs(folder), small_runs(12, ends={3: "crashed"})
-    assert runs.study.text == known.study.text
-    assert runs.reaches_m.tolist() == known.reaches_m.tolist()
+    assert runs.ensemble.text == known.ensemble.text
+    assert runs.distances_m.tolist() == known.distances_m.tolist()
     assert runs.bridge.area() == pytest.approx(known.bridge.area())
     for found, expected in zip(runs.swept, known.swept, strict=True):
         assert (found is None) == (expected is None)
@@ -96,7 +96,7 @@ def test_the_limit_is_drawn_where_it_is_said(folder):
     write_report([folder], None, progress=Silence())
     content = json.loads((folder / "report" / "study_plan.geojson").read_text(encoding="utf-8"))
     areas = {feature["properties"]["name"]: feature["properties"]["area_m2"] for feature in content["features"]}
-    limit_m = sorted(read_study_runs(folder).reaches_m)[-2]
+    limit_m = sorted(read_study_runs(folder).distances_m)[-2]
     for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + 5.0)):
         exact = 28.0 * 8.0 + 2.0 * 36.0 * around_m + np.pi * around_m**2
         assert areas[name] == pytest.approx(exact, rel=2.5e-3)
@@ -121,7 +121,7 @@ def test_pictures_of_the_worst_draw_are_shown_once_it_was_run_again(folder):
     write_report([folder], None, progress=Silence())
     text = (folder / "report" / "report.html").read_text(encoding="utf-8")
     assert b64encode((pictures / "after.png").read_bytes()).decode("ascii") in text
-    assert f"Worst draw, {worst}, with a reach of" in text and ": before." not in text
+    assert f"Worst run, {worst}, with a debris distance of" in text and ": before." not in text
 
 
 def test_a_study_of_which_nothing_finished_has_a_report(tmp_path):
@@ -175,7 +175,7 @@ def test_a_study_that_another_version_ran_is_read(folder):
     """Addresses of draws depend on the version, and on keys that its scenarios have."""
     for number, draw in enumerate(list((folder / "draws").iterdir())):
         draw.rename(draw.with_name(f"{number:064x}"))
-    assert read_study_runs(folder).reaches_m.tolist() == small_runs().reaches_m.tolist()
+    assert read_study_runs(folder).distances_m.tolist() == small_runs().distances_m.tolist()
 
 
 def test_a_draw_that_is_damaged_is_named(folder):
@@ -209,7 +209,7 @@ def with_drop_area(tmp_path_factory):
 
 
 def test_a_zone_of_the_scenario_is_verified(with_drop_area, capsys):
-    left = sum(read_study_runs(with_drop_area).reaches_m > 20.0)
+    left = sum(read_study_runs(with_drop_area).distances_m > 20.0)
     assert main(["study", str(with_drop_area), "--verify", "drop area"]) == 0
     printed = capsys.readouterr().out
     assert left == 2 and printed.startswith("2 of 93 runs left the zone drop area. With 95 % confidence at most 6.62 %")

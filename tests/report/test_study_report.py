@@ -13,7 +13,7 @@ from support.study_folders import BRIDGE, TOLD_SCENARIO, VARIED, told_debris, to
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.report.ensemble.influence import correlation_table
 from bridge_demolition_addon.report.ensemble.plan import layers
-from bridge_demolition_addon.report.ensemble.study_runs import shown
+from bridge_demolition_addon.report.ensemble.reported_ensemble import shown
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def told(runs):
 
 
 def test_the_first_section_begins_with_the_statement(runs, told):
-    second = np.sort(runs.reaches_m)[-2]
+    second = np.sort(runs.distances_m)[-2]
     assert told.notices[0].startswith(
         'In 93 independent runs, in which charges.mass_kg, charges."mid pier".delay_ms, shards.friction, '
         "connections.type and the seed of the fracture were drawn from the distributions of this study, debris "
@@ -39,7 +39,7 @@ def test_the_first_section_begins_with_the_statement(runs, told):
 
 def test_before_all_runs_are_there_nothing_is_said():
     told = told_of_study(told_runs(there=60))
-    assert told.notices[0].startswith("60 of 93 runs are there: the study says nothing before all of them are")
+    assert told.notices[0].startswith("60 of 93 runs are there: the study states nothing before all that it needs are")
     assert not any(" confidence at least " in text for text in told.paragraphs)
     assert "limit" not in told.column("study_areas", "area")
 
@@ -63,7 +63,7 @@ def test_runs_that_still_moved_are_counted(told):
 
 
 def test_areas_are_those_that_geometry_gives(runs, told):
-    limit_m, buffer_m = runs.said.reach.limit_m, TOLD_SCENARIO.exclusion.buffer_m
+    limit_m, buffer_m = runs.conclusions.reach.limit_m, TOLD_SCENARIO.exclusion.buffer_m
     areas = dict(zip(told.column("study_areas", "area"), told.column("study_areas", "area_m2"), strict=True))
     length, width = 28.0, 8.0
     for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + buffer_m)):
@@ -111,7 +111,7 @@ def test_rank_correlations_are_those_of_scipy(runs):
 
 
 def test_criteria_have_their_limits(runs, told):
-    assert told.column("criteria", "criterion") == [*(each.name for each in runs.study.criteria), "all of them"]
+    assert told.column("criteria", "criterion") == [*(each.name for each in runs.ensemble.criteria), "all of them"]
     assert told.column("criteria", "met")[0] == 93
     at_least, at_most = told.column("criteria", "at_least_percent"), told.column("criteria", "at_most_percent")
     assert at_least[0] == pytest.approx(100.0 * 0.05 ** (1.0 / 93.0)) and at_most[0] == 100.0
@@ -125,14 +125,14 @@ def test_a_study_without_criteria_or_variations_says_so():
 
 
 def test_the_median_and_the_worst_draw_are_those_of_the_reach(runs, told):
-    reaches_m = runs.reaches_m
+    reaches_m = runs.distances_m
     headings = [column.heading for column in told.tables["median_and_worst"].columns]
     median, worst = np.argsort(reaches_m)[46] + 1, np.argmax(reaches_m) + 1
-    assert headings == ["", f"median, draw {median}", f"worst, draw {worst}"]
+    assert headings == ["", f"median, run {median}", f"worst, run {worst}"]
 
 
 def test_draws_are_listed_from_the_farthest(runs, told):
-    assert told.column("farthest_draws", "run") == (np.argsort(-runs.reaches_m, kind="stable") + 1).tolist()
+    assert told.column("farthest_draws", "run") == (np.argsort(-runs.distances_m, kind="stable") + 1).tolist()
 
 
 def test_a_scenario_without_a_site_has_a_plan():

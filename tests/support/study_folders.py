@@ -99,14 +99,15 @@ def told_runs(study=None, *, there=None, ends=None):
     study = study or told_study()
     rows = [told_row(study, number, (ends or {}).get(number, "done")) for number in range(1, study.settings.runs + 1)]
     rows = tuple(rows[:there])
-    return StudyRuns("told", study, RunsTable(rows), [told_debris(row) for row in rows], BRIDGE, {}, VERSIONS)
+    swept = [told_debris(row) for row in rows]
+    return StudyRuns("told", study, RunsTable(rows), VERSIONS, swept, BRIDGE, {})
 
 
 def keep_study(path, runs):
     """The folder of a study with its runs, kept by what keeps them."""
-    with EnsembleFolder(path, runs.study, runs.versions) as folder:
+    with EnsembleFolder(path, runs.ensemble, runs.versions) as folder:
         for row, swept in zip(runs.table.rows, runs.swept, strict=True):
-            key = sampled_run(runs.study, row.number).cache_key(runs.versions)
+            key = sampled_run(runs.ensemble, row.number).cache_key(runs.versions)
             part = folder.work_folder(key)
             part.mkdir(parents=True)
             if swept is not None:

@@ -1,11 +1,12 @@
-"""Criteria of a study: how likely a run meets them."""
+"""Criteria: what makes a run a success, and of a study how often runs are one."""
 
 from __future__ import annotations
 
 from ...model.study.conclusions import Proportion
 from ...model.study.criteria import Criterion
-from ..document.blocks import Block, Column, DataTable, Paragraph, Section
+from ..document.blocks import Column, DataTable, Paragraph, Section
 from ..wording.study import success_sentence
+from .reported_ensemble import ReportedEnsemble
 from .study_runs import StudyRuns
 
 _COLUMNS = (
@@ -19,28 +20,31 @@ _COLUMNS = (
 )
 
 
-def criteria_section(runs: StudyRuns) -> Section:
-    """Return how likely a run meets the criteria of a study."""
-    criteria = runs.study.criteria
+def criteria_section(runs: ReportedEnsemble) -> Section:
+    """Return what is asked of a run, and of a study how often runs meet it."""
+    criteria, kind = runs.ensemble.criteria, runs.ensemble.kind
     if not criteria:
         words = (
-            "The study names no [[criteria]], such as a span that has to come down or a zone that nothing may enter."
+            f"The {kind} names no [[criteria]], such as a span that has to come down or a zone that nothing may enter."
         )
         return Section("Criteria", (Paragraph(words),))
-    if runs.said is None:
-        return Section("Criteria", (Paragraph("What is said of them follows when all runs are there."),))
-    confidence = runs.study.settings.confidence
+    conclusions = runs.conclusions if isinstance(runs, StudyRuns) else None
+    if conclusions is None or conclusions.success is None:
+        rows = [(criterion.name, _asked(criterion)) for criterion in criteria]
+        words = "A run is a success where it meets all of these. A run that did not finish meets nothing."
+        return Section("Criteria", (Paragraph(words), DataTable("criteria", "Criteria", _COLUMNS[:2], rows)))
+    confidence = runs.ensemble.settings.confidence
     words = (
-        "How likely a run meets what is asked. A run that did not finish meets nothing. The limits of each share are "
+        "How often runs meet what is asked. A run that did not finish meets nothing. The limits of each share are "
         f"one-sided, after Clopper and Pearson: each by itself holds with {100.0 * confidence:.10g} % confidence."
     )
-    rows = [
-        (each.name, _asked(each), *_numbers(chance)) for each, chance in zip(criteria, runs.said.criteria, strict=True)
+    counted = [
+        (criterion.name, _asked(criterion), *_numbers(proportion))
+        for criterion, proportion in zip(criteria, conclusions.criteria, strict=True)
     ]
-    rows.append(("all of them", "", *_numbers(runs.said.success)))
-    blocks: list[Block] = [Paragraph(words), DataTable("criteria", "Criteria", _COLUMNS, rows)]
-    blocks.append(Paragraph(success_sentence(runs.said.success)))
-    return Section("Criteria", tuple(blocks))
+    counted.append(("all of them", "", *_numbers(conclusions.success)))
+    table = DataTable("criteria", "Criteria", _COLUMNS, counted)
+    return Section("Criteria", (Paragraph(words), table, Paragraph(success_sentence(conclusions.success))))
 
 
 def _numbers(proportion: Proportion) -> tuple[int, int, float, float, float]:

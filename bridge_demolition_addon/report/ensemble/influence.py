@@ -1,4 +1,4 @@
-"""What matters: each output of a study against each input that varied."""
+"""What matters: each output against each input that varied."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from ...charts.study_charts import (
 )
 from ...engineering.statistics.ranks import correlation_by_chance, rank_correlation
 from ...model.study.distributions import Distribution
-from ...model.study.file import Variation
+from ...model.study.file import Study, Variation
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
-from .study_runs import StudyRuns, shown
+from .reported_ensemble import ReportedEnsemble, shown
 
 _PANELS_AT_ONCE = 20
 """What fits on a page."""
 
 
-def varied_section(runs: StudyRuns) -> Section:
+def varied_section(runs: ReportedEnsemble) -> Section:
     """Return what varied, and how."""
     columns = (
         Column("key", "key"),
@@ -36,9 +36,9 @@ def varied_section(runs: StudyRuns) -> Section:
         Column("median", "median", ".5g"),
         Column("highest", "highest", ".5g"),
     )
-    rows = [_varied_row(runs, each) for each in runs.study.variations]
+    rows = [_varied_row(runs, each) for each in runs.ensemble.variations]
     words = (
-        "All inputs are drawn independently of each other, anew for each run. The seed of the fracture, which decides "
+        "All inputs are drawn for each run, independently of each other. The seed of the fracture, which decides "
         "how the shards are cut, is drawn as well."
     )
     blocks: list[Block] = [Paragraph(words)]
@@ -46,7 +46,7 @@ def varied_section(runs: StudyRuns) -> Section:
     return Section("What varied", tuple(blocks))
 
 
-def influence_section(runs: StudyRuns) -> Section | None:
+def influence_section(runs: ReportedEnsemble) -> Section | None:
     """Return which inputs matter for which outputs; None where nothing but the seed varied, or too little finished."""
     finished = int(runs.table.done.sum())
     if not runs.varied or not runs.numbers or finished < 3:
@@ -60,6 +60,8 @@ def influence_section(runs: StudyRuns) -> Section | None:
         "that pushes both ways: look at the dots. What no input explains is chance: the fracture, and the course of a "
         "collapse."
     )
+    if not isinstance(runs.ensemble, Study):
+        words += f" Values that the {runs.ensemble.kind} chose gather where it looked most: they are not independent."
     blocks: list[Block] = [Paragraph(words)]
     if cells := correlations_of(runs):
         inputs, outputs = (list(dict.fromkeys(column)) for column in list(zip(*cells, strict=True))[:2])
@@ -78,7 +80,7 @@ def influence_section(runs: StudyRuns) -> Section | None:
     return Section("What matters", tuple(blocks))
 
 
-def correlations_of(runs: StudyRuns) -> list[tuple[str, str, float]]:
+def correlations_of(runs: ReportedEnsemble) -> list[tuple[str, str, float]]:
     """Return inputs, outputs and their rank correlations, as far as both change, the strongest first."""
     found = [
         (one, other, _correlation(runs, one, other))
@@ -89,7 +91,7 @@ def correlations_of(runs: StudyRuns) -> list[tuple[str, str, float]]:
     return sorted((cell for cell in found if math.isfinite(cell[2])), key=lambda cell: -abs(cell[2]))
 
 
-def correlation_table(runs: StudyRuns) -> DataTable:
+def correlation_table(runs: ReportedEnsemble) -> DataTable:
     """Return all rank correlations, for their CSV file."""
     columns = (
         Column("input", "input"),
@@ -99,7 +101,7 @@ def correlation_table(runs: StudyRuns) -> DataTable:
     return DataTable("rank_correlations", "Rank correlations", columns, correlations_of(runs))
 
 
-def _varied_row(runs: StudyRuns, variation: Variation) -> tuple:
+def _varied_row(runs: ReportedEnsemble, variation: Variation) -> tuple:
     values = runs.table.input(variation.key.name) if variation.key.name in runs.table.inputs else np.zeros(0)
     name = type(variation.distribution).__name__.lower()
     given = ", ".join(_settings(variation.distribution))
@@ -124,7 +126,7 @@ def _words(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _correlation(runs: StudyRuns, name: str, output: str) -> float:
+def _correlation(runs: ReportedEnsemble, name: str, output: str) -> float:
     values = runs.table.output(output)
     if values.dtype == object:  # truths
         values = np.array([math.nan if value is None else float(bool(value)) for value in values])
@@ -134,7 +136,7 @@ def _correlation(runs: StudyRuns, name: str, output: str) -> float:
     return rank_correlation(runs.table.input(name)[known], values[known])
 
 
-def _panels(runs: StudyRuns, output: str) -> list[Picture]:
+def _panels(runs: ReportedEnsemble, output: str) -> list[Picture]:
     known = np.flatnonzero(runs.table.done & np.isfinite(runs.table.output(output)))[:MOST_DOTS]
     values = runs.table.output(output)[known]
     panels = []

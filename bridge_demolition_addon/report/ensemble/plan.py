@@ -22,7 +22,7 @@ def plan_section(runs: StudyRuns, files: Sequence[str]) -> Section:
     """Return the plan of a study; `files` are names of those that have it for a site plan."""
     if runs.bridge.is_empty():
         return Section("Plan", (Paragraph("No run finished: there is nothing to draw.", is_notice=True),))
-    scenario = runs.study.scenario
+    scenario = runs.ensemble.scenario
     blocks: list[Block] = [_picture(runs)]
     if scenario.charges:
         warning = "Pressure of the charges is not on this plan: the report of one run says how far people have to be."
@@ -37,12 +37,12 @@ def plan_section(runs: StudyRuns, files: Sequence[str]) -> Section:
 def layers(runs: StudyRuns) -> dict[str, CrossSection]:
     """Return all areas of a study for a site plan by their names, the largest first."""
     limits = {name: area for name, (_, area) in reversed(runs.limits.items())}
-    zones = {f"zone {zone.name}": zone_area(zone) for zone in runs.study.scenario.zones}
+    zones = {f"zone {zone.name}": zone_area(zone) for zone in runs.ensemble.scenario.zones}
     return {**limits, **_likely_by_words(runs), "bridge": runs.bridge, **zones}
 
 
 def _picture(runs: StudyRuns) -> Picture:
-    settings, scenario = runs.study.settings, runs.study.scenario
+    settings, scenario = runs.ensemble.settings, runs.ensemble.scenario
     likely = _likely_by_words(runs)
     limits = {f"{name}, {rounded_up(far_m, '0.01')} m": area for name, (far_m, area) in runs.limits.items()}
     areas = [area for area in (runs.bridge, *likely.values(), *limits.values()) if not area.is_empty()]
@@ -77,7 +77,7 @@ def _likely_by_words(runs: StudyRuns) -> dict[str, CrossSection]:
 
 
 def _words(runs: StudyRuns) -> Iterator[str]:
-    settings, found = runs.study.settings, runs.map
+    settings, found = runs.ensemble.settings, runs.map
     yield (
         f"The plan is cut into squares of {found.cells.side_m:g} m. For each of them the probability that a run brings "
         "debris there, even over a corner of it and only for a moment, has an upper limit after Clopper and Pearson. "
@@ -90,5 +90,5 @@ def _words(runs: StudyRuns) -> Iterator[str]:
             yield f"Where the probability is below {percent(level)} cannot be said: {why}."
     if corners := runs.hull_corners:
         yield shape_sentence(corners, settings.quantile, settings.confidence)
-    if runs.said:
+    if runs.conclusions:
         yield from (verified_sentence(left, settings.quantile) for left in runs.zones_left)

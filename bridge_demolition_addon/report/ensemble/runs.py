@@ -1,8 +1,9 @@
-"""The draws of a study: all in a table, and the median and the worst of them."""
+"""Single runs: all in a table, and of a study the median and the worst of them."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,14 @@ import numpy as np
 from ...model.study.runs_table import DONE, REACH, RunRow
 from ..document.blocks import Block, Column, DataTable, Paragraph, Photo, Section
 from .influence import correlations_of
-from .study_runs import StudyRuns, shown
+from .reported_ensemble import ReportedEnsemble, shown
+from .study_runs import StudyRuns
 
-_MOST_DRAWS = 200
+_MOST_RUNS = 200
 """Of more, only the farthest are listed."""
 
 _MOST_INPUTS, _MOST_OUTPUTS = 3, 3
-"""Columns that fit on a page, besides that of the reach: the inputs that matter most for it."""
+"""Columns that fit on a page, besides that of the debris distance: the inputs that matter most for it."""
 
 _LARGE = 1e4
 """Numbers from which on digits after the point are left out."""
@@ -24,37 +26,45 @@ _LARGE = 1e4
 _PICTURES = {"before": "before", "impact": "in the course of the run", "after": "at the end"}
 
 
-def telling_section(runs: StudyRuns) -> Section | None:
-    """Return the median and the worst draw; None where no run finished."""
+def extremes_section(runs: StudyRuns) -> Section | None:
+    """Return the median and the worst run; None where no run finished."""
     if runs.table.median_row is None:
         return None
     median, worst = runs.table.rows[runs.table.median_row], runs.table.rows[runs.table.worst_row]
     columns = (
         Column("", "quantity"),
-        Column(f"median, draw {median.number}", "median"),
-        Column(f"worst, draw {worst.number}", "worst"),
+        Column(f"median, run {median.number}", "median"),
+        Column(f"worst, run {worst.number}", "worst"),
     )
     both = [{**row.inputs, **row.outputs} for row in (median, worst)]
     names = (*runs.table.inputs, *runs.table.outputs)
     rows = [(shown(name), *(_text(values.get(name)) for values in both)) for name in names]
     blocks: list[Block] = [
         Paragraph(
-            f"Of the runs that finished, draw {median.number} has the median reach, and draw {worst.number} the "
-            "largest. bda study with --again and the number of a draw runs it once more, bit for bit, and keeps "
+            f"Of the runs that finished, run {median.number} has the median debris distance, and run {worst.number} "
+            "the largest. bda study with --again and the number of a run makes it again, bit for bit, and keeps "
             "everything of it: logs, scene and pictures."
         ),
-        DataTable("median_and_worst", "The median and the worst draw", columns, rows),
-        *_photos(runs, median, "Median draw"),
+        DataTable("median_and_worst", "The median and the worst run", columns, rows),
+        *_photos(runs, median, "Median run"),
     ]
     if worst is not median:
-        blocks += _photos(runs, worst, "Worst draw")
-    return Section("The median and the worst draw", tuple(blocks))
+        blocks += _photos(runs, worst, "Worst run")
+    return Section("The median and the worst run", tuple(blocks))
 
 
-def draws_section(runs: StudyRuns) -> Section:
-    """Return the table of draws, the farthest first."""
-    order = np.argsort(-runs.reaches_m, kind="stable")
-    inputs, outputs = _strongest_inputs(runs), _other_outputs(runs)
+def runs_section(runs: ReportedEnsemble, first: Sequence[str] = ()) -> Section:
+    """Return the table of runs, those with the largest debris distance first.
+
+    Parameters
+    ----------
+    runs
+        The runs.
+    first
+        Inputs that are shown whatever their influence.
+    """
+    order = np.argsort(-runs.distances_m, kind="stable")
+    inputs, outputs = (*first, *_strongest_inputs(runs, first)), _other_outputs(runs)
     columns = (
         Column("run", "run", "d"),
         Column("status", "status"),
@@ -63,24 +73,25 @@ def draws_section(runs: StudyRuns) -> Section:
         *(Column(shown(name), name, ".4g" if runs.table.input(name).dtype == float else "") for name in inputs),
         *((Column("criteria met", "criteria_met"),) if runs.criteria else ()),
     )
-    rows = [_row(runs, runs.table.rows[row], outputs, inputs) for row in order[:_MOST_DRAWS]]
+    rows = [_row(runs, runs.table.rows[row], outputs, inputs) for row in order[:_MOST_RUNS]]
     words = (
-        "Draws that went farthest come first, and before them those that did not finish. What does not fit here, draws "
-        "as well as inputs and outputs, is in runs.csv."
+        "Runs with the largest debris distance come first, and before them those that did not finish. What does not "
+        f"fit here, runs as well as inputs and outputs, is in {runs.ensemble.table_file}."
     )
-    return Section("The draws", (Paragraph(words), DataTable("farthest_draws", "Draws", columns, rows)))
+    return Section("The runs", (Paragraph(words), DataTable("farthest_draws", "Runs", columns, rows)))
 
 
-def _other_outputs(runs: StudyRuns) -> tuple[str, ...]:
+def _other_outputs(runs: ReportedEnsemble) -> tuple[str, ...]:
     return tuple(name for name in runs.numbers if name != REACH)[:_MOST_OUTPUTS]
 
 
-def _strongest_inputs(runs: StudyRuns) -> tuple[str, ...]:
+def _strongest_inputs(runs: ReportedEnsemble, without: Sequence[str]) -> tuple[str, ...]:
     strongest = [one for one, other, _ in correlations_of(runs) if other == REACH]
-    return tuple(dict.fromkeys([*strongest, *runs.varied]))[:_MOST_INPUTS]
+    names = [name for name in dict.fromkeys([*strongest, *runs.varied]) if name not in without]
+    return tuple(names[:_MOST_INPUTS])
 
 
-def _row(runs: StudyRuns, row: RunRow, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> tuple[Any, ...]:
+def _row(runs: ReportedEnsemble, row: RunRow, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> tuple[Any, ...]:
     met = sum(row.outputs.get(name) is True for name in runs.criteria)
     criteria = (f"{met} of {len(runs.criteria)}" if row.status == DONE else None,) if runs.criteria else ()
     values = (*map(row.outputs.get, (REACH, *outputs)), *map(row.inputs.get, inputs))
@@ -89,9 +100,9 @@ def _row(runs: StudyRuns, row: RunRow, outputs: tuple[str, ...], inputs: tuple[s
 
 def _photos(runs: StudyRuns, row: RunRow, title: str) -> list[Photo]:
     pictures = runs.pictures.get(row.number, {})
-    reach = row.outputs[REACH]
+    distance_m = row.outputs[REACH]
     return [
-        Photo(pictures[name], f"{title}, {row.number}, with a reach of {reach:.2f} m: {words}.")
+        Photo(pictures[name], f"{title}, {row.number}, with a debris distance of {distance_m:.2f} m: {words}.")
         for name, words in _PICTURES.items()
         if name in pictures
     ]

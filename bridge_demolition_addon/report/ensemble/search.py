@@ -1,53 +1,83 @@
-"""A search in a report: what it found, its curve and its trials."""
+"""The report of a search."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 from ...charts.search_curve import search_curve
-from ...model.ensemble.folder import read_ensemble
-from ...model.search.conclusions import Answer
+from ...model.search.conclusions import Answer, answer_of
 from ...system.progress import Progress
-from ..document.blocks import Column, DataTable, Document, Listing, Paragraph, Picture, Report, Section
+from ..document.blocks import Column, DataTable, Paragraph, Picture, Report, Section
 from ..sections.cover import add_on_version
+from ..wording.numbers import percent
 from ..wording.search import search_sentences
+from .document import ensemble_document, statement_section, unfinished_sentence
+from .influence import correlation_table
+from .reported_ensemble import ReportedEnsemble
+
+_STATISTICS = (
+    "Values are chosen after Neyer (1994). The probability of success rises as a normal distribution along the "
+    "quantity, or along its logarithm; the limit is from the ratio of likelihoods. It says how the model scatters."
+)
 
 
-def read_answer(folder: Path) -> Answer:
-    """Read a search, and return its answer."""
-    return read_ensemble(folder).result()
+@dataclass(frozen=True, eq=False)
+class SearchAnswer(ReportedEnsemble):
+    """A search, its runs and their answer, so far."""
+
+    answer: Answer
 
 
-def search_report(answer: Answer, _target: Path, _progress: Progress) -> Report:
+def read_answer(folder: Path) -> SearchAnswer:
+    """Read a search, also one that goes on."""
+    return SearchAnswer.read(folder, lambda search, table: {"answer": answer_of(search, table)})
+
+
+def search_report(runs: SearchAnswer, _target: Path, _progress: Progress) -> Report:
     """Return the report of a search."""
-    sections = (search_section(answer), Section("Search file", (Listing(answer.search.text),)))
-    subtitle = f"Report of a search in a simulated demolition. Bridge Demolition Add-on {add_on_version()}"
-    return Report(Document(answer.search.scenario.title, subtitle, sections))
-
-
-def search_section(answer: Answer) -> Section:
-    """Return the answer of a search."""
-    search, trials = answer.search, answer.trials
-    said = [Paragraph(text) for text in search_sentences(answer)]
-    picture = Picture(
-        partial(search_curve, answer=answer),
-        f"All trials, and how likely success is along {search.settings.key}.",
-        110.0,
+    version, answer = add_on_version(), runs.answer
+    sentences = search_sentences(answer)
+    if answer.ended_as is None:
+        sentences = [unfinished_sentence(runs, answer.search.settings.trials), *sentences]
+    statement = statement_section(runs, version, sentences, _asked(answer))
+    document = ensemble_document(
+        runs, version, statement, [_curve_section(answer)], [_runs_section(answer)], _STATISTICS
     )
+    return Report(document, (correlation_table(runs),))
+
+
+def _asked(answer: Answer) -> Iterator[tuple[str, str]]:
+    settings = answer.search.settings
+    unit = f" {answer.search.unit}" if answer.search.unit else ""
+    yield "Runs", f"{answer.runs} of up to {settings.trials}, {answer.successes} of them a success"
+    yield (
+        "Asked",
+        (
+            f"where {settings.key} from {settings.lowest:g} to {settings.highest:g}{unit} succeeds with "
+            f"{percent(settings.probability)} probability, with {percent(settings.confidence)} confidence"
+        ),
+    )
+
+
+def _curve_section(answer: Answer) -> Section:
+    caption = f"All runs, and the probability of success along {answer.search.settings.key}."
+    return Section("The curve", (Picture(partial(search_curve, answer=answer), caption, 110.0),))
+
+
+def _runs_section(answer: Answer) -> Section:
+    search = answer.search
     unit = f" ({search.unit})" if search.unit else ""
     columns = (
-        Column("Trial", "trial"),
+        Column("run", "trial", "d"),
         Column(f"{search.settings.key}{unit}", "value", ".6g"),
         Column("all criteria", "success"),
     )
     rows = [
         (number, float(value), "met" if success else "not met")
-        for number, (value, success) in enumerate(zip(answer.values, trials.successes, strict=True), start=1)
+        for number, (value, success) in enumerate(zip(answer.values, answer.trials.successes, strict=True), start=1)
     ]
-    table = DataTable("trials", "Trials", columns, rows)
-    trust = Paragraph(
-        "The limit says how the model scatters, with the inputs that vary in it. It does not cover what the model "
-        "leaves out."
-    )
-    return Section("Search", (*said, picture, trust, table))
+    words = Paragraph(f"In the order in which they were chosen. All inputs and outputs are in {search.table_file}.")
+    return Section("The runs", (words, DataTable("trials", "Runs", columns, rows)))

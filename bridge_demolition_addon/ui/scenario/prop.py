@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import MISSING, Field
+from dataclasses import MISSING, Field, fields
 from functools import cache
 from pathlib import Path
 from typing import Any, get_args
@@ -25,6 +25,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from ...model.optimise.settings import ChosenQuantity, OptimiseSettings
 from ...model.run_folder.files import SCENARIO_FILE
 from ...model.scenario import Charge, Scenario
 from ...model.scenario.file import read_scenario
@@ -42,14 +43,21 @@ from ...model.schema import (
     subtable_fields,
     value_type,
 )
+from ...model.search.settings import SearchSettings
+from ...model.study.criteria import Criterion
 from ...model.study.keys import names_to_propose
-from ...model.study.settings import StudySettings
+from ...model.study.settings import EnsembleSettings, StudySettings
 from ...model.toml_tables import toml_value
 from .number_rows import row_properties
 from .typical_values import typical_words
 
 PRESETS = Path(__file__).parent / "presets"
 DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"
+
+ENSEMBLES = {"study": StudySettings, "search": SearchSettings, "optimise": OptimiseSettings}
+"""Groups of the scene besides that of the scenario."""
+
+_SHARED = {item.name for item in fields(EnsembleSettings)}
 
 USE = "use_"
 INDEX = "_index"
@@ -87,9 +95,20 @@ def is_written_out(item: Field) -> bool:
     return holds_many(item) and vector_length(item) is None
 
 
+def shown_keys(table_class: type[Table]) -> list[Field]:
+    """Return the keys of a table; of searches and optimisations those that they do not share with studies."""
+    return [item for item in key_fields(table_class) if not _is_of_study(table_class, item)]
+
+
 def shown_tables(table_class: type[Table]) -> list[Field]:
     """Return the fields of the tables in a table, but for the charges, which are objects of the scene."""
-    return [item for item in subtable_fields(table_class) if subtable_class(item) is not Charge]
+    tables = (item for item in subtable_fields(table_class) if subtable_class(item) is not Charge)
+    return [item for item in tables if not _is_of_study(table_class, item)]
+
+
+def _is_of_study(table_class: type[Table], item: Field) -> bool:
+    """Return whether the panel Study shows a setting for searches and optimisations too."""
+    return table_class in (SearchSettings, OptimiseSettings) and item.name in _SHARED
 
 
 def label_of(table_class: type[Table], item: Field) -> str:
@@ -117,7 +136,7 @@ def group_name(table_class: type[Table]) -> str:
 def all_tables() -> tuple[type[Table], ...]:
     """Return all tables that have a property group, inner ones first."""
     found: list[type[Table]] = []
-    for root in (Scenario, StudySettings):
+    for root in (Scenario, *ENSEMBLES.values()):
         _gather(root, found)
     return tuple(found)
 
@@ -128,10 +147,20 @@ def default_scenario() -> Scenario:
     return read_scenario(DEFAULT_PRESET)
 
 
+def _default_ensembles() -> tuple[EnsembleSettings, ...]:
+    """Return what the sidebar of a new scene shows of studies, searches and optimisations."""
+    asked: dict[str, Any] = {"scenario": SCENARIO_FILE, "criteria": (Criterion(name="collapsed", kind="collapsed"),)}
+    quantity: dict[str, Any] = {"key": "charges.mass_kg", "factor": True, "logarithmic": True}
+    quantity |= {"lowest": 0.1, "highest": 4.0}
+    search = SearchSettings(trials=40, **asked, **quantity)
+    optimise = OptimiseSettings(objective="reach", quantities=(ChosenQuantity(**quantity),), **asked)
+    return StudySettings(scenario=SCENARIO_FILE), search, optimise
+
+
 def register() -> None:
-    """Register all groups with Blender, those of a whole scenario and of a study last."""
+    """Register all groups with Blender, those of a whole scenario, and of studies and their like, last."""
     defaults: dict[type[Table], Table] = {}
-    for each in (default_scenario(), StudySettings(scenario=SCENARIO_FILE)):
+    for each in (default_scenario(), *_default_ensembles()):
         _gather_defaults(each, defaults)
     groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
     for table_class in all_tables():
@@ -169,7 +198,7 @@ def _group(
     table_class: type[Table], defaults: Table | None, groups: dict[type[Table], type[bpy.types.PropertyGroup]]
 ) -> type[bpy.types.PropertyGroup]:
     properties: dict[str, Any] = {GIVEN: StringProperty(options={"HIDDEN"})}
-    for item in key_fields(table_class):
+    for item in shown_keys(table_class):
         properties.update(_key_properties(table_class, item, _default(item, defaults)))
     for item in shown_tables(table_class):
         properties.update(_table_properties(item, defaults, groups[subtable_class(item)]))
@@ -241,7 +270,7 @@ def materials_to_propose(group: bpy.types.PropertyGroup, rule: Key) -> list[str]
 _PROPOSED = {
     "connections.material": materials_to_propose,
     "connections.between.material": materials_to_propose,
-    "vary.key": lambda _group, _rule: names_to_propose(),
+    **{f"{table}.key": lambda _group, _rule: names_to_propose() for table in ("vary", "search", "quantities")},
 }
 """Keys that take other texts than those that are proposed."""
 

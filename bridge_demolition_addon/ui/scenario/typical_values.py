@@ -129,6 +129,14 @@ TYPICAL: dict[str, Any] = {
     "criteria.limit_mm_s": 20.0,
     "study.time_limit_s": 600.0,
     "study.memory_limit_mb": 4000.0,
+    "search.lowest": 0.1,
+    "search.highest": 4.0,
+    "search.spread": 0.4,
+    "search.step": 0.5,
+    "search.within": 0.1,
+    "quantities.lowest": 0.1,
+    "quantities.highest": 4.0,
+    "quantities.step": 0.5,
 }
 
 

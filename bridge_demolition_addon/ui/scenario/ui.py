@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import Field, dataclass
 from functools import cache
 
 import bpy
 
 from ...model.scenario import Scenario
-from ...model.schema import Table, holds_many, is_optional, key_fields, key_name, subtable_class, value_type
+from ...model.schema import Table, holds_many, is_optional, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..first_help import draw_first_help
 from ..messages import draw_messages
@@ -19,7 +19,7 @@ from .breaking_note import breaking_note
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .next_step import next_step
 from .number_rows import draw_rows, numbers_in_row
-from .prop import INDEX, USE, label_of, shown_tables, vector_length
+from .prop import INDEX, USE, label_of, shown_keys, shown_tables, vector_length
 from .table_list import draw_list
 
 _MAIN = {"bridge": "Bridge", "fracture": "Fracture", "connections": "Connections", "shards": "Shards"}
@@ -195,11 +195,15 @@ def draw_keys(
     group: bpy.types.PropertyGroup,
     table_class: type[Table],
     kept: Kept = None,
+    *,
+    without: Collection[str] = (),
 ) -> None:
     """Draw the keys of a table, each on a line, or on two where its label is long, and what has changed below it."""
     letters = letters_of(context)
     column = layout.column()
     for row in rows_of(table_class):
+        if row.name in without:
+            continue
         _draw_key(column, letters, group, row)
         if change := change_of(group, table_class, row.item, kept):
             draw_sentence(column, context, f"built {change.built}", icon=CHANGED)
@@ -255,7 +259,7 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
             is_number=value_type(item) in (int, float),
             is_check_box=value_type(item) is bool,
         )
-        for item in key_fields(table_class)
+        for item in shown_keys(table_class)
         if key_name(table_class, item) not in _ELSEWHERE
     )
 

@@ -7,7 +7,7 @@ the shortest decimal that single precision takes for it, which is what the user 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import Field, replace
 from typing import Any
 
@@ -22,7 +22,6 @@ from ...model.schema import (
     expected,
     holds_many,
     is_optional,
-    key_fields,
     key_name,
     numbered_tables,
     shown,
@@ -32,7 +31,7 @@ from ...model.schema import (
 from ...model.toml_tables import toml_value
 from ...scene.blast.charges import charges_of, replace_charges
 from .number_rows import list_in
-from .prop import GIVEN, USE, is_written_out, shown_tables, vector_length
+from .prop import GIVEN, USE, is_written_out, shown_keys, shown_tables, vector_length
 
 _ROUNDING = 1e-14
 """Relative difference of a delay that only comes from keeping it in s."""
@@ -50,7 +49,7 @@ def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
 
 
 def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others: Any) -> Table:
-    """Return the table that a property group shows; values that it does not show are given.
+    """Return the table that a property group shows; values that are given take the place of those that it shows.
 
     Raises
     ------
@@ -58,10 +57,10 @@ def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others:
         A value cannot be used; the text names the key.
     """
     given = values_from_text(getattr(group, GIVEN), {})
-    values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in key_fields(table_class)}
+    values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in shown_keys(table_class)}
     for item in shown_tables(table_class):
         values[item.name] = inner_of(group, item)
-    return table_class(**values, **others)
+    return table_class(**values | others)
 
 
 def inner_of(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, ...] | None:
@@ -91,9 +90,17 @@ def show_scenario(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None
 def show_table(group: bpy.types.PropertyGroup, table: Table) -> None:
     """Show a table in its property group."""
     reset(group)
-    given = {}
-    for item in key_fields(type(table)):
+    show_fields(group, table, [*shown_keys(type(table)), *shown_tables(type(table))])
+
+
+def show_fields(group: bpy.types.PropertyGroup, table: Table, items: Sequence[Field]) -> None:
+    """Show some keys and tables of a table in a property group that has them."""
+    given = values_from_text(getattr(group, GIVEN), {})
+    for item in items:
         value = getattr(table, item.name)
+        if subtable_class(item):
+            show_inner(group, item, value)
+            continue
         if is_optional(item):
             setattr(group, USE + item.name, value is not None)
         if value is None:
@@ -102,8 +109,6 @@ def show_table(group: bpy.types.PropertyGroup, table: Table) -> None:
             given[item.name] = value
         setattr(group, item.name, toml_value(value) if is_written_out(item) else value)
     setattr(group, GIVEN, values_text(given))
-    for item in shown_tables(type(table)):
-        show_inner(group, item, getattr(table, item.name))
 
 
 def show_inner(group: bpy.types.PropertyGroup, item: Field, inner: Table | tuple[Table, ...] | None) -> None:

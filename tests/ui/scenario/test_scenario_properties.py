@@ -16,16 +16,18 @@ from bridge_demolition_addon.model.schema import (
     subtable_fields,
     value_type,
 )
-from bridge_demolition_addon.model.study.settings import StudySettings
 from bridge_demolition_addon.ui.scenario.prop import (
+    ENSEMBLES,
     all_tables,
     group_name,
     label_of,
     materials_to_propose,
     registered_group,
+    shown_keys,
+    shown_tables,
 )
 
-KEYS = [(table, item) for table in all_tables() for item in key_fields(table)]
+KEYS = [(table, item) for table in all_tables() for item in shown_keys(table)]
 NAMES = [f"{table.table}.{item.name}" for table, item in KEYS]
 NUMBERS = [(table, item) for table, item in KEYS if {float, int} & {value_type(item), *get_args(value_type(item))}]
 UNITS = {"m": "LENGTH", "kg": "MASS", "s": "TIME_ABSOLUTE", "m/s": "VELOCITY", "m³": "VOLUME", "m/s²": "ACCELERATION"}
@@ -54,7 +56,7 @@ def tables_within(table):
 
 
 def test_every_table_but_the_charges_has_a_group():
-    roots = (Scenario, StudySettings)
+    roots = (Scenario, *ENSEMBLES.values())
     within = {table for root in roots for table in tables_within(root)}
     assert set(all_tables()) == {*roots, *within} - {Charge}
 
@@ -113,10 +115,10 @@ def test_labels_end_with_no_unit_that_blender_shows_itself():
 
 def test_names_of_one_group_do_not_meet():
     for table in all_tables():
-        names = [item.name for item in key_fields(table)]
+        names = [item.name for item in shown_keys(table)]
         for item in subtable_fields(table):
             names += [item.name, item.name + "_index"] if holds_many(item) else [item.name]
-        names += ["use_" + item.name for item in (*key_fields(table), *subtable_fields(table)) if is_optional(item)]
+        names += ["use_" + item.name for item in (*shown_keys(table), *shown_tables(table)) if is_optional(item)]
         assert len(set(names)) == len(names)
 
 

@@ -5,8 +5,8 @@ import re
 
 import pytest
 
-from bridge_demolition_addon.model.schema import expected, key_fields, key_name, key_of
-from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group
+from bridge_demolition_addon.model.schema import expected, key_name, key_of
+from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group, shown_keys
 from bridge_demolition_addon.ui.scenario.typical_values import TYPICAL, typical_value
 
 NUMBERS = ("FLOAT", "INT")
@@ -46,7 +46,7 @@ def keys():
     return [
         pytest.param(table, item, id=key_name(table, item))
         for table in all_tables()
-        for item in key_fields(table)
+        for item in shown_keys(table)
         if "number" in expected(item)
     ]
 
@@ -66,6 +66,6 @@ def test_the_tooltip_of_a_key_gives_a_value_that_it_takes(table, item):
 
 def test_no_typical_value_is_of_a_key_that_is_not_there():
     names = {
-        name for table in all_tables() for item in key_fields(table) for name in (key_name(table, item), item.name)
+        name for table in all_tables() for item in shown_keys(table) for name in (key_name(table, item), item.name)
     }
     assert set(TYPICAL) - names == set()

@@ -3,12 +3,11 @@
 
 import sys
 import time
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support.checkout import ROOT
-from support.panel_layouts import Layout, without_blender
+from support.ensemble_panels import PATIENCE_S, drawn, look_in_until
 from support.scenarios import SHORT_RUN
 
 import bridge_demolition_addon
@@ -20,10 +19,9 @@ from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 from bridge_demolition_addon.studies.run_process import RunLimits, RunProcess
 from bridge_demolition_addon.studies.run_program import run_program_command
 from bridge_demolition_addon.studies.versions import versions_with
+from bridge_demolition_addon.ui.ensemble import session
+from bridge_demolition_addon.ui.ensemble.study import PANELS, WORK, shown_study
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
-from bridge_demolition_addon.ui.study.ui import CLASSES
-
-PATIENCE_S = 300.0
 
 HEIGHT = Vary(key="ball.drop_height_m", distribution="uniform", lowest=0.05, highest=2.0)
 FEW = StudySettings(
@@ -41,46 +39,25 @@ def panel(extension, tmp_path):
     return settings
 
 
-@pytest.fixture
-def session(panel):
-    from bridge_demolition_addon.ui.study import session
-
-    return session
-
-
-def look_in_until(session, is_over):
-    """Do what Blender's timer does, as there is none without a window."""
-    began = time.monotonic()
-    while not is_over():
-        assert time.monotonic() - began < PATIENCE_S
-        session.look_in()
-        assert session.why_ended() == ""
-        time.sleep(0.05)
-
-
-def ended(session):
-    return lambda: session.study_at_work() is None
-
-
-def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_shown(blender, panel, session, tmp_path):
+def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_shown(blender, panel, tmp_path):
     ops = blender.ops.bda
     assert ops.start_study() == {"FINISHED"}
     assert not ops.start_study.poll()
-    look_in_until(session, lambda: session.study_at_work().run.done >= 1)
+    look_in_until(WORK, lambda: WORK.session.done >= 1)
     assert ops.pause_study() == {"FINISHED"}
-    run = session.study_at_work().run
+    run = WORK.session
     assert not ops.pause_study.poll() and ops.resume_study.poll()
     # Capacity is one more than the draws at a time: all three may be begun by now, and no more are.
     assert ops.resume_study() == {"FINISHED"}
     assert not run.is_paused
     assert ops.stop_study() == {"FINISHED"}
-    assert session.study_at_work() is None
+    assert WORK.session is None
     kept = read_runs(tmp_path / "study" / "runs.csv")
     assert 1 <= len(kept) <= 3
 
     assert ops.start_study() == {"FINISHED"}
-    look_in_until(session, ended(session))
-    assert session.why_ended() == ""
+    look_in_until(WORK)
+    assert WORK.why_ended == ""
     table = read_runs(tmp_path / "study" / "runs.csv")
     study = study_of(FEW, SHORT_RUN)
     assert table.rows[: len(kept)] == kept.rows
@@ -88,7 +65,7 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
     assert {row.status for row in table.rows} == {"done"}
     assert (tmp_path / "study" / "study.json").exists()
 
-    shown = session.shown_study()
+    shown = WORK.result
     farthest = max(row.outputs["reach_m"] for row in table.rows)
     assert f"within {np.ceil(farthest * 10.0) / 10.0:.1f} m" in shown.sentences[0]
     # The line goes around the bridge at that distance.
@@ -106,30 +83,30 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
     assert len(blender.context.scene.rigidbody_world.collection.objects) == bodies
 
 
-def test_a_study_of_which_no_draw_finishes_says_so_and_frees_its_folder(blender, panel, session, tmp_path):
+def test_a_study_of_which_no_draw_finishes_says_so_and_frees_its_folder(blender, panel, tmp_path):
     panel.study.use_time_limit_s, panel.study.time_limit_s = True, 1e-3
     blender.ops.bda.start_study()
-    look_in_until(session, ended(session))
+    look_in_until(WORK)
     assert {row.status for row in read_runs(tmp_path / "study" / "runs.csv").rows} == {"timed_out"}
-    shown = session.shown_study()
+    shown = WORK.result
     assert shown.sentences[0].startswith("These runs set no limit: 3 of 3 did not finish")
     assert len(shown.triangles[0]) == len(shown.limit_lines) == 0
-    with pytest.raises(RuntimeError, match="No draw of this study finished"):
+    with pytest.raises(RuntimeError, match="No run of this study finished"):
         blender.ops.bda.open_worst_draw()
     assert blender.ops.bda.start_study() == {"FINISHED"}  # the folder is free
-    look_in_until(session, ended(session))
+    look_in_until(WORK)
 
 
-def test_a_study_is_shown_from_its_folder(blender, panel, session, tmp_path):
+def test_a_study_is_shown_from_its_folder(blender, panel, tmp_path):
     blender.ops.bda.start_study()
-    look_in_until(session, ended(session))
+    look_in_until(WORK)
     session.unregister()
-    assert session.shown_study() is None
+    assert WORK.result is None
     assert blender.ops.bda.show_study() == {"FINISHED"}
-    assert len(session.shown_study().runs.table) == 3
+    assert len(WORK.result.runs.table) == 3
 
 
-def test_a_folder_of_another_study_is_refused_and_kept(blender, panel, session, tmp_path):
+def test_a_folder_of_another_study_is_refused_and_kept(blender, panel, tmp_path):
     blender.ops.bda.start_study()
     blender.ops.bda.stop_study()
     before = (tmp_path / "study" / "study.toml").read_bytes()
@@ -137,27 +114,26 @@ def test_a_folder_of_another_study_is_refused_and_kept(blender, panel, session, 
     with pytest.raises(RuntimeError, match="was begun with another study or scenario"):
         blender.ops.bda.start_study()
     assert (tmp_path / "study" / "study.toml").read_bytes() == before
-    assert session.study_at_work() is None
+    assert WORK.session is None
 
 
 @pytest.mark.parametrize(
     "change, message",
     [
         (lambda study: setattr(study.vary[0], "key", "ball.height"), "ball.height is unknown"),
-        (lambda study: setattr(study, "quantile", 0.95), "study.runs is 3: expected at least"),
         (lambda study: setattr(study.vary[0], "lowest", -1.0), r"draws may come to ball\.drop_height_m = -1"),
     ],
 )
-def test_a_study_that_cannot_run_is_refused_with_a_sentence(blender, panel, session, tmp_path, change, message):
+def test_a_study_that_cannot_run_is_refused_with_a_sentence(blender, panel, tmp_path, change, message):
     change(panel.study)
     with pytest.raises(RuntimeError, match=message):
         blender.ops.bda.start_study()
     assert not (tmp_path / "study").exists()
-    assert session.study_at_work() is None
+    assert WORK.session is None
 
 
-def test_a_folder_without_a_study_is_refused(blender, panel, session, tmp_path):
-    with pytest.raises(RuntimeError, match=r"study\.toml: no such file"):
+def test_a_folder_without_a_study_is_refused(blender, panel, tmp_path):
+    with pytest.raises(RuntimeError, match=r"expected the folder of a study, with study\.toml in it"):
         blender.ops.bda.show_study()
     panel.study_directory = ""
     assert not blender.ops.bda.show_study.poll()
@@ -172,16 +148,14 @@ def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
     show_table(panel.study, StudySettings(scenario="none.toml"))
     panel.study_path = str(tmp_path / "study.toml")
     assert blender.ops.bda.load_study() == {"FINISHED"}
-    from bridge_demolition_addon.ui.study.operator import shown_settings
-
-    assert shown_settings(blender.context).text == study.text
+    assert shown_study(panel).text == study.text
     panel.study_path = str(tmp_path / "missing.toml")
     with pytest.raises(RuntimeError, match=r"missing\.toml: no such file"):
         blender.ops.bda.load_study()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the launcher is a script of Unix")
-def test_draws_run_in_blenders_own_program_where_there_is_one(blender, session, tmp_path):
+def test_draws_run_in_blenders_own_program_where_there_is_one(blender, tmp_path):
     """The launcher takes Blender's arguments as Blender does, and is no Python that knows this package."""
     launcher = tmp_path / "blender"
     script = f"import sys; sys.path.remove({str(ROOT)!r}); exec(sys.argv[sys.argv.index('--python-expr') + 1])"
@@ -201,63 +175,38 @@ def test_draws_run_in_blenders_own_program_where_there_is_one(blender, session, 
     assert end.outputs["reach_m"] >= 0.0
 
 
-def drawn(blender):
-    """What the panels of a study draw, all of them open: texts of labels, and names of buttons."""
-    found = []
-
-    class Told(Layout):
-        def label(self, **settings):
-            found.append(settings["text"])
-
-        def operator(self, name, **settings):
-            found.append(name)
-            return super().operator(name, **settings)
-
-    system = SimpleNamespace(ui_scale=1.0)
-    context = SimpleNamespace(
-        scene=blender.context.scene,
-        region=SimpleNamespace(width=100_000),  # a sentence on a line
-        preferences=SimpleNamespace(system=system),
-    )
-    for panel in CLASSES:
-        without_blender(panel)(Told(context)).draw(context)
-    return found
-
-
-def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel, session):
-    assert {"bda.start_study", "1  ball.drop_height_m"} <= set(drawn(blender))
+def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel):
+    assert {"bda.start_study", "1  ball.drop_height_m"} <= set(drawn(blender, PANELS))
     blender.ops.bda.start_study()
-    running = drawn(blender)
-    assert {"0 of 3 draws", "bda.pause_study", "bda.stop_study"} <= set(running)
+    running = drawn(blender, PANELS)
+    assert {"0 of 3 runs", "bda.pause_study", "bda.stop_study"} <= set(running)
     assert "bda.start_study" not in running
-    assert running.index("bda.stop_study") < running.index("0 of 3 draws")  # lines that come move no button
+    assert running.index("bda.stop_study") < running.index("0 of 3 runs")  # lines that come move no button
     blender.ops.bda.pause_study()
-    assert {"0 of 3 draws, paused", "bda.resume_study"} <= set(drawn(blender))
+    assert {"0 of 3 runs, paused", "bda.resume_study"} <= set(drawn(blender, PANELS))
     blender.ops.bda.resume_study()
-    look_in_until(session, ended(session))
-    found = drawn(blender)
-    assert found[-len(session.shown_study().sentences) - 1 : -1] == list(session.shown_study().sentences)
-    assert found[-1] == "bda.open_worst_draw"
+    look_in_until(WORK)
+    found = drawn(blender, PANELS)
+    assert found[-len(WORK.result.sentences) - 2 : -2] == list(WORK.result.sentences)
+    assert found[-2:] == ["show_study", "bda.open_worst_draw"]
 
 
-def test_the_panels_say_why_a_study_ended_before_its_end(blender, panel, session, tmp_path):
+def test_the_panels_say_why_a_study_ended_before_its_end(blender, panel, tmp_path):
     blender.ops.bda.start_study()
     draws = tmp_path / "study" / "draws"
     draws.rename(tmp_path / "elsewhere")
     draws.write_text("a file where draws are to be kept")
     began = time.monotonic()
-    while session.study_at_work():
+    while WORK.session:
         assert time.monotonic() - began < PATIENCE_S
         session.look_in()
         time.sleep(0.05)
-    assert str(draws) in session.why_ended()
-    assert session.why_ended() in drawn(blender)
+    assert str(draws) in WORK.why_ended
+    assert WORK.why_ended in drawn(blender, PANELS)
 
 
 def test_switching_the_extension_off_ends_a_study(blender, tmp_path):
     bridge_demolition_addon.register()
-    from bridge_demolition_addon.ui.study import session
-
     settings = blender.context.scene.bda
     show_scenario(settings, SHORT_RUN)
     show_table(settings.study, FEW)
@@ -265,6 +214,21 @@ def test_switching_the_extension_off_ends_a_study(blender, tmp_path):
     blender.ops.bda.start_study()
     session.look_in()
     bridge_demolition_addon.unregister()
-    assert session.study_at_work() is None
+    assert WORK.session is None
     # Nobody holds the folder any more.
     assert read_runs(tmp_path / "study" / "runs.csv") is not None
+
+
+def test_a_study_of_two_runs_states_no_limit_yet_and_is_raised_to_four(blender, panel, tmp_path):
+    panel.study.runs, panel.study.confidence = 2, 0.9
+    assert blender.ops.bda.start_study() == {"FINISHED"}
+    look_in_until(WORK)
+    assert WORK.result.sentences[0].startswith("Too few runs for a limit yet: it needs 4 runs, has 2.")
+    assert len(WORK.result.limit_lines) == 0 and len(WORK.result.triangles[0]) > 0
+    kept = read_runs(tmp_path / "study" / "runs.csv")
+    panel.study.runs = 4
+    assert blender.ops.bda.start_study() == {"FINISHED"}
+    look_in_until(WORK)
+    table = read_runs(tmp_path / "study" / "runs.csv")
+    assert len(kept) == 2 and len(table) == 4 and table.rows[:2] == kept.rows
+    assert WORK.result.sentences[0].startswith("In 4 independent runs") and len(WORK.result.limit_lines) > 0

@@ -1,0 +1,123 @@
+"""The one shape of the reports of studies, searches and optimisations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from ...model.study.file import Study
+from ...model.study.runs_table import DONE
+from ..document.blocks import Block, Document, Listing, Paragraph, Section, facts
+from ..sections.cover import trust_section
+from ..wording.study import input_names
+from .criteria import criteria_section
+from .influence import influence_section, varied_section
+from .reported_ensemble import ReportedEnsemble
+
+_AS_SAMPLED = (
+    "Statements say how the model scatters over the inputs that vary, from the distributions that were given. Wrong "
+    "distributions, inputs that scatter and do not vary here, and errors of the model are in none of them."
+)
+_MOST_NAMED = 8
+_REST = "came_to_rest_s"
+
+
+def ensemble_document(
+    runs: ReportedEnsemble,
+    version: str,
+    statement: Section,
+    pictures: Iterable[Section],
+    tables: Iterable[Section | None],
+    statistics: str,
+) -> Document:
+    """Return a report.
+
+    Parameters
+    ----------
+    runs, version
+        The runs, and the version of this program.
+    statement
+        What the runs state; see `statement_section`.
+    pictures
+        Sections on the result.
+    tables
+        Sections on single runs, or on candidates.
+    statistics
+        What the statements rest on.
+    """
+    ensemble = runs.ensemble
+    sections = (
+        statement,
+        *pictures,
+        criteria_section(runs),
+        varied_section(runs),
+        influence_section(runs),
+        *tables,
+        trust_section(ensemble.scenario, statistics, _AS_SAMPLED),
+        _files_section(runs),
+    )
+    article = "an" if ensemble.kind[0] in "aeiou" else "a"
+    subtitle = (
+        f"Report of {article} {ensemble.kind} with {len(runs.table)} simulated demolitions. Bridge Demolition Add-on "
+        f"{version}"
+    )
+    return Document(ensemble.scenario.title, subtitle, tuple(filter(None, sections)))
+
+
+def statement_section(
+    runs: ReportedEnsemble,
+    version: str,
+    sentences: Sequence[str],
+    asked: Iterable[tuple[str, str]],
+    warnings: Iterable[str] = (),
+) -> Section:
+    """Return what the runs state, the first sentence set apart; what to doubt; and what was asked."""
+    first, *others = sentences
+    blocks: list[Block] = [Paragraph(first, is_notice=True), *map(Paragraph, others)]
+    blocks += [Paragraph(text, is_notice=True) for text in (*warnings, *_doubts(runs))]
+    kind = runs.ensemble.kind
+    rows = [
+        ("Scenario", runs.ensemble.scenario.title),
+        ("Folder", runs.name),
+        *asked,
+        ("Varied", ", ".join(input_names(runs.ensemble))),
+        (f"Seed of the {kind}", str(runs.ensemble.settings.seed)),
+        ("Run with", ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())),
+        ("Bridge Demolition Add-on", version),
+    ]
+    blocks.append(facts(f"The {kind}", rows, kind))
+    return Section(f"What this {kind} says", tuple(blocks))
+
+
+def unfinished_sentence(runs: ReportedEnsemble, total: int) -> str:
+    """Return how far an ensemble is that goes on."""
+    kind, up_to = runs.ensemble.kind, "" if isinstance(runs.ensemble, Study) else "up to "
+    return (
+        f"{len(runs.table)} of {up_to}{total} runs are there: the {kind} states nothing before all that it needs are. "
+        "Go on with the command that started it."
+    )
+
+
+def _doubts(runs: ReportedEnsemble) -> Iterator[str]:
+    table = runs.table
+    lost = [row for row in table.rows if row.status != DONE]
+    if lost:
+        named = ", ".join(f"{row.number} ({row.status.replace('_', ' ')})" for row in lost[:_MOST_NAMED])
+        others = " and others" if len(lost) > _MOST_NAMED else ""
+        yield f"{len(lost)} of {len(table)} runs did not finish: {named}{others}."
+    moving = sum(row.status == DONE and row.outputs.get(_REST) is None for row in table.rows)
+    if moving and _REST in table.outputs:
+        yield (
+            f"In {moving} of {len(table)} runs not everything had rested for "
+            f"{runs.ensemble.scenario.time.rest_hold_s:g} s when their time was over: debris may have gone on. Give "
+            "the scenario a longer time.duration_s."
+        )
+
+
+def _files_section(runs: ReportedEnsemble) -> Section:
+    ensemble = runs.ensemble
+    use = (
+        f"With these two files and the versions above the {ensemble.kind} can be repeated: the same files give the "
+        "same runs, and the same runs the same outcomes."
+    )
+    title = f"The {ensemble.kind} and its scenario"
+    return Section(title, (Paragraph(use), Listing(ensemble.text), Listing(ensemble.scenario_text)))

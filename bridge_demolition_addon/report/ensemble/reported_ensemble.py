@@ -1,0 +1,134 @@
+"""Runs of a study, a search or an optimisation, as its report looks at them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from ...errors import OutputError
+from ...model.ensemble.folder import read_ensemble
+from ...model.optimise.conclusions import CANDIDATE, ROUND
+from ...model.study.criteria import Criterion
+from ...model.study.file import SEED, Ensemble
+from ...model.study.runs_table import REACH, RunsTable
+
+
+@dataclass(frozen=True, eq=False)
+class ReportedEnsemble:
+    """Runs, and what was asked.
+
+    Attributes
+    ----------
+    name : str
+        Of their folder.
+    ensemble : Ensemble
+        What was asked.
+    table : RunsTable
+        All runs that are there.
+    versions : dict
+        What the runs were made with: version by name.
+    """
+
+    name: str
+    ensemble: Ensemble
+    table: RunsTable
+    versions: Mapping[str, str]
+
+    @classmethod
+    def read(cls, folder: Path, evaluated: Callable[[Any, RunsTable], dict[str, Any]]) -> Self:
+        """Read a folder.
+
+        Parameters
+        ----------
+        folder
+            Of the ensemble.
+        evaluated
+            Returns the further attributes of a subclass, from the ensemble and its table.
+
+        Raises
+        ------
+        OutputError
+            The folder holds none, or no run of it is there, or it cannot be read.
+        """
+        found = read_ensemble(folder)
+        try:
+            attributes = evaluated(found.ensemble, found.table)
+        except (KeyError, TypeError, ValueError) as error:
+            raise OutputError(
+                f"{folder / found.ensemble.table_file} is damaged ({error}): go on with the command that started the "
+                f"{found.ensemble.kind}"
+            ) from error
+        return cls(found.name, found.ensemble, found.table, found.versions, **attributes)
+
+    @property
+    def criteria(self) -> tuple[str, ...]:
+        """Names of outputs that say whether a run met a criterion."""
+        return tuple(criterion.output for criterion in self.ensemble.criteria)
+
+    @property
+    def distances_m(self) -> np.ndarray:
+        """Debris distance (n,) of each run, infinity where it did not finish."""
+        return self.table.largest(REACH)
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """Names of all inputs but the seed, which has no order, and those that only say what a run is for."""
+        return tuple(name for name in self.table.inputs if name not in (SEED, CANDIDATE, ROUND))
+
+    @cached_property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of all outputs that are numbers, not all of them the same."""
+        of_numbers = [name for name in self.table.outputs if self.table.output(name).dtype == float]
+        return tuple(name for name in of_numbers if len(np.unique(_finite(self.table.output(name)))) > 1)
+
+
+def shown(name: str) -> str:
+    """Return the name of an input or output as people read it: its unit in brackets, of a criterion only its own."""
+    if name.startswith(_CRITERION):
+        return name.removeprefix(_CRITERION).strip('"')
+    name, place = _IN_LIST.fullmatch(name).groups(default="")
+    name = _QUOTED_OR_DOT.sub(lambda found: " " if found[0] == "." else found[0], name)
+    for ending, unit in _UNITS.items():
+        if name.endswith(ending):
+            return f"{name.removesuffix(ending).replace('_', ' ')}{place.replace('.', ' ')} ({unit})"
+    return f"{name.replace('_', ' ')}{place.replace('.', ' ')}"
+
+
+_IN_LIST = re.compile(r"(.*?)(\.\d+)?")
+"""A name, and the place of a value in a list at its end."""
+
+_QUOTED_OR_DOT = re.compile(r'"[^"]*"|\.')
+_CRITERION = f"{Criterion.table}."
+
+_UNITS = {
+    "_n_mm2": "N/mm²",
+    "_kg_m3": "kg/m³",
+    "_mm_s": "mm/s",
+    "_m_s2": "m/s²",
+    "_m_s": "m/s",
+    "_newton": "N",
+    "_kgf": "kgf",
+    "_degrees": "°",
+    "_deg": "°",
+    "_kpa": "kPa",
+    "_m2": "m²",
+    "_m3": "m³",
+    "_kg": "kg",
+    "_ms": "ms",
+    "_mm": "mm",
+    "_N": "N",
+    "_J": "J",
+    "_m": "m",
+    "_s": "s",
+}
+"""Endings of names, longer ones before those that end like them."""
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    return values[np.isfinite(values)]

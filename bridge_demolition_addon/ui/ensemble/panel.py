@@ -1,0 +1,89 @@
+"""The shape of the panels Study, Search and Optimise: file and folder, what is asked, progress or Start, the result."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..scenario.ui import draw_keys
+from ..sidebar import SidebarPanel, draw_sentence
+from .prop import SPAN_DOWN
+from .session import Work
+
+
+class EnsemblePanel(SidebarPanel):
+    """Base of the three panels.
+
+    Attributes
+    ----------
+    work
+        Of the kind that the panel is for.
+    can_pause
+        Whether there are buttons to pause and resume.
+    """
+
+    bl_options = {"DEFAULT_CLOSED"}
+    work: Work
+    can_pause = False
+
+    def draw_asked(self, context: bpy.types.Context) -> None:
+        """Draw what is asked."""
+
+    def draw_result(self, context: bpy.types.Context) -> None:
+        """Draw the result."""
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings, work = self.layout, context.scene.bda, self.work
+        row = layout.row(align=True)
+        row.prop(settings, f"{work.key}_path", text="", placeholder=f"{work.name.capitalize()} file")
+        row.operator(f"bda.load_{work.key}", text="Load")
+        layout.prop(settings, f"{work.key}_directory", text="", placeholder=f"Folder of the {work.name}")
+        self.draw_asked(context)
+        layout.prop(settings, "study_jobs")
+        if work.session:
+            self._draw_progress()
+        else:
+            layout.operator(f"bda.start_{work.key}", text="Start")
+        if work.why_ended:
+            draw_sentence(layout, context, work.why_ended)
+        if work.result:
+            self.draw_result(context)
+
+    def _draw_progress(self) -> None:
+        """Draw the buttons above the lines that come and go: so they stay under the mouse."""
+        layout, work = self.layout, self.work
+        layout.progress(factor=work.session.done / work.session.total, text=work.session.folder.path.name)
+        row = layout.row(align=True)
+        if self.can_pause:
+            step = "resume" if work.session.is_paused else "pause"
+            row.operator(f"bda.{step}_{work.key}", text=step.capitalize())
+        row.operator(f"bda.stop_{work.key}", text="Stop")
+        column = layout.column(align=True)
+        for line in work.progress:
+            column.label(text=line)
+
+
+class OneValuePanel(EnsemblePanel):
+    """Base of the panels Search and Optimise: keys, a criterion, and a result in sentences with a picture."""
+
+    picture: str
+
+    def draw_criterion(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+        """Draw what a success is."""
+        column = layout.column()
+        column.use_property_split, column.use_property_decorate = True, False
+        column.prop(settings, f"{self.work.key}_criterion")
+        if getattr(settings, f"{self.work.key}_criterion") == SPAN_DOWN:
+            column.prop(settings, f"{self.work.key}_span")
+
+    def draw_result(self, context: bpy.types.Context) -> None:
+        for sentence in self.work.result.sentences:
+            draw_sentence(self.layout, context, sentence, icon="NONE")
+        self.layout.operator(self.picture)
+
+
+def draw_own_keys(panel: EnsemblePanel, context: bpy.types.Context, without: tuple[str, ...] = ()) -> None:
+    """Draw the keys that only this kind has, from the schema; those that all kinds share are in the panel Study."""
+    column = panel.layout.column()
+    column.enabled = panel.work.session is None
+    group = getattr(context.scene.bda, panel.work.key)
+    draw_keys(column, context, group, panel.work.settings_class, without=without)

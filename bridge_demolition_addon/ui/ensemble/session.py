@@ -1,0 +1,171 @@
+"""Studies, searches and optimisations at work beside Blender, and the results of those that ended last.
+
+There is one of each kind at most. Runs are made in processes of their own. A few times a second Blender looks for those
+that have ended, and answers the user meanwhile.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import bpy
+
+from ...engineering.timing.time_left import in_words
+from ...errors import DemolitionError, text_of
+from ...model.study.file import Ensemble
+from ...model.study.settings import EnsembleSettings
+from ...studies.engine import LocalProcesses
+from ...studies.run_process import RunLimits
+from ...studies.run_program import run_program_command
+from ...studies.session import EnsembleSession
+from ...studies.versions import versions_with
+from .prop import redraw_views
+
+_LOOK_EVERY_S = 0.3
+
+
+class ShownResult(Protocol):
+    """What a panel shows of a result."""
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What the runs state."""
+
+
+@dataclass(frozen=True, slots=True)
+class SentencesAndPicture:
+    """Result of a search or an optimisation."""
+
+    sentences: tuple[str, ...]
+    picture: Path | None
+
+    @classmethod
+    def of(cls, session: EnsembleSession, sentences: Iterable[str], picture: str) -> SentencesAndPicture:
+        """Return the result of a session that has ended; the picture is there where it was drawn."""
+        lost = [f"{session.lost} runs did not finish, and count as no success"] if session.lost else []
+        path = session.folder.path / picture
+        return cls((*sentences, *lost), path if path.exists() else None)
+
+
+class Work:
+    """What is at work of one kind, and the result that is shown.
+
+    Parameters
+    ----------
+    key
+        What its properties of the scene and its buttons are called after: ``optimise``.
+    name
+        What messages call it: ``optimisation``.
+    settings_class
+        Keys of its files.
+    shown
+        What is shown of a session that has ended.
+
+    Attributes
+    ----------
+    session : EnsembleSession or None
+        What is at work.
+    result : ShownResult or None
+        What is shown.
+    why_ended : str
+        Why the last one ended before its end; empty where it did not, or where the user stopped it.
+    """
+
+    def __init__(
+        self,
+        key: str,
+        name: str,
+        settings_class: type[EnsembleSettings],
+        shown: Callable[[EnsembleSession], ShownResult],
+    ):
+        self.key, self.name, self.settings_class, self._shown = key, name, settings_class, shown
+        self.session: EnsembleSession | None = None
+        self.result: ShownResult | None = None
+        self.why_ended = ""
+
+    def begin(self, ensemble: Ensemble, path: Path, jobs: int) -> None:
+        """Begin, or go on where the folder stands.
+
+        Raises
+        ------
+        DemolitionError
+            The folder is another's, or cannot be written; or a library is missing.
+        """
+        self.why_ended = ""
+        self.session = EnsembleSession(ensemble, path, engine_for(ensemble, jobs))
+        self.result = None
+        if not bpy.app.timers.is_registered(look_in):
+            bpy.app.timers.register(look_in, persistent=True)
+
+    def stop(self) -> None:
+        """End what is at work, if anything is; all runs that are done are kept."""
+        self.why_ended = ""
+        session, self.session = self.session, None
+        if session:
+            session.stop()
+
+    def look_in(self) -> None:
+        """Take the runs that have ended since the last look."""
+        session = self.session
+        if session is None:
+            return
+        before = session.done
+        try:
+            session.step(0.0)
+            if session.is_finished:
+                self.session = None
+                session.finish()
+                self.result = self._shown(session)
+        except (DemolitionError, OSError) as error:
+            self._end_for(error, session)
+        if session.done != before or self.session is None:
+            redraw_views(bpy.context)
+
+    def _end_for(self, error: Exception, session: EnsembleSession) -> None:
+        """End a session that cannot go on; its folder is free then, whatever can still be written."""
+        self.session, self.why_ended = None, text_of(error)
+        try:
+            session.stop()
+        except OSError as other:
+            self.why_ended += f"; {text_of(other)}"
+
+    @property
+    def progress(self) -> list[str]:
+        """How far it is, each line in a few words."""
+        session = self.session
+        lines = [f"{session.done} of {session.total} runs" + (", paused" if session.is_paused else "")]
+        if session.lost:
+            lines.append(f"{session.lost} of them did not finish")
+        if not session.is_paused and session.remaining_s:
+            lines.append(in_words(session.remaining_s))
+        return lines
+
+
+def look_in() -> float | None:
+    """Take the runs of all kinds that have ended; called by Blender's timer, which gets when to call again."""
+    for work in WORKS:
+        work.look_in()
+    return _LOOK_EVERY_S if any(work.session for work in WORKS) else None
+
+
+def engine_for(ensemble: Ensemble, jobs: int) -> LocalProcesses:
+    """Return what makes runs, each in a Blender like this one, some at a time."""
+    command = run_program_command(bpy.app.binary_path)  # an empty path where Blender is a module of Python
+    versions = versions_with(".".join(map(str, bpy.app.version)))
+    return LocalProcesses(jobs, RunLimits.of(ensemble.settings), command, versions)
+
+
+def unregister() -> None:
+    """End what is at work, and forget the results."""
+    if bpy.app.timers.is_registered(look_in):
+        bpy.app.timers.unregister(look_in)
+    for work in WORKS:
+        work.stop()
+        work.result = None
+
+
+WORKS: list[Work] = []
+"""One of each kind, which its module adds."""

@@ -1,1 +1,0 @@
-"""The panel of a study: what varies, running it beside Blender's work, and what it came to."""
