@@ -105,9 +105,9 @@ def run_scenario(
             recording = playing.recording
             times |= {"blender": playing.seconds - recording.seconds, "recording": recording.seconds}
             times["starting_and_ending"] = lap_s() - playing.seconds
-            if recording.distrust:
-                distrust = f"only motion was recorded, as Blender's memory is not as expected: {recording.distrust}"
-                progress.stage(distrust)
+            if recording.layout_error:
+                notice = f"only motion was recorded, as Blender's memory is not as expected: {recording.layout_error}"
+                progress.stage(notice)
             elif recording.rigid_because:
                 progress.stage(f"connections were rigid, as they cannot be elastic here: {recording.rigid_because}")
             summary = run_summary(recording, recording.results(), context, completed=not (signals or recording.error))

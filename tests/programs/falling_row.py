@@ -298,9 +298,9 @@ class FallingRow:
         self._assert_recorded(19)
 
     def _assert_recorded(self, frames: int) -> None:
-        assert self.recording.error is None and self.recording.distrust is None, (
+        assert self.recording.error is None and self.recording.layout_error is None, (
             self.recording.error,
-            self.recording.distrust,
+            self.recording.layout_error,
         )
         assert self.recording.recorded_frames == frames
         stop_recording()

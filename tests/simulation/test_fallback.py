@@ -37,7 +37,7 @@ def test_net_force_comes_from_the_change_of_momentum(strange_blender, tmp_path):
         blocks.scene.frame_set(frame)
     stop_recording()
     assert recording.error is None
-    assert "friction" in str(recording.distrust)
+    assert "friction" in str(recording.layout_error)
     results = recording.results()
     assert results.load_sampling == "change of momentum between frames"
     weight = mass * STANDARD_GRAVITY_M_S2

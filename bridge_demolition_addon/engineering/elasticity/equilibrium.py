@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
-from .joint_rows import JointFrames, joint_places
+from .joint_rows import JointFrames, components_first, components_last, joint_places
 from .sparse_system import BlockSystem
 
 _SLOWEST_S = 60.0
@@ -127,7 +127,7 @@ def _part_at_rest(
         if not abs(moved[:3]).max() <= _LARGEST_M:
             return None
         positions_m = positions_m + moved[:3]
-        rotations = np.moveaxis(rotated(np.moveaxis(rotations, 2, 0), moved[3:].T), 0, 2)
+        rotations = components_first(rotated(components_last(rotations), components_last(moved[3:])))
     return positions_m, rotations, _first_frequency(system, own, slack)
 
 

@@ -139,11 +139,11 @@ class JointRows:
         first, second : (6, m) float
             Velocities, then angular velocities, of the bodies.
         """
-        velocity, spin = first[:3] - second[:3], first[3:] - second[3:]
+        velocity, angular_velocity = first[:3] - second[:3], first[3:] - second[3:]
         shifting = turned(self.along, velocity)
         shifting += turned(self.first_turning, first[3:])
         shifting += turned(self.second_turning, second[3:])
-        return np.concatenate((shifting, turned(self.turning, spin)))
+        return np.concatenate((shifting, turned(self.turning, angular_velocity)))
 
     def loads(self, amounts: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what amounts (6, m) in the rows do to the first and to the second bodies.
@@ -188,6 +188,16 @@ def joint_places(frames: JointFrames, positions_m: FloatArray, rotations: FloatA
         second_levers,
         between + second_levers - first_levers,
     )
+
+
+def components_first(values: FloatArray) -> FloatArray:
+    """Return vectors (3, n) or matrices (3, 3, n), as they are here, of vectors (n, 3) or matrices (n, 3, 3)."""
+    return np.moveaxis(values, 0, -1)
+
+
+def components_last(values: FloatArray) -> FloatArray:
+    """Return vectors (n, 3) or matrices (n, 3, 3), as they are elsewhere, of vectors (3, n) or matrices (3, 3, n)."""
+    return np.moveaxis(values, -1, 0)
 
 
 def matrix_products(first: FloatArray, second: FloatArray) -> FloatArray:

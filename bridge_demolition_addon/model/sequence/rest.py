@@ -17,7 +17,7 @@ class Rest:
 
     Parameters
     ----------
-    speed_m_s, spin_rad_s : float
+    speed_m_s, angular_velocity_rad_s : float
         Below both of these a body rests; one that sleeps rests anyway.
     hold_s : float
         For how long all have to rest.
@@ -30,9 +30,9 @@ class Rest:
         Since when everything rests now; None while anything moves.
     """
 
-    def __init__(self, speed_m_s: float, spin_rad_s: float, hold_s: float, not_before_s: float):
+    def __init__(self, speed_m_s: float, angular_velocity_rad_s: float, hold_s: float, not_before_s: float):
         self.since_s: float | None = None
-        self._limits = speed_m_s, spin_rad_s
+        self._limits = speed_m_s, angular_velocity_rad_s
         self._hold_s, self._not_before_s = hold_s, not_before_s
         self._last: tuple[float, np.ndarray, np.ndarray] | None = None
         self._time_s = 0.0
@@ -44,8 +44,8 @@ class Rest:
             step_s = time_s - before_s
             speeds = distance(positions_m, before_m) / step_s
             # A rotation by a small angle φ changes the matrix by √2 φ in the Frobenius norm.
-            spins = distance(rotations.reshape(-1, 9), before.reshape(-1, 9)) / (np.sqrt(2.0) * step_s)
-            rests = asleep | ((speeds < self._limits[0]) & (spins < self._limits[1]))
+            angular_velocities = distance(rotations.reshape(-1, 9), before.reshape(-1, 9)) / (np.sqrt(2.0) * step_s)
+            rests = asleep | ((speeds < self._limits[0]) & (angular_velocities < self._limits[1]))
             if not rests.all() or before_s < self._not_before_s:
                 self.since_s = None
             elif self.since_s is None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
-from ...engineering.elasticity.joint_rows import JointFrames
+from ...engineering.elasticity.joint_rows import JointFrames, components_first
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.mechanics.joint import MOTIONS, Joint
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
@@ -149,19 +149,19 @@ def at_rest(
     Equilibrium
         Of the n shards, and of the ground as the last body.
     """
-    sections = np.moveaxis(section_axes(connections.normals), 0, 2)
+    sections = components_first(section_axes(connections.normals))
     held = np.ones((6, len(connections)), bool) if held is None else held
     axes = np.repeat(np.eye(3)[:, :, None], len(connections), axis=2)
     first, second = connections.pairs.T
     second = np.where(second == GROUND, len(masses_kg), second)
     places = np.vstack((centres_m, np.zeros(3)))
-    levers = [(connections.points - places[each]).T for each in (first, second)]
+    levers = [components_first(connections.points - places[each]) for each in (first, second)]
     tensors, unturned = np.zeros((3, 3, len(places))), np.repeat(np.eye(3)[:, :, None], len(places), axis=2)
     tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
     return equilibrium(
         JointFrames(first, second, axes, axes, *levers),
         in_frames(stiffness, sections, held),
-        RigidBodies(np.append(masses_kg, 0.0), tensors, places.T, unturned),
+        RigidBodies(np.append(masses_kg, 0.0), tensors, components_first(places), unturned),
         np.array(gravity_m_s2),
         None if loads is None else np.column_stack((loads, np.zeros(6))),
     )

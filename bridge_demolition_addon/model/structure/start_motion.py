@@ -1,4 +1,4 @@
-"""Velocities and spins with which shards begin, as parts of a member that moves as one body."""
+"""Velocities and angular velocities with which shards begin, as parts of a member that moves as one body."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from .model import Model
 
 
 def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray, np.ndarray]:
-    """Return velocities (n, 3), m/s, and spins (n, 3), rad/s, of the shards of a model.
+    """Return velocities (n, 3), m/s, and angular velocities (n, 3), rad/s, of the shards of a model.
 
     Of members in several files, the first says how they move. Shards that are held do not.
     """
-    velocities, spins = np.zeros((2, len(model.shards), 3))
+    velocities, angular_velocities = np.zeros((2, len(model.shards), 3))
     names = np.array([member.name for member in model.members])[model.member_of_shard]
     first_of_each = {table.name: table for table in reversed(tables)}
     for table in (each for each in first_of_each.values() if each.is_moving):
         shards = np.flatnonzero(names == table.name)
         masses, centres = model.masses_kg[shards, None], model.centres_m[shards]
-        spins[shards] = table.spin_rad_s
+        angular_velocities[shards] = table.spin_rad_s
         arms = centres - (masses * centres).sum(axis=0) / masses.sum()
-        velocities[shards] = np.array(table.velocity_m_s) + cross(spins[shards], arms)
-    velocities[model.fixed], spins[model.fixed] = 0.0, 0.0
-    return velocities, spins
+        velocities[shards] = np.array(table.velocity_m_s) + cross(angular_velocities[shards], arms)
+    velocities[model.fixed], angular_velocities[model.fixed] = 0.0, 0.0
+    return velocities, angular_velocities

@@ -15,7 +15,14 @@ from ...engineering.arithmetic import power
 from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_places, corner_shares
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
-from ...engineering.elasticity.joint_rows import JointFrames, JointRows, joint_places, matrix_products, transposed
+from ...engineering.elasticity.joint_rows import (
+    JointFrames,
+    JointRows,
+    components_first,
+    joint_places,
+    matrix_products,
+    transposed,
+)
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStructure, StepInput
 from ...engineering.foundations.footings import Footings, SoilSprings
@@ -101,7 +108,7 @@ class ElasticConnections:
         motion = self._reader.read()
         self._check_frames(motion)
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
-        sections = np.moveaxis(section_axes(inventory.normals), 0, 2)
+        sections = components_first(section_axes(inventory.normals))
         self._stiffness = in_frames(
             stiffness, matrix_products(transposed(places.first_axes), sections), self._rows.held
         )
@@ -137,12 +144,12 @@ class ElasticConnections:
         """
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
         self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
-        self._face_directions = np.moveaxis(sections.directions, 0, 2)
+        self._face_directions = components_first(sections.directions)
         ductility = breaking.ductility
         even = ductility.strength_share * breaking.strength.tension_pa * self._inventory.areas_m2
         yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
         if breaking.bars:
-            places = transformed_back(sections.directions, breaking.bars.offsets_m).T
+            places = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
             yield_n = yield_n + breaking.bars.yield_n * corner_shares(places, self._face_sides_m)
         self._cracks = Cracks(breaking.steel, ductility.elongation_m, yield_n, left, self._axial_n_m)
 
@@ -161,9 +168,9 @@ class ElasticConnections:
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()
-        across = matrix_products(np.moveaxis(axes, 0, 2)[:, 1:], self._face_directions[..., rows])
-        places = corner_places(points_m.T, across, self._face_sides_m[:, rows])
-        outwards = np.where(self._is_first[rows], 1.0, -1.0) * axes[:, :, 0].T
+        across = matrix_products(components_first(axes)[:, 1:], self._face_directions[..., rows])
+        places = corner_places(components_first(points_m), across, self._face_sides_m[:, rows])
+        outwards = np.where(self._is_first[rows], 1.0, -1.0) * components_first(axes[:, :, 0])
         first, second = self._frames.first[rows], self._frames.second[rows]
         self._cracks.add(rows, first, second, places, outwards, motion.positions_m, motion.rotations)
 
@@ -302,7 +309,9 @@ class ElasticConnections:
             (places.second_axes, self._frames.second, places.second_levers_m),
         ):
             points = motion.positions_m[:, bodies] + levers
-            check_frames(axes, points, matrices[:, :3, 3].T, np.moveaxis(turned.reshape(-1, 3, 3), 0, 2), names)
+            check_frames(
+                axes, points, components_first(matrices[:, :3, 3]), components_first(turned.reshape(-1, 3, 3)), names
+            )
 
 
 def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:

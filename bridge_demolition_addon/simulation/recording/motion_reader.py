@@ -30,7 +30,7 @@ _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
 """What of a run needs Blender's memory, and what to do without it."""
 
 
-def check_motion_is_enough(setup: RunSetup, distrust: LayoutError, *, contacts: bool) -> None:
+def check_motion_is_enough(setup: RunSetup, layout_error: LayoutError, *, contacts: bool) -> None:
     """Refuse a run that needs more than the motion of its bodies.
 
     Raises
@@ -43,7 +43,8 @@ def check_motion_is_enough(setup: RunSetup, distrust: LayoutError, *, contacts: 
         needs.append(("contacts need", "switch recording.contacts off in the scenario"))
     for subject, remedy in needs:
         raise SimulationError(
-            f"{subject} Blender's memory, which is not as expected ({distrust}): {remedy}, or run it in another Blender"
+            f"{subject} Blender's memory, which is not as expected ({layout_error}): {remedy}, "
+            "or run it in another Blender"
         )
 
 
@@ -68,13 +69,13 @@ class MomentumReader:
         rotations = axes / length(np.swapaxes(axes, 1, 2))[:, None]
         last, step = self._last, time_step_at(self._scene, self._scene.frame_current)
         time_s, substep_s, loads = 0.0, 0.0, self._no_loads
-        velocities = spins = np.zeros_like(positions)
+        velocities = angular_velocities = np.zeros_like(positions)
         if last:
-            time_s, velocities, spins = last.time_s, last.velocities_m_s, last.angular_velocities_rad_s
+            time_s, velocities, angular_velocities = last.time_s, last.velocities_m_s, last.angular_velocities_rad_s
         if last and step.frame_s > 0.0:
             time_s, substep_s = time_s + step.frame_s, step.substep_s
             velocities = (positions - last.positions_m) / step.frame_s
-            spins = rotation_vectors(last.rotations, rotations) / step.frame_s
+            angular_velocities = rotation_vectors(last.rotations, rotations) / step.frame_s
             loads = self._loads((velocities - last.velocities_m_s) / step.frame_s)
         self._last = Frame(
             number=self._scene.frame_current,
@@ -83,7 +84,7 @@ class MomentumReader:
             positions_m=positions,
             rotations=rotations,
             velocities_m_s=velocities,
-            angular_velocities_rad_s=spins,
+            angular_velocities_rad_s=angular_velocities,
             asleep=np.zeros(len(positions), bool),
             intact=np.zeros(0, bool),
             blast_impulses_ns=np.zeros_like(positions),

@@ -74,7 +74,7 @@ class Recording(RecordedFrames):
         Which bodies are missing, were added or moved since the scene was built, in sentences.
     error : Exception or None
         Why the recording ended before its time.
-    distrust : LayoutError or None
+    layout_error : LayoutError or None
         Why Bullet's memory is not read. Then only the motion of bodies is recorded, and the net force on each
         from its change of momentum.
     has_loads : bool
@@ -107,7 +107,7 @@ class Recording(RecordedFrames):
         self.scene_uid = scene.session_uid
         self.folder = folder
         self.error: Exception | None = None
-        self.distrust: LayoutError | None = None
+        self.layout_error: LayoutError | None = None
         self._every_substep = every_substep
         self._log_files, self.has_loads = log_files or LogFiles(), loads
         self._has_contacts = contacts and loads
@@ -133,9 +133,9 @@ class Recording(RecordedFrames):
             Time is animated and cannot be set.
         """
         try:
-            self._timing.set_time(holds_first=self.distrust is None)
+            self._timing.set_time(holds_first=self.layout_error is None)
         except LayoutError as error:
-            self.distrust = error
+            self.layout_error = error
         coming = self.scene.frame_current
         last = self.last if self.last and coming == self.last.number + 1 else None
         if self._blast and last:
@@ -143,7 +143,7 @@ class Recording(RecordedFrames):
             self._blast.before_frame(last.time_s, frame_s, last.positions_m, last.rotations)
         elif self._blast:
             self._blast.rest()
-        self.substeps = self._timing.set_substeps(None if self.distrust else last)
+        self.substeps = self._timing.set_substeps(None if self.layout_error else last)
         if self._reader:
             self._reader.before_frame(self.substeps)
 
@@ -157,9 +157,9 @@ class Recording(RecordedFrames):
         """
         began = time.perf_counter()
         try:
-            if not self.distrust:
+            if not self.layout_error:
                 self._follow_bullet(depsgraph)
-            if self.distrust:
+            if self.layout_error:
                 self._follow_motion(depsgraph)
             begin_lifts(self._lifted, self.scene.frame_current, depsgraph)
         finally:
@@ -211,8 +211,8 @@ class Recording(RecordedFrames):
     @property
     def rigid_because(self) -> LayoutError | None:
         """Why connections that are meant to be elastic are rigid."""
-        if self.distrust and is_elastic(self.scene):
-            return self.distrust
+        if self.layout_error and is_elastic(self.scene):
+            return self.layout_error
         return self._reader.rigid_because if self._reader else None
 
     @property
@@ -234,7 +234,7 @@ class Recording(RecordedFrames):
         except LayoutError as error:
             if self.last:  # it was trusted, and parts of it are recorded
                 raise
-            self.distrust = error
+            self.layout_error = error
         finally:
             self._timing.release()
 
@@ -244,7 +244,7 @@ class Recording(RecordedFrames):
         begins = number == self.scene.rigidbody_world.point_cache.frame_start
         if begins or not self._momentum:
             setup = run_setup_of(self.scene, with_connections=False)
-            check_motion_is_enough(setup, self.distrust, contacts=self._has_contacts)
+            check_motion_is_enough(setup, self.layout_error, contacts=self._has_contacts)
             self._momentum = MomentumReader(self.scene, setup.bodies.objects, setup.inventory)
             self._begin(setup, None)
         elif number != self.last.number + 1:
@@ -291,7 +291,7 @@ class Recording(RecordedFrames):
         self._lifted = [body for body in setup.bodies.objects if lifts_of(body)]
         self._blast = Blast(self.scene, setup, world) if setup.goes_off else None
         load_sampling = "every sub-step" if self._every_substep else "last sub-step of each frame"
-        if self.distrust:
+        if self.layout_error:
             load_sampling = READING_OF_MOTION
         elif not self.has_loads:
             load_sampling = WITHOUT_LOADS

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...bullet.bodies import BodyTable
+from ...engineering.elasticity.joint_rows import components_last
 from ...engineering.geometry.vectors import dot, transformed, transformed_back
 from ...engineering.mechanics.reinforcement import effective_masses, parting, tie_forces
 from ...model.results.inventory import Inventory
@@ -93,6 +94,6 @@ class Reinforcement(Driver):
         """
         if self._reader is None:
             return 0.0
-        inverse = np.moveaxis(self._reader.inverse_inertias(), 2, 0)[pairs]
+        inverse = components_last(self._reader.inverse_inertias())[pairs]
         arms = np.cross(levers, directions[:, None])
         return dot(arms, transformed(inverse, arms)).sum(axis=1)

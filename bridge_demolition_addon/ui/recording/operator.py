@@ -202,8 +202,8 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         )
     if moved:
         messages.tell(operator, "WARNING", f"{recording.folder} was moved or deleted, and the logs with it")
-    if recording.distrust:
-        messages.tell(operator, "WARNING", f"Forces are estimated from motion: {recording.distrust}")
+    if recording.layout_error:
+        messages.tell(operator, "WARNING", f"Forces are estimated from motion: {recording.layout_error}")
     elif recording.rigid_because:
         messages.tell(operator, "WARNING", f"Connections were rigid, not elastic: {recording.rigid_because}")
     messages.tell(operator, "INFO", f"Results are in {folder}")

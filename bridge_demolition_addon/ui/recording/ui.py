@@ -45,8 +45,8 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
             draw_sentence(self.layout, context, f"Recording ended early: {recording.error}")
             return
         self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
-        if recording.distrust:
-            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.distrust}")
+        if recording.layout_error:
+            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.layout_error}")
         elif recording.rigid_because:
             draw_sentence(self.layout, context, f"Connections are rigid, not elastic: {recording.rigid_because}")
 
