@@ -97,7 +97,7 @@ def build_anew(person: Person, panels: Panels) -> Steps:
 
 def search(person: Person, panels: Panels) -> Steps:
     """Find Smallest Charge, along the drop of the ball, beside the window."""
-    session = module("ui.search.session")
+    work = module("ui.ensemble.search").WORK
     yield from panels.show_only("Search")
     person.expect("no folder is greyed with a reason", "Choose a folder" in person.refusal("bda.start_search"), True)
     folder = person.folder / "search"
@@ -108,16 +108,16 @@ def search(person: Person, panels: Panels) -> Steps:
     yield from person.press("D", "d")  # the letter that is underlined
     yield 0.3
     person.expect("the drop is chosen", person.scene.bda.search_quantity, "DROP_HEIGHT")
-    for name, value in (("search_lowest", LOWEST_M), ("search_highest", HIGHEST_M)):
+    for name, value in (("lowest", LOWEST_M), ("highest", HIGHEST_M)):
         yield from person.fill_in(name, f"{value:g}")
     yield from person.click("bda.start_search")
     person.expect_reports("the start is reported", f"The search runs in {folder}")
-    yield from person.wait_for("a trial ends", lambda: session.search_at_work().run.done >= 1, SEARCH_S)
+    yield from person.wait_for("a run ends", lambda: work.session.done >= 1, SEARCH_S)
     yield from person.picture("at_work")
-    yield from person.wait_for("the search ends", lambda: session.search_at_work() is None, SEARCH_S)
+    yield from person.wait_for("the search ends", lambda: work.session is None, SEARCH_S)
     yield 1.0
     yield from person.picture("found")
-    person.expect("nothing went wrong", session.why_ended(), "")
-    said = session.found_by_search().sentences[0]
-    person.expect("it says what was seen", said.startswith("0 of 8 trials met all criteria"), True)
-    person.expect("all trials are in the table", len(rows(folder / "trials.csv")), 8)
+    person.expect("nothing went wrong", work.why_ended, "")
+    said = work.result.sentences[0]
+    person.expect("it says what was seen", said.startswith("0 of 8 runs met all criteria"), True)
+    person.expect("all runs are in the table", len(rows(folder / "trials.csv")), 8)

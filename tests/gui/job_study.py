@@ -101,10 +101,10 @@ def set_up(person: Person, panels: Panels) -> Steps:
 
 def run_beside_the_work(person: Person) -> Steps:
     """Start; play the timeline; Pause; Resume; and wait for the end."""
-    session = module("ui.study.session")
+    work = module("ui.ensemble.study").WORK
     yield from person.click("bda.start_study")
     person.expect_reports("nothing but the start is reported", f"The study runs in {folder(person)}")
-    run = session.study_at_work().run
+    run = work.session
     person.expect("a second one is refused", "at work already" in person.refusal("bda.start_study"), True)
     yield from person.hover("bda.pause_study")
     pause_at = person.mouse
@@ -126,8 +126,8 @@ def run_beside_the_work(person: Person) -> Steps:
     paused_at = run.done
     person.expect("there is something left to do", paused_at < RUNS, True)
     yield PAUSE_S
-    person.expect("no draw ends while it is paused", run.done, paused_at)
-    person.expect("draws have ended while the timeline played", paused_at > played_from and len(frames) > 1, True)
+    person.expect("no run ends while it is paused", run.done, paused_at)
+    person.expect("runs have ended while the timeline played", paused_at > played_from and len(frames) > 1, True)
     yield from person.click("bda.resume_study")
     yield from person.wait_for("it goes on", lambda: run.done > paused_at, STUDY_S)
     person.expect("the timeline plays all the time", person.playing, True)
@@ -136,12 +136,12 @@ def run_beside_the_work(person: Person) -> Steps:
     yield from play_or_pause(person)
     for what, waits in pulse.waits().items():
         judge(person, what, waits)
-    yield from person.wait_for("the study ends", lambda: session.study_at_work() is None, STUDY_S)
+    yield from person.wait_for("the study ends", lambda: work.session is None, STUDY_S)
     yield 1.0
     yield from person.picture("ended")
-    person.expect("nothing went wrong", session.why_ended(), "")
+    person.expect("nothing went wrong", work.why_ended, "")
     table = rows(folder(person) / "runs.csv")
-    person.expect("all draws are in the table", [row["run"] for row in table], [str(n) for n in range(1, RUNS + 1)])
+    person.expect("all runs are in the table", [row["run"] for row in table], [str(n) for n in range(1, RUNS + 1)])
     person.expect("all are done", {row["status"] for row in table}, {"done"})
     heights = {float(row[f"in.{HEIGHT_KEY}"]) for row in table}
     person.expect("each has another height", len(heights), RUNS)
@@ -158,12 +158,12 @@ def look_at_the_findings(person: Person, panels: Panels) -> Steps:
     yield from person.hover("show_study")  # below all sentences
     yield from person.move_to_view()
     yield from person.illustrate("study_panel", person.view)
-    shown = module("ui.study.session").shown_study()
+    shown = module("ui.ensemble.study").WORK.result
     farthest = max(float(row["out.reach_m"]) for row in rows(folder(person) / "runs.csv"))
     said = re.search(r"debris stayed within ([\d.]+) m", shown.sentences[0])
     # Of rank 1 is the largest; sentences round up.
     person.expect("it says the largest reach", said and float(said[1]), math.ceil(farthest * 10.0 - 1e-9) / 10.0)
-    person.expect("everything can be drawn", module("ui.study.decorator").drawing.trouble, "")
+    person.expect("everything can be drawn", module("ui.ensemble.study").drawing.trouble, "")
     with_study = pixels(person)
     yield from person.click("show_study")
     yield from person.move_to_view()
@@ -184,7 +184,7 @@ def run_the_worst_draw(person: Person, panels: Panels) -> Steps:
     yield from person.move_to_view()
     yield from person.picture("worst_draw")
     worst = max(rows(folder(person) / "runs.csv"), key=lambda row: float(row["out.reach_m"]))
-    person.expect_reports("the worst draw is reported", f"Draw {worst['run']}, whose debris got")
+    person.expect_reports("the worst draw is reported", f"Run {worst['run']}, whose debris distance is")
     height = person.scene.bda.scenario.ball.drop_height_m
     person.expect("the panels show its height", math.isclose(height, float(worst[f"in.{HEIGHT_KEY}"]), rel_tol=1e-6))
     yield from panels.show_only("Frame Change Event Handler")

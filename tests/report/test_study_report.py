@@ -165,7 +165,7 @@ def test_the_made_up_runs_reach_as_far_as_they_say(runs):
 @pytest.mark.parametrize(
     "name, words",
     [
-        ("reach_m", "reach (m)"),
+        ("reach_m", "debris distance (m)"),
         ('charges."mid. pier".mass_kg', 'charges "mid. pier" mass (kg)'),
         ("largest_force_N", "largest force (N)"),
         ('criteria."road stays free"', "road stays free"),

@@ -113,7 +113,7 @@ def _varied_row(runs: ReportedEnsemble, variation: Variation) -> tuple:
 
 
 def _settings(distribution: Distribution) -> Iterator[str]:
-    """Yield what a distribution was given, in words."""
+    """Yield the settings of a distribution, each as text."""
     for each in fields(distribution):
         value = getattr(distribution, each.name)
         if value != each.default:

@@ -92,6 +92,7 @@ def shown(name: str) -> str:
     """Return the name of an input or output as people read it: its unit in brackets, of a criterion only its own."""
     if name.startswith(_CRITERION):
         return name.removeprefix(_CRITERION).strip('"')
+    name = name.replace("reach", "debris_distance")
     name, place = _IN_LIST.fullmatch(name).groups(default="")
     name = _QUOTED_OR_DOT.sub(lambda found: " " if found[0] == "." else found[0], name)
     for ending, unit in _UNITS.items():

@@ -18,7 +18,7 @@ _MOST_RUNS = 200
 """Of more, only the farthest are listed."""
 
 _MOST_INPUTS, _MOST_OUTPUTS = 3, 3
-"""Columns that fit on a page, besides that of the debris distance: the inputs that matter most for it."""
+"""Columns that fit on a page, apart from that of the debris distance: the inputs that matter most for it."""
 
 _LARGE = 1e4
 """Numbers from which on digits after the point are left out."""
