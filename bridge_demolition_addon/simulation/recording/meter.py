@@ -10,11 +10,13 @@ import numpy as np
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
+from ...engineering.geometry.rotations import axes_in_bodies, carried_axes, carried_points
+from ...engineering.geometry.vectors import by_component, length, taken, transformed, transformed_back
+from ...engineering.mechanics.forces import moments_at
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
-from ...engineering.mechanics.section_forces import SectionForces
+from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
 from ...model.results.inventory import Inventory
 from .elastic_connections import ElasticConnections
-from .load_reader import LoadReader
 from .reinforcement import Reinforcement
 
 
@@ -54,7 +56,7 @@ class Meter:
     Attributes
     ----------
     lever_arms_m : (m,) float
-        From the centres of the bodies on which loads are read to the connections.
+        From the centres of the bodies on which loads are read to the connections, which stay where they are on these.
     """
 
     def __init__(
@@ -64,25 +66,36 @@ class Meter:
         elastic: ElasticConnections | None,
         reinforcement: Reinforcement | None,
     ):
-        self._reader = LoadReader(world, inventory.pairs, inventory.moves, inventory.points_m, inventory.normals)
         self._elastic, self._reinforcement = elastic, reinforcement
-        self.lever_arms_m = self._reader.lever_arms_m
+        pairs = inventory.pairs
+        # Of a hinge on a fixed body, Bullet leaves out a part of the torque on that body: loads are read on the other.
+        side = np.where(inventory.moves[pairs[:, 0]], 0, 1)
+        rows = np.arange(len(pairs))
+        self._sides = np.where(world.first_is_body_a(), side, 1 - side)
+        self._snapshots = world.snapshots(2 * rows + self._sides)
+        self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
+        self._bodies = pairs[rows, side]
+        centres, rotations = world.bodies.positions()
+        bodies = self._bodies
+        self._local_points = by_component(*transformed_back(rotations[bodies], inventory.points_m - centres[bodies]).T)
+        self.lever_arms_m = length(self._local_points)
+        self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
 
     def read(self, substep_s: float, end_s: float) -> Reading:
         """Return what Bullet holds after a sub-step; of elastic connections it knows only what contacts change."""
-        snapshot = self._reader.snapshot()
+        snapshot = self._snapshots.take()
         if self._elastic:
-            snapshot = replace(snapshot, loads=snapshot.loads + self._elastic.loads_on(self._reader.sides))
+            snapshot = replace(snapshot, loads=snapshot.loads + self._elastic.loads_on(self._sides))
         forces = self._reinforcement.forces_n.copy() if self._reinforcement else None
         return Reading(snapshot, substep_s, end_s, forces)
 
     def predicted_loads(self, both_sides: np.ndarray) -> np.ndarray:
         """Return loads (6, m) where they are read, of those (2, 6, m) on Bullet's bodies A and B."""
-        return np.where(self._reader.sides == 0, both_sides[0], both_sides[1])
+        return np.where(self._sides == 0, both_sides[0], both_sides[1])
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return what Bullet holds before a sub-step, with the loads (6, m) that connections will have in it."""
-        return Reading(replace(self._reader.snapshot(), loads=loads), substep_s, begin_s, None)
+        return Reading(replace(self._snapshots.take(), loads=loads), substep_s, begin_s, None)
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray | None:
         """Return the energy that is now in elastic connections (m,), of those that are intact or reinforced."""
@@ -92,7 +105,7 @@ class Meter:
         """Return the states of all bodies after sub-steps, and the loads in these."""
         snapshots = [reading.snapshot for reading in readings]
         bodies = BodyHistory.of(snapshots)
-        loads = self._reader.loads(snapshots, bodies, np.array([reading.substep_s for reading in readings]))
+        loads = self._substep_loads(snapshots, bodies, np.array([reading.substep_s for reading in readings]))
         for substep, reading in enumerate(readings):
             if reading.reinforcement_n is not None:
                 loads.connection_forces_n[substep] += reading.reinforcement_n
@@ -104,16 +117,42 @@ class Meter:
 
     def contacts(self, reading: Reading) -> Contacts:
         """Return the contacts after a sub-step."""
-        return self._reader.contacts(reading.snapshot)
+        return self._snapshots.contacts([reading.snapshot])
 
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """Return the axes (r, 3, 3) of some connections (r,), turned with their bodies."""
-        return self._reader.section_axes(rotations, rows)
+        return carried_axes(self._local_axes[rows], self._bodies[rows], rotations)
 
     def section_forces(self, loads: Moment, rows: np.ndarray) -> SectionForces:
         """Return the loads of some connections (r,) in their own axes."""
-        return self._reader.section_forces(loads, rows)
+        axes = self.section_axes(loads.rotations, rows)
+        return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
         """Return the unit normals (m, 3) of the connections, turned with their bodies."""
-        return self._reader.normals(rotations)
+        return transformed(rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
+
+    def _substep_loads(
+        self, snapshots: Sequence[Snapshot], bodies: BodyHistory, substeps_s: np.ndarray
+    ) -> SubstepLoads:
+        """Loads of sub-steps (s,) after which snapshots were taken, without reinforcement."""
+        loads = np.stack([snapshot.loads for snapshot in snapshots], axis=1)
+        force, torque = (np.moveaxis(vectors, 0, -1) for vectors in (loads[:3], loads[3:]))
+        centres = taken(bodies.positions, self._bodies)
+        rotations = taken(bodies.rotations.reshape(*bodies.positions.shape[:2], 9), self._bodies)
+        points = carried_points(self._local_points, centres, rotations.reshape(*centres.shape, 3))
+        moment = moments_at(points, force, torque, centres)
+        contacts = self._snapshots.contacts(snapshots)
+        return SubstepLoads(
+            substeps_s=substeps_s,
+            connection_forces_n=self._sign * force,
+            connection_moments_nm=self._sign * moment,
+            connection_points_m=points,
+            signed_2019_ns=np.stack([snapshot.applied_impulses for snapshot in snapshots]),
+            contact_substeps=contacts.substeps,
+            contact_pairs=contacts.pairs,
+            contact_impulses_ns=contacts.impulses_ns,
+            contact_points_m=contacts.places_m,
+            centres_m=bodies.positions,
+            rotations=bodies.rotations,
+        )
