@@ -76,13 +76,7 @@ class BodyMotionReader:
         )
 
     def inverse_inertias(self) -> np.ndarray:
-        """Return the inverse tensors of inertia (3, 3, n) in the axes of the world, 1/(kg·m²).
-
-        Raises
-        ------
-        LayoutError
-            They are none.
-        """
+        """Return the inverse tensors of inertia (3, 3, n) in the axes of the world, 1/(kg·m²)."""
         tensors = self._inertia.copy().reshape(3, 3, -1)
         largest = abs(tensors).max(axis=(0, 1))
         is_symmetric = abs(tensors - np.swapaxes(tensors, 0, 1)).max(axis=(0, 1)) <= _SYMMETRIC * largest

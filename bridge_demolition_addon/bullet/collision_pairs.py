@@ -31,11 +31,6 @@ class CollisionPairs:
         (m,) addresses of connections that keep their bodies from colliding.
     bodies
         (n,) addresses of all bodies.
-
-    Raises
-    ------
-    LayoutError
-        A list does not hold just what the connections put there.
     """
 
     def __init__(self, layout: Layout, connections: np.ndarray, bodies: np.ndarray):

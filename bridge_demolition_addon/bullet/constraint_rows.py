@@ -45,11 +45,6 @@ class ConstraintRows:
     names
         What the connections are called.
 
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
-
     Attributes
     ----------
     held
@@ -149,11 +144,6 @@ def check_frames(
         (3, k) and (3, 3, k) as Blender shows them.
     names
         What the connections are called.
-
-    Raises
-    ------
-    LayoutError
-        They are somewhere else.
     """
     size = 1.0 + abs(positions_m).max(axis=0)
     off = abs(points_m - positions_m).max(axis=0) > _PLACE * size

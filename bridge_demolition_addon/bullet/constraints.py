@@ -126,11 +126,6 @@ class ConstraintTable:
         """What writes to the rows of all connections, which have names and have to exist.
 
         `restore` leaves them as Blender made them.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected.
         """
         self._rows = ConstraintRows(self._layout, self.addresses, names)
         return self._rows

@@ -129,13 +129,7 @@ class ContactReader:
         self._find(np.zeros(0, np.uint64))
 
     def copy(self) -> ContactCopies:
-        """Copy the contact points that carry a load now.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected.
-        """
+        """Copy the contact points that carry a load now."""
         manifolds = self._checked_manifolds()
         if not np.array_equal(manifolds, self._manifolds_found):
             self._find(manifolds)
@@ -162,11 +156,6 @@ class ContactReader:
         ----------
         copies
             Those of s sub-steps.
-
-        Raises
-        ------
-        LayoutError
-            They are not as expected.
         """
         values = np.concatenate([each.values for each in copies], axis=1)
         bodies = np.concatenate([each.bodies for each in copies], axis=1)
@@ -181,11 +170,6 @@ class ContactReader:
         """Drop all contact points of bodies (k,) that were put elsewhere; Bullet finds those of their new places.
 
         It would take the way that they were moved for how deep they are in others, and push them apart by a part of it.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected.
         """
         manifolds, layout = self._checked_manifolds(), self._layout.manifold
         pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
@@ -239,13 +223,7 @@ def _doubtful_manifolds(layout: Layout, dispatcher: int) -> np.ndarray:
 
 
 def check_contacts(layout: Layout, manifolds: np.ndarray, bodies: set[int]) -> None:
-    """Contacts name known bodies, and their points hold together geometrically. Reads without trust.
-
-    Raises
-    ------
-    LayoutError
-        They do not.
-    """
+    """Contacts name known bodies, and their points hold together geometrically. Reads without trust."""
     left = _CHECKED_POINTS
     for manifold in manifolds.tolist():
         raw = read(manifold + layout.manifold.body_a, _MANIFOLD_END.size)

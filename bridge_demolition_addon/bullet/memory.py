@@ -29,13 +29,7 @@ def read(address: int, size: int) -> bytes | None:
 
 
 def read_value(address: int, format_: str) -> int | float:
-    """One value at `address`, in `struct` notation.
-
-    Raises
-    ------
-    LayoutError
-        Where that memory cannot be read.
-    """
+    """One value at `address`, in `struct` notation."""
     raw = read(address, struct.calcsize("<" + format_))
     if raw is None:
         raise LayoutError(f"address {address:#x} cannot be read")
@@ -43,13 +37,7 @@ def read_value(address: int, format_: str) -> int | float:
 
 
 def read_pointer(address: int) -> int:
-    """Pointer at `address`, 0 where it is null.
-
-    Raises
-    ------
-    LayoutError
-        Where that memory cannot be read or what stands there cannot be a pointer.
-    """
+    """Pointer at `address`, 0 where it is null."""
     pointer = read_value(address, "Q")
     if pointer and (pointer < _LOWEST or pointer >= _HIGHEST or pointer % 8):
         raise LayoutError(f"no pointer at {address:#x} but {pointer:#x}")

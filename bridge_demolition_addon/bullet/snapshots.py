@@ -121,13 +121,7 @@ class SnapshotTaker:
         self._find_existing()
 
     def take(self) -> Snapshot:
-        """Return a snapshot of the last sub-step.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected.
-        """
+        """Return a snapshot of the last sub-step."""
         if not np.array_equal(self._exists, self._existed):
             self._find_existing()
         applied_impulses, enabled = self._impulses.copy()[0], self._enabled.copy()[0] != 0
@@ -141,13 +135,7 @@ class SnapshotTaker:
         )
 
     def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
-        """Return the contacts in s snapshots.
-
-        Raises
-        ------
-        LayoutError
-            They are not as expected.
-        """
+        """Return the contacts in s snapshots."""
         contacts = self._contacts.contacts([each.contacts for each in snapshots])
         if all(each.removed is None for each in snapshots):
             return contacts

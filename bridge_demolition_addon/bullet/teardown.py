@@ -40,11 +40,6 @@ class PointerArray:
         Of the array's structure.
     known
         All pointers that may be in it.
-
-    Raises
-    ------
-    LayoutError
-        There is no such array.
     """
 
     def __init__(self, layout: Layout, address: int, known: set[int]):
@@ -114,11 +109,6 @@ def detach_freed(
         (m,) whether each constraint is still there.
     bodies_stay
         Whether the bodies that are there now will not be freed before the world is.
-
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
     """
     known_bodies, known_connections = set(bodies.tolist()), set(connections.tolist())
     living = known_bodies & _bodies_in_use(layout)
@@ -156,11 +146,6 @@ def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, know
         Addresses of all constraints that may be in the world.
     gone
         Those to take out; they may be freed by now.
-
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
     """
     in_world = PointerArray(layout, dynamics + layout.world.constraints, known)
     lists = {body: PointerArray(layout, body + layout.body.constraints, known) for body in bodies.tolist()}

@@ -24,24 +24,12 @@ class BackgroundWork:
         self._job: Future[None] | None = None
 
     def begin(self, job: Callable[[], None]) -> None:
-        """Begin a job once the one before is done.
-
-        Raises
-        ------
-        Exception
-            That of the job before.
-        """
+        """Begin a job once the one before is done, and raise the error of that one."""
         self.finish()
         self._job = self._thread.submit(job)
 
     def finish(self) -> None:
-        """Wait until the job is done.
-
-        Raises
-        ------
-        Exception
-            That of the job.
-        """
+        """Wait until the job is done, and raise its error."""
         job, self._job = self._job, None
         if job:
             job.result()

@@ -94,13 +94,7 @@ class FrameSums:
             self._hand_over()
 
     def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
-        """Return loads and work of the frame and what broke in it, and begin the next frame.
-
-        Raises
-        ------
-        LayoutError
-            Bullet's memory was not as expected.
-        """
+        """Return loads and work of the frame and what broke in it, and begin the next frame."""
         self._background.finish()
         waiting, self._waiting = self._waiting, []
         self.work_out(waiting, work_counts=self._work_counts)
