@@ -6,9 +6,16 @@ for hyper-parameter optimization, NeurIPS 24. Candidates that fall short of the 
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 import numpy as np
 
 from ..errors import MissingLibraryError
+
+
+def has_optuna() -> bool:
+    """Return whether Optuna is installed, without loading it, which takes a second."""
+    return find_spec("optuna") is not None
 
 
 def check_optuna() -> str:

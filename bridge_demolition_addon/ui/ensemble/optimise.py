@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import bpy
 
-from ...errors import MissingLibraryError
 from ...model.optimise.file import Optimisation, optimisation_of, read_optimisation
 from ...model.optimise.settings import OptimiseSettings
 from ...model.study.files import TRADEOFF_PICTURE
 from ...report.wording.optimise import optimise_sentences
-from ...studies.proposals import check_optuna
+from ...studies.proposals import has_optuna
 from ...studies.session import EnsembleSession
 from ..scenario.prop import shown_tables
 from ..scenario.ui import draw_tables
@@ -59,9 +58,7 @@ class BDA_OT_start_optimise(StartEnsemble, bpy.types.Operator):
 
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        try:
-            check_optuna()
-        except MissingLibraryError:
+        if not has_optuna():
             return "An optimisation needs Optuna, which this Blender's Python does not have: use bda optimise instead"
         return super().disabled_reason(context)
 

@@ -32,6 +32,7 @@ def read_earlier_names(settings: bpy.types.PropertyGroup, _context: bpy.types.Co
     """Show what is set under an earlier name under its present one."""
     for name in _EARLIER_NAMES:
         if settings.is_property_set(f"search_{name}"):
+            print(f"scene.bda.search_{name} is scene.bda.search.{name} now")
             setattr(settings.search, name, getattr(settings, f"search_{name}"))
             settings.property_unset(f"search_{name}")
 
