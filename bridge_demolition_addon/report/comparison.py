@@ -13,6 +13,7 @@ from ..model.debris.throws import Debris, debris_of
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.force_history import largest_on_a_shard
 from ..model.scenario import Ball
+from ..model.schema import given
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
 from .run_folder import ReportedRun
@@ -32,14 +33,14 @@ def comparison(runs: Sequence[ReportedRun], version: str) -> Document:
     ]
     if shared := shared_beginning(runs):
         notices.append(Paragraph(f"The names of all folders begin with {shared}, which is left out here."))
-    if moving := [name for name, run in whole if rest_of(run.results).moving_at_end]:
+    if moving := [name for name, run in whole if rest_of(run.recorded).moving_at_end]:
         notice = "Shards still move at the end of {}: their throws, footprints and piles are not final."
         notices.append(Paragraph(notice.format(", ".join(moving)), is_notice=True))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
     if whole:
-        debris = [(name, debris_of(run.results)) for name, run in whole]
+        debris = [(name, debris_of(run.recorded)) for name, run in whole]
         sections.append(Section("Findings", (_finding_table(whole, debris),)))
         sections.append(Section("Courses", tuple(_charts(whole, debris))))
     return Document(f"Comparison of {len(runs)} runs", f"Bridge Demolition Add-on {version}", tuple(sections))
@@ -78,7 +79,11 @@ def _differences(run: ReportedRun) -> str:
 def _way_of(ball: Ball) -> str:
     if ball.cable:
         return f"on a cable of {ball.cable.length_m:g} m, drawn aside by {ball.cable.angle_degrees:g}°"
-    drops = (f"from {drop.drop_height_m:g} m on ({drop.target_m[0]:g}, {drop.target_m[1]:g}) m" for drop in ball.drops)
+    drops = (
+        f"from {drop.drop_height_m:g} m on ({along:g}, {across:g}) m"
+        for drop in ball.drops
+        for along, across in [given(drop.target_m)]
+    )
     return ", then ".join(drops)
 
 
@@ -94,17 +99,17 @@ def _finding_table(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tup
 
 
 def _charts(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str, Debris]]) -> list[Block]:
-    progress = [(name, run.results.frames.time_s, 100.0 * collapse_progress(run.results)) for name, run in runs]
+    progress = [(name, run.recorded.frames.time_s, 100.0 * collapse_progress(run.recorded)) for name, run in runs]
     broken = [
-        (name, run.results.frames.time_s, 100.0 * (~run.results.frames.intact).mean(axis=1))
+        (name, run.recorded.frames.time_s, 100.0 * (~run.recorded.frames.intact).mean(axis=1))
         for name, run in runs
-        if run.results.frames.intact.shape[1]
+        if run.recorded.frames.intact.shape[1]
     ]
     loads = [
         (
             name,
-            run.results.frames.time_s,
-            largest_on_a_shard(run.results, run.results.frames.loads.body_peak_sums_n) / 1e3,
+            run.recorded.frames.time_s,
+            largest_on_a_shard(run.recorded, run.recorded.frames.loads.body_peak_sums_n) / 1e3,
         )
         for name, run in runs
     ]

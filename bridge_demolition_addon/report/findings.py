@@ -26,7 +26,7 @@ class Finding:
 
 def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
     """Return the main findings of a run that has results, always in the same order, the value None where unknown."""
-    results = run.results
+    results = run.recorded
     rest = rest_of(results)
     broken = int((~results.frames.intact[-1]).sum())
     count = results.frames.intact.shape[1]
@@ -48,7 +48,7 @@ def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
     if not len(debris.bodies):
         return [Finding(label, "m", None, "no debris") for label in labels]
     farthest = debris.throws_m.argmax()
-    largest, body = float(debris.throws_m[farthest]), run.results.inventory.body_names[debris.bodies[farthest]]
+    largest, body = float(debris.throws_m[farthest]), run.recorded.inventory.body_names[debris.bodies[farthest]]
     (most_of_it,) = percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,)).tolist()
     return [
         _finding(labels[0], "m", most_of_it, ".2f"),
@@ -58,7 +58,7 @@ def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
 
 
 def _largest_load(run: ReportedRun) -> Finding:
-    results = run.results
+    results = run.recorded
     peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if not peaks:
         return Finding("Largest load on a shard", "kN", None, "not known")

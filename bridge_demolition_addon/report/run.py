@@ -85,7 +85,7 @@ def run_document(
     """
     debris = None if run.results is None else debris_of(run.results)
     sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
-    if run.results is not None and len(run.results.inventory.of_kind("shard")):
+    if run.results is not None and debris is not None and len(run.results.inventory.of_kind("shard")):
         sections.append(model_section(run.results))
         if (terrain := terrain_section(run)) is not None:
             sections.append(terrain)
@@ -128,12 +128,12 @@ def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Pa
         "bridge": zone.plan,
     }
     contours = _contours_around(run, zone)
-    return write_areas(areas, run.scenario.site, target / DXF_FILE, target / GEOJSON_FILE, contours)
+    return write_areas(areas, run.planned.site, target / DXF_FILE, target / GEOJSON_FILE, contours)
 
 
 def _contours_around(run: ReportedRun, zone: ExclusionZone) -> np.ndarray | None:
     """Contour lines (s, 2, 3) of the ground in and around an exclusion zone, m; None where the ground is flat."""
-    terrain = run.results.ground().terrain
+    terrain = run.recorded.ground().terrain
     if terrain is None:
         return None
     low, high = np.array(zone.bounds_m).reshape(2, 2)

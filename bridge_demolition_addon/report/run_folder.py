@@ -22,6 +22,7 @@ from ..model.run_folder.logs import LoggedForces, count_logged_breaks, read_logg
 from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
+from ..model.schema import given
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
 
@@ -62,6 +63,16 @@ class ReportedRun:
     logged_breaks: int | None
     pictures: dict[str, Path]
     shortcomings: tuple[str, ...]
+
+    @property
+    def recorded(self) -> Results:
+        """Results of a run that is known to have them."""
+        return given(self.results)
+
+    @property
+    def planned(self) -> Scenario:
+        """Scenario of a run that is known to have one."""
+        return given(self.scenario)
 
     @property
     def name(self) -> str:

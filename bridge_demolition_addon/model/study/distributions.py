@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import Field, dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from ...engineering.arithmetic import exponential, logarithm
 from ...errors import ScenarioError
@@ -139,7 +139,9 @@ FARTHEST_DEVIATION = -normal_quantile(LEAST_PROBABILITY)
 
 
 class Distribution(Protocol):
-    """A distribution that can be drawn from."""
+    """A distribution that can be drawn from: a dataclass of what it was given."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     @property
     def tried(self) -> tuple[Any, ...]:

@@ -13,6 +13,7 @@ from typing import Any, Self
 
 from matplotlib.figure import FigureBase
 
+from ...model.schema import given
 from ...system.disk import whole_file
 
 MISSING = "-"
@@ -84,7 +85,8 @@ class DataTable:
     @classmethod
     def of(cls, name: str, title: str, columns: tuple[Column, ...], *items: Iterable[Any]) -> Self:
         """Return a table with a row for each item, or for items of several kinds side by side, as `map` takes them."""
-        rows = [tuple(column.value(*row) for column in columns) for row in zip(*items, strict=True)]
+        values = [given(column.value) for column in columns]
+        rows = [tuple(value(*row) for value in values) for row in zip(*items, strict=True)]
         return cls(name, title, columns, rows)
 
     def shown_rows(self) -> list[list[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_mixed import MixedModeRenderer
@@ -82,7 +83,10 @@ class Page:
             file.output(Op.gsave, 1, 0, 0, 1, x, y, Op.concat_matrix)
             on_page = RendererPdf(file, IMAGE_DOTS_PER_INCH, *drawn.get_size_inches()[::-1])
             # What is drawn as dots would leave a renderer of lines alone.
-            mixed = MixedModeRenderer(drawn, *drawn.get_size_inches(), IMAGE_DOTS_PER_INCH, on_page)
+            # Its stub in matplotlib lacks what it takes.
+            mixed: Any = MixedModeRenderer(  # type: ignore[call-arg]
+                drawn, *drawn.get_size_inches(), IMAGE_DOTS_PER_INCH, on_page
+            )
             drawn.draw(mixed)
             mixed.finalize()
             file.output(Op.grestore)

@@ -90,6 +90,7 @@ class _Pages:
     def __init__(self, drawings: Drawings) -> None:
         self.pages: list[Page] = []
         self._drawings = drawings
+        self._y = 0.0
         self._turn()
 
     def add(self, block: Block) -> None:

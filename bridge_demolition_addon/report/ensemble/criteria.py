@@ -29,7 +29,7 @@ def criteria_section(runs: ReportedEnsemble) -> Section:
         )
         return Section("Criteria", (Paragraph(words),))
     conclusions = runs.conclusions if isinstance(runs, StudyRuns) else None
-    if conclusions is None or conclusions.success is None:
+    if not isinstance(runs, StudyRuns) or conclusions is None or conclusions.success is None:
         rows = [(criterion.name, _asked(criterion)) for criterion in criteria]
         words = "A run is a success where it meets all of these. A run that did not finish meets nothing."
         return Section("Criteria", (Paragraph(words), DataTable("criteria", "Criteria", _COLUMNS[:2], rows)))
@@ -48,8 +48,8 @@ def criteria_section(runs: ReportedEnsemble) -> Section:
 
 
 def _numbers(proportion: Proportion) -> tuple[int, int, float, float, float]:
-    shares = proportion.count / proportion.runs, proportion.at_least, proportion.at_most
-    return proportion.count, proportion.runs, *(100.0 * share for share in shares)
+    count, runs = proportion.count, proportion.runs
+    return count, runs, 100.0 * (count / runs), 100.0 * proportion.at_least, 100.0 * proportion.at_most
 
 
 def _asked(criterion: Criterion) -> str:

@@ -36,6 +36,7 @@ _STATISTICS = (
 class TriedCandidates(ReportedEnsemble):
     """An optimisation and its runs, what its candidates came to, and the best of them; None before its end."""
 
+    ensemble: Optimisation
     tried: tuple[TriedCandidate, ...]
     best: Best | None
 

@@ -11,6 +11,7 @@ from manifold3d import CrossSection
 from ...charts.plan_maps import map_height_mm
 from ...charts.study_plan import study_plan
 from ...engineering.statistics.probability_map import LEVELS
+from ...model.schema import given
 from ...model.study.verification import zone_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..wording.numbers import percent, rounded_up
@@ -77,7 +78,7 @@ def _likely_by_words(runs: StudyRuns) -> dict[str, CrossSection]:
 
 
 def _words(runs: StudyRuns) -> Iterator[str]:
-    settings, found = runs.ensemble.settings, runs.map
+    settings, found = runs.ensemble.settings, given(runs.map)
     yield (
         f"The plan is cut into squares of {found.cells.side_m:g} m. For each of them the probability that a run brings "
         "debris there, even over a corner of it and only for a moment, has an upper limit after Clopper and Pearson. "

@@ -93,7 +93,9 @@ def shown(name: str) -> str:
     if name.startswith(_CRITERION):
         return name.removeprefix(_CRITERION).strip('"')
     name = name.replace("reach", "debris_distance")
-    name, place = _IN_LIST.fullmatch(name).groups(default="")
+    in_list = _IN_LIST.search(name)
+    place = in_list[0] if in_list else ""
+    name = name.removesuffix(place)
     name = _QUOTED_OR_DOT.sub(lambda found: " " if found[0] == "." else found[0], name)
     for ending, unit in _UNITS.items():
         if name.endswith(ending):
@@ -101,8 +103,8 @@ def shown(name: str) -> str:
     return f"{name.replace('_', ' ')}{place.replace('.', ' ')}"
 
 
-_IN_LIST = re.compile(r"(.*?)(\.\d+)?")
-"""A name, and the place of a value in a list at its end."""
+_IN_LIST = re.compile(r"\.\d+$")
+"""The position of a value in a list, at the end of a name."""
 
 _QUOTED_OR_DOT = re.compile(r'"[^"]*"|\.')
 _CRITERION = f"{Criterion.table}."

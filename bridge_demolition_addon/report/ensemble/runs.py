@@ -28,7 +28,7 @@ _PICTURES = {"before": "before", "impact": "in the course of the run", "after": 
 
 def extremes_section(runs: StudyRuns) -> Section | None:
     """Return the median and the worst run; None where no run finished."""
-    if runs.table.median_row is None:
+    if runs.table.median_row is None or runs.table.worst_row is None:
         return None
     median, worst = runs.table.rows[runs.table.median_row], runs.table.rows[runs.table.worst_row]
     columns = (

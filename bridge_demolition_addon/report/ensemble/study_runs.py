@@ -77,8 +77,8 @@ class StudyRuns(ReportedEnsemble):
     @cached_property
     def likely(self) -> dict[float, CrossSection]:
         """Where debris may be likelier than each of the levels that so many runs resolve, the largest area first."""
-        resolved = sorted(level for level in LEVELS if self.map and self.map.resolves(level))
-        return {level: self.map.area_above(level) for level in resolved}
+        plan = self.map
+        return {level: plan.area_above(level) for level in sorted(LEVELS) if plan.resolves(level)} if plan else {}
 
     @cached_property
     def limits(self) -> dict[str, tuple[float, CrossSection]]:

@@ -15,6 +15,7 @@ from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...model.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
 from ...model.scenario import Scenario
+from ...model.schema import given
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 
@@ -77,7 +78,7 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
     groups = charges_per_delay(charges)
     masses = [sum(charge.mass_kg for charge in group) for group in groups]
     largest = groups[masses.index(max(masses))]
-    names = ", ".join(charge.name for charge in largest)
+    names = ", ".join(given(charge.name) for charge in largest)
     rows = [
         ("Total charge", f"{sum(masses):.2f} kg"),
         ("Delays", f"{len(groups)}, counting charges within {1e3 * ONE_DELAY_S:g} ms of each other as one"),

@@ -17,7 +17,7 @@ from ..run_folder import ReportedRun
 
 def collapse_section(run: ReportedRun) -> Section:
     """Return how the bridge came down."""
-    results = run.results
+    results = run.recorded
     bridge = run.scenario.bridge if run.scenario else None  # there is none where all is of files or objects
     lengths = bridge.span_lengths_m if bridge else ()
     spans, progress, energy = spans_of(results, lengths), collapse_progress(results), energy_of(results)
@@ -102,7 +102,7 @@ def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
 
 def _load_rows(run: ReportedRun) -> list[tuple[str, str]]:
     """How large each load was when the bridge first gave way under it."""
-    results, rows = run.results, []
+    results, rows = run.recorded, []
     broken = np.flatnonzero((~results.frames.intact).any(axis=1))
     moved_s = rest_of(results).first_motion_s
     for number, load in enumerate(run.scenario.loads if run.scenario else (), start=1):

@@ -74,7 +74,7 @@ def cover_section(run: ReportedRun, version: str, debris: Debris | None) -> Sect
     """Return what was run, and whether all of it is there."""
     blocks: list[Block] = [Paragraph(text, is_notice=True) for text in run.shortcomings]
     blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
-    if run.results is not None:
+    if debris is not None:
         blocks += [Paragraph(text, is_notice=True) for text in _doubts(run)]
         blocks.append(facts("Main findings", list(_findings(run, debris)), "findings"))
     blocks += [Photo(path, _caption(run, name)) for name, path in run.pictures.items()]
@@ -149,7 +149,7 @@ def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
 
 
 def _breaking_text(run: ReportedRun) -> str:
-    settings, joint = run.scenario.connections, run.scenario.joints[0]
+    settings, joint = run.planned.connections, run.planned.joints[0]
     others = "; differently between some members, see the scenario" if settings.between else ""
     if joint.breaking_force_n is not None:
         return f"at one force, {joint.breaking_force_n / 1e3:.1f} kN{others}"
@@ -162,7 +162,7 @@ def _range_text(low: float, high: float, unit: str) -> str:
 
 
 def _doubts(run: ReportedRun) -> Iterator[str]:
-    results = run.results
+    results = run.recorded
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
     rest = rest_of(results)
@@ -181,7 +181,7 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
 
 
 def _findings(run: ReportedRun, debris: Debris) -> Iterator[tuple[str, str]]:
-    has_ball = len(run.results.inventory.of_kind("ball")) > 0
+    has_ball = len(run.recorded.inventory.of_kind("ball")) > 0
     yield from ((each.label, each.text) for each in findings(run, debris) if has_ball or each.label != IMPACT)
 
 

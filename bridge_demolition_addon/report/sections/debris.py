@@ -19,6 +19,7 @@ from ...model.results.motion import MOVED_M
 from ...model.results.removed_shards import without_removed
 from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
+from ...model.schema import given
 from ...model.terrain.built import facts_from, terrain_summary
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import ReportedRun
@@ -29,7 +30,7 @@ NAMED = 10
 
 def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> Section:
     """Return where the debris went."""
-    results, zones = run.results, run.scenario.zones if run.scenario else ()
+    results, zones = run.recorded, run.scenario.zones if run.scenario else ()
     words = (
         f"Debris is every shard that ended more than {MOVED_M:g} m from where it began. The throw is the horizontal "
         "distance between the first and the last place of its centre of mass; its reach is how far it sticks out of "
@@ -53,7 +54,7 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
             "the folder of the run, or tick it in Blender's sidebar, and make the report again to have the zone here."
         )
         return Section("Exclusion zone", (Paragraph(words, is_notice=True),))
-    settings = run.scenario.exclusion
+    settings = given(run.planned.exclusion)
     low_x, low_y, high_x, high_y = zone.bounds_m
     words = (
         "Plan area of the bridge, designed drop area, predicted debris area, and a buffer around all of them, as "
@@ -73,14 +74,14 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
     blocks: list[Block] = [
         Paragraph(words),
         Picture(
-            partial(exclusion_map, zone=zone, zones=run.scenario.zones, ground=run.results.ground()),
+            partial(exclusion_map, zone=zone, zones=run.planned.zones, ground=run.recorded.ground()),
             "Exclusion zone in plan, with its reach beyond the bridge to each side.",
             map_height_mm(zone.whole.bounds()),
         ),
         facts("Exclusion zone", rows, "exclusion_zone"),
         Paragraph(f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners.csv."),
     ]
-    if run.scenario.charges:
+    if run.planned.charges:
         warning = "Pressure of the charges is not in this zone: see the rings of damage for how far people have to be."
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return Section("Exclusion zone", tuple(blocks))
@@ -156,7 +157,7 @@ def _debris_blocks(
 
 def terrain_section(run: ReportedRun) -> Section | None:
     """Return what the ground is; None where it is flat and nothing went through it."""
-    results = without_removed(run.results)[0]
+    results = without_removed(run.recorded)[0]
     under, ground = bodies_under_ground(results), results.ground()
     blocks: list[Block] = []
     if run.summary and run.summary.terrain:
@@ -252,7 +253,7 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
 def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
     if not zones:
         return [Paragraph("The scenario names no zones, such as a road or a power line, to be watched.")]
-    results = run.results
+    results = run.recorded
     bodies = np.concatenate([results.inventory.of_kind("shard"), results.inventory.of_kind("ball")])
     watches = [watch_zone(results, zone, bodies) for zone in zones]
     names = results.inventory.body_names

@@ -24,7 +24,7 @@ _BEYOND_THE_FORCE = (
 
 def force_section(run: ReportedRun) -> Section:
     """Return loads, hits and breaking of a run that has results."""
-    results = run.results
+    results = run.recorded
     known = np.isfinite(results.frames.loads.body_sums_n).any()
     blocks: list[Block] = []
     if known:
@@ -115,7 +115,7 @@ def _broken_s(results: Results, connection: int) -> float | None:
 
 def _hit_blocks(run: ReportedRun) -> list[Block]:
     hits = run.ball.hits_of_the_ball
-    if not len(run.results.inventory.of_kind("ball")):
+    if not len(run.recorded.inventory.of_kind("ball")):
         return [Paragraph("There is no ball in this run.")]
     if not hits:
         return [Paragraph("The ball hit nothing, or its hits were not recorded.")]
@@ -143,7 +143,7 @@ def _hit_blocks(run: ReportedRun) -> list[Block]:
 
 
 def _stress_blocks(run: ReportedRun) -> list[Block]:
-    results, moments = run.results, []
+    results, moments = run.recorded, []
     if run.ball.impact_s is not None:
         moments.append(
             (int(np.abs(results.frames.time_s - run.ball.impact_s).argmin()), "in the frame of the ball's impact")
@@ -167,7 +167,7 @@ def _stress_blocks(run: ReportedRun) -> list[Block]:
 
 
 def _breaking_blocks(run: ReportedRun) -> list[Block]:
-    results = run.results
+    results = run.recorded
     kinds = breaking_by_kind(results)
     if not kinds:
         return [Paragraph("There are no connections, or nothing is known of them.")]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...model.schema import given
 from ...model.search.conclusions import FALLING, NEVER, Answer
 from .numbers import four_digits
 
@@ -15,7 +16,7 @@ def search_sentences(answer: Answer) -> list[str]:
         return [counted, _advice(answer)]
     sentences = [
         counted,
-        f"{settings.key}: half of all runs meet them at {four_digits(answer.median)}{unit}, and "
+        f"{settings.key}: half of all runs meet them at {four_digits(given(answer.median))}{unit}, and "
         f"{settings.probability:.4g} of all at {four_digits(answer.value)}{unit}, most likely.",
     ]
     where = "or more" if settings.success == "above" else "or less"
@@ -42,7 +43,7 @@ def _limiting_end(answer: Answer) -> str | None:
     """Which end of the range keeps runs away from the median; None where it is well within."""
     scale = answer.search.scale
     low, high = scale.ends
-    level = scale.level(answer.median)
+    level = scale.level(given(answer.median))
     margin = 0.02 * (high - low)
     if low + margin < level < high - margin:
         return None

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 
 from ...engineering.statistics.order_limits import least_runs
 from ...model.study.conclusions import Conclusions, DebrisLimit, Proportion
-from ...model.study.file import Study
+from ...model.study.file import Ensemble, Study
 from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded_down, rounded_up
 
 
-def input_names(study: Study) -> list[str]:
-    """Return what varies, as the study names it: a key of all tables of a list only once."""
-    return [vary.key for vary in study.settings.vary] + ["the seed of the fracture"]
+def input_names(ensemble: Ensemble) -> list[str]:
+    """Return what varies, as a study names it: a key of all tables of a list only once."""
+    return [vary.key for vary in ensemble.settings.vary] + ["the seed of the fracture"]
 
 
 def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
