@@ -1,6 +1,6 @@
-"""Forces of ductile ties: what reinforcement carries across a crack until it is torn out or apart.
+"""Forces of ductile bars: what reinforcement carries across a crack until it is torn out or apart.
 
-A tie is rigid and plastic. It keeps its two points from parting as long as its yield force suffices, gives way under a
+A bar is rigid and plastic. It keeps its two points from parting as long as its yield force suffices, yields under a
 constant force where it does not, and never pushes. Its force is found step by step, as a controller would: a part that
 answers the speed at which the points part, and a part that grows until that speed is gone and then holds the load.
 """
@@ -48,7 +48,7 @@ class FaceBars:
 def parting(
     first_points: FloatArray, second_points: FloatArray, first_velocities: FloatArray, second_velocities: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """How far, how fast and in which direction the two points of each tie part.
+    """How far, how fast and in which direction the two points of each bar part.
 
     Parameters
     ----------
@@ -69,10 +69,10 @@ def parting(
 
 
 def effective_masses(masses_kg: FloatArray, pairs: IntArray, turning_kg: FloatArray | float = 0.0) -> FloatArray:
-    """Mass (t,) that each tie between a pair (t, 2) of bodies (n,) may take to be its own, kg.
+    """Mass (t,) that each bar between a pair (t, 2) of bodies (n,) may take to be its own, kg.
 
-    1/m = 1/m₁ + 1/m₂, where a body of mass 0 does not move, and what is given, (t,) 1/kg, as a tie beside the middle of
-    its bodies turns them. It is shared out among all ties of a body: ties that know nothing of each other would
+    1/m = 1/m₁ + 1/m₂, where a body of mass 0 does not move, and what is given, (t,) 1/kg, as a bar beside the middle of
+    its bodies turns them. It is shared out among all bars of a body: bars that know nothing of each other would
     otherwise stop it several times over.
     """
     counts = np.bincount(pairs.ravel(), minlength=len(masses_kg))[pairs].max(axis=1)
@@ -81,17 +81,17 @@ def effective_masses(masses_kg: FloatArray, pairs: IntArray, turning_kg: FloatAr
     return np.divide(1.0, inverse * counts, out=np.zeros(len(pairs)), where=inverse > 0.0)
 
 
-def tie_forces(
+def bar_forces(
     held_n: FloatArray, speeds_m_s: FloatArray, masses_kg: FloatArray, yield_forces_n: FloatArray, substep_s: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Tension of each tie in the coming sub-step, and the part of it that it holds on with.
+    """Tension of each bar in the coming sub-step, and the part of it that it holds on with.
 
     Parameters
     ----------
     held_n : (t,) float
         What it held on with before.
     speeds_m_s, masses_kg, yield_forces_n : (t,) float
-        Rate at which its points part, the mass it may take for its own, and the force at which it gives way.
+        Rate at which its points part, the mass it may take for its own, and the force at which it yields.
     substep_s : float
         Length of the sub-step.
     """

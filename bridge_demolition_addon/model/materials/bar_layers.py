@@ -112,10 +112,10 @@ class ReinforcedSection:
         """
         return self._moment(self.depths_m), self._moment([self.height_m - each for each in self.depths_m])
 
-    def ties_n(self) -> list[float]:
-        """Return the force at which each layer yields as a tie across a crack that closes at one of its edges.
+    def across_cracks_n(self) -> list[float]:
+        """Return the force at which each layer yields across a crack that closes at one of its edges.
 
-        A crack between rigid bodies turns about its pressed edge, and all ties pull; in a section concrete is pressed
+        A crack between rigid bodies turns about its pressed edge, and all bars pull; in a section concrete is pressed
         over some depth, and bars there do not pull. With these forces both plastic moments are those of the section.
         In pure tension they bear somewhat less than the bars.
         """

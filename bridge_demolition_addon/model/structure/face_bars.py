@@ -160,7 +160,7 @@ def face_bars(
             rows = np.flatnonzero(own & (joint_of_connection == joint))
             if strength is None or not len(rows):
                 continue
-            forces = group.section(strength.compression_pa, factor).ties_n()
+            forces = group.section(strength.compression_pa, factor).across_cracks_n()
             face, corners = _corners(shards, connections.only(rows))
             for force, level, width in zip(forces, group.levels_m, group.widths_m, strict=True):
                 pulls, places = _pulls(face, corners, group.axes, level, force / width, len(rows))

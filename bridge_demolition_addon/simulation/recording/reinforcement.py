@@ -7,7 +7,7 @@ import numpy as np
 from ...bullet.bodies import BodyTable
 from ...engineering.elasticity.joint_rows import components_last
 from ...engineering.geometry.vectors import dot, transformed, transformed_back
-from ...engineering.mechanics.reinforcement import effective_masses, parting, tie_forces
+from ...engineering.mechanics.reinforcement import bar_forces, effective_masses, parting
 from ...model.results.inventory import Inventory
 from ...scene.connections.breaking_settings import Breaking
 from .drivers import Driver
@@ -79,7 +79,7 @@ class Reinforcement(Driver):
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
         masses = effective_masses(self._inventory.masses_kg, pairs, self._turning(pairs, levers, directions))
         yield_n = (self._remaining_strength * self._yield_n)[self._rows]
-        tensions, self._holding_n = tie_forces(self._holding_n, rates, masses, yield_n, substep_s)
+        tensions, self._holding_n = bar_forces(self._holding_n, rates, masses, yield_n, substep_s)
         holds = distances <= self._ductility.elongation_m
         pulls = np.where(holds, tensions, 0.0)[:, None] * directions
         self.forces_n[self._rows] = pulls

@@ -1,9 +1,9 @@
-"""Ductile ties: directions and masses by hand, and how they hold, give way and let go of a mass on a line."""
+"""Ductile bars: directions and masses by hand, and how they hold, give way and let go of a mass on a line."""
 
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.mechanics.reinforcement import effective_masses, parting, tie_forces
+from bridge_demolition_addon.engineering.mechanics.reinforcement import bar_forces, effective_masses, parting
 
 STEP_S = 1.0 / 240.0
 WEIGHT_N = 981.0
@@ -29,16 +29,16 @@ def test_points_that_are_still_one_part_along_their_velocity():
 
 def test_masses_are_reduced_and_shared_out():
     masses = np.array([0.0, 30.0, 60.0])
-    # Against a fixed body its own mass, between two the reduced mass 20 kg; body 1 has two ties, so half each.
+    # Against a fixed body its own mass, between two the reduced mass 20 kg; body 1 has two bars, so half each.
     np.testing.assert_allclose(effective_masses(masses, np.array([[1, 0], [1, 2]])), [15.0, 10.0])
     np.testing.assert_allclose(effective_masses(masses, np.array([[0, 0]])), [0.0])
 
 
 def hung(yield_n, steps):
-    """Speeds and tensions of a mass that hangs from a tie, step by step."""
+    """Speeds and tensions of a mass that hangs from a bar, step by step."""
     speed, held, history = 0.0, np.zeros(1), []
     for _ in range(steps):
-        tension, held = tie_forces(held, np.array([speed]), np.array([MASS_KG]), np.array([yield_n]), STEP_S)
+        tension, held = bar_forces(held, np.array([speed]), np.array([MASS_KG]), np.array([yield_n]), STEP_S)
         speed += (WEIGHT_N - tension[0]) / MASS_KG * STEP_S
         history.append((speed, tension[0]))
     return np.array(history)
@@ -58,5 +58,5 @@ def test_tie_that_is_too_weak_gives_way_under_its_yield_force():
 
 
 def test_tie_never_pushes():
-    tension, held = tie_forces(np.array([50.0]), np.array([-1.0]), np.array([MASS_KG]), np.array([1e6]), STEP_S)
+    tension, held = bar_forces(np.array([50.0]), np.array([-1.0]), np.array([MASS_KG]), np.array([1e6]), STEP_S)
     assert tension[0] == held[0] == 0.0

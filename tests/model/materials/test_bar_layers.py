@@ -37,26 +37,26 @@ def test_two_layers_that_both_yield_in_tension():
 )
 def test_ties_bear_both_moments_of_the_section_about_its_edges(depths, areas):
     section = ReinforcedSection(0.5, 0.3, 30e6, depths, areas, [500e6] * len(depths))
-    ties = section.ties_n()
-    first = sum(tie * depth for tie, depth in zip(ties, depths, strict=True))
-    other = sum(tie * (0.5 - depth) for tie, depth in zip(ties, depths, strict=True))
+    forces = section.across_cracks_n()
+    first = sum(force * depth for force, depth in zip(forces, depths, strict=True))
+    other = sum(force * (0.5 - depth) for force, depth in zip(forces, depths, strict=True))
     assert (first, other) == pytest.approx(section.moments_nm(), rel=1e-9)
-    for tie, area in zip(ties, areas, strict=True):
-        assert 0.0 < tie <= 500e6 * area
+    for force, area in zip(forces, areas, strict=True):
+        assert 0.0 < force <= 500e6 * area
 
 
 def test_ties_of_one_side_bear_the_moment_that_pulls_them():
     section = ReinforcedSection(0.5, 0.3, 30e6, [0.45], [1500e-6], [500e6])
-    assert section.ties_n()[0] * 0.45 == pytest.approx(section.moments_nm()[0])
+    assert section.across_cracks_n()[0] * 0.45 == pytest.approx(section.moments_nm()[0])
     upside_down = ReinforcedSection(0.5, 0.3, 30e6, [0.05], [1500e-6], [500e6])
-    assert upside_down.ties_n() == pytest.approx(section.ties_n())
+    assert upside_down.across_cracks_n() == pytest.approx(section.across_cracks_n())
 
 
 def test_few_bars_on_one_side_never_push():
     section = ReinforcedSection(0.5, 0.3, 30e6, [0.05, 0.45], [20e-6, 1500e-6], [500e6] * 2)
-    ties = section.ties_n()
-    assert ties[0] == 0.0
-    assert ties[1] * 0.45 == pytest.approx(section.moments_nm()[0])
+    forces = section.across_cracks_n()
+    assert forces[0] == 0.0
+    assert forces[1] * 0.45 == pytest.approx(section.moments_nm()[0])
 
 
 def test_bars_run_beside_their_side():
