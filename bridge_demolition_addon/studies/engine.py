@@ -38,15 +38,11 @@ class Task:
 
 
 class Engine(Protocol):
-    """Makes runs in the background.
+    """Makes runs in the background."""
 
-    Attributes
-    ----------
-    versions : dict
-        What runs are made with.
-    """
-
-    versions: Mapping[str, str]
+    @property
+    def versions(self) -> Mapping[str, str]:
+        """What runs are made with."""
 
     @property
     def capacity(self) -> int:
@@ -130,10 +126,11 @@ class LocalProcesses:
 
     def collect(self, timeout_s: float) -> list[tuple[Task, RunOutcome]]:
         """Return runs that have ended; see `Engine`."""
-        ended = ended_items(self._ended, timeout_s)
-        for _, outcome in ended:
+        ended = []
+        for task, outcome in ended_items(self._ended, timeout_s):
             if isinstance(outcome, Exception):
                 raise outcome
+            ended.append((task, outcome))
         return ended
 
     def close(self) -> None:
@@ -147,6 +144,7 @@ class LocalProcesses:
 
     def _work(self, process: RunProcess) -> None:
         while (task := self._tasks.get()) is not None and not self._is_closed:
+            outcome: RunOutcome | Exception
             try:
                 outcome = process.play(task.request, task.folder)
             except Exception as error:  # raised where it is collected

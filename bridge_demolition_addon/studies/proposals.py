@@ -7,6 +7,7 @@ for hyper-parameter optimization, NeurIPS 24. Candidates that fall short of the 
 from __future__ import annotations
 
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
@@ -58,7 +59,9 @@ class OptunaProposals:
         optuna.logging.set_verbosity(optuna.logging.WARNING)
         sampler = optuna.samplers.TPESampler(seed=seed)
         self._study = optuna.create_study(sampler=sampler)
-        self._ranges = {str(each): optuna.distributions.FloatDistribution(0.0, 1.0) for each in range(size)}
+        self._ranges: dict[str, Any] = {
+            str(each): optuna.distributions.FloatDistribution(0.0, 1.0) for each in range(size)
+        }
         self._trials: list[optuna.Trial] = []
 
     def propose(self) -> np.ndarray:

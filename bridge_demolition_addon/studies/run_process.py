@@ -27,6 +27,7 @@ from typing import Any, Self
 from ..errors import ScenarioError, SimulationError
 from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT, RunOutcome
 from ..model.study.settings import EnsembleSettings
+from ..system.programs import start_program
 
 MARK = "bda-draw "
 """What begins the program's own lines on its standard output."""
@@ -176,19 +177,8 @@ class _Program:
         self.answers: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
         self._last_words = tempfile.TemporaryFile()  # noqa: SIM115, open as long as the program
         try:
-            self._process = subprocess.Popen(
-                command,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=self._last_words,
-                env=os.environ | _ONE_THREAD,
-                text=True,
-                encoding="utf-8",
-                errors="replace",
-                # Ctrl-C is for the study, which ends its processes itself.
-                start_new_session=sys.platform != "win32",
-                creationflags=subprocess.CREATE_NEW_PROCESS_GROUP if sys.platform == "win32" else 0,
-            )
+            started = start_program(command, self._last_words, os.environ | _ONE_THREAD)
+            self._process, self._requests, self._output = started
         except OSError as error:
             raise SimulationError(f"{command[0]}: runs cannot be made by it: {error.strerror}") from error
         threading.Thread(target=self._read, name="answers of runs", daemon=True).start()
@@ -223,8 +213,8 @@ class _Program:
         """Hand over a request; one that has ended does not answer."""
         self.played += 1
         with suppress(OSError):
-            self._process.stdin.write(json.dumps(request) + "\n")
-            self._process.stdin.flush()
+            self._requests.write(json.dumps(request) + "\n")
+            self._requests.flush()
 
     def memory_mb(self) -> float:
         """Memory that the process has now; 0 once it has ended."""
@@ -245,7 +235,7 @@ class _Program:
         self._process.kill()
         code = self._process.wait()
         with suppress(OSError):  # what it was still to be asked
-            self._process.stdin.close()
+            self._requests.close()
         return code
 
     @property
@@ -255,7 +245,7 @@ class _Program:
         return lines[-1][-_LAST_WORDS:] if lines else "it printed nothing"
 
     def _read(self) -> None:
-        with self._process.stdout as lines:
+        with self._output as lines:
             for line in lines:
                 if line.startswith(MARK):
                     self.answers.put(json.loads(line.removeprefix(MARK)))

@@ -146,6 +146,7 @@ def _kept(
 ) -> dict[str, Any]:
     evaluation = evaluate(results, summary, scenario, settings.criteria, settings.least_mass_kg)
     with whole_file(folder / OUTLINES_FILE) as part:
-        np.savez_compressed(part, **evaluation.outlines.arrays())
+        arrays: dict[str, Any] = evaluation.outlines.arrays()
+        np.savez_compressed(part, **arrays)
     fingerprint = {name: summary["fingerprint"][name] for name in ("built", "motion")}
     return {"outputs": evaluation.outputs, "fingerprint": fingerprint}

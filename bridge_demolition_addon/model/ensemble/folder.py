@@ -301,15 +301,17 @@ class EnsembleRuns:
         """
         names, by_inputs = self.table.inputs, {}
         for path in (self.folder / RUNS_FOLDER).glob(f"*/{OUTCOME_FILE}"):
-            if inputs := self._inputs_of_done(path):
-                by_inputs[cells_of(inputs, names)] = path.parent
-        folders = {
-            row.number: by_inputs.get(cells_of(row.inputs, names)) for row in self.table.rows if row.status == DONE
-        }
-        for number, folder in folders.items():
-            if folder is None:
-                where = f"{self.folder / RUNS_FOLDER}: run {number} of {self.ensemble.table_file}"
+            if done := self._inputs_of_done(path):
+                by_inputs[cells_of(done, names)] = path.parent
+        folders = {}
+        for row in self.table.rows:
+            if row.status != DONE:
+                continue
+            inputs = cells_of(row.inputs, names)
+            if inputs not in by_inputs:
+                where = f"{self.folder / RUNS_FOLDER}: run {row.number} of {self.ensemble.table_file}"
                 raise OutputError(f"{where} is not there: {self._go_on}")
+            folders[row.number] = by_inputs[inputs]
         return folders
 
     def outlines_in(self, run_folder: Path) -> Outlines:
@@ -382,6 +384,7 @@ def result_of_runs(ensemble: Ensemble, table: RunsTable) -> Conclusions | Answer
                     )
                 return result
             case _:
+                assert isinstance(ensemble, Optimisation)
                 return best_of(ensemble, table)
     except StopIteration:
         raise OutputError(f"no run of the confirmation is there yet: {_GO_ON} {ensemble.kind}") from None

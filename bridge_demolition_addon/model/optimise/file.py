@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from typing import ClassVar
@@ -13,7 +12,7 @@ from ..study.file import Ensemble, read_ensemble_file, variations_of
 from ..study.files import BEST_FILE, OPTIMISE_FILE, TRIALS_FILE
 from ..study.sampled_runs import SampledRun, sampled_run
 from .settings import OptimiseSettings
-from .space import Space, space_of
+from .space import Shares, Space, space_of
 
 _PER_DIMENSION = 5
 """Candidates for each number that may change, at least: with fewer, chance finds as much."""
@@ -37,7 +36,7 @@ class Optimisation(Ensemble):
     settings: OptimiseSettings
     space: Space
 
-    def run_of(self, number: int, shares: Sequence[float]) -> SampledRun:
+    def run_of(self, number: int, shares: Shares) -> SampledRun:
         """Return a run of a candidate, from 1 on: all candidates have the same inputs by chance in it."""
         run = sampled_run(self, number, self.space.values(shares))
         return replace(run, inputs={**run.inputs, **self.space.shown(shares)})

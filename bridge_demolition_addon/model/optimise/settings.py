@@ -150,7 +150,7 @@ class OptimiseSettings(EnsembleSettings):
     def output(self) -> str:
         """Name of the output of each run that the objective is made of."""
         if self.objective == "vibration":
-            return neighbour_output(self.neighbour, "vibration_mm_s")
+            return neighbour_output(schema.given(self.neighbour), "vibration_mm_s")
         return _OUTPUTS[self.objective][0]
 
     @property

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
+from ...engineering.arrays import FloatArray
 from ...errors import ScenarioError
 from ..scenario import Scenario
+from ..schema import Table
 from ..search.file import values_of
 from ..study.file import SEED
 from ..study.keys import ScenarioKey, changed, keys_named
 from .settings import ChosenOrder, ChosenPlace, ChosenQuantity, OptimiseSettings
+
+Shares = Sequence[float] | FloatArray
+"""Numbers from 0 to 1, one for each of what may change."""
+
+_Table = TypeVar("_Table", bound=Table)
 
 
 class Dimension(Protocol):
@@ -25,13 +32,16 @@ class Dimension(Protocol):
         How many numbers from 0 to 1 say what it is.
     """
 
-    keys: tuple[ScenarioKey, ...]
-    size: int
+    @property
+    def keys(self) -> tuple[ScenarioKey, ...]: ...
 
-    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+    @property
+    def size(self) -> int: ...
+
+    def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
         """Return what the scenario gets."""
 
-    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+    def shown(self, shares: Shares) -> dict[str, Any]:
         """Return what a table says, by names of columns."""
 
 
@@ -43,10 +53,10 @@ class Along:
     keys: tuple[ScenarioKey, ...]
     size: int = 1
 
-    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+    def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
         return values_of(self.keys, self.quantity.value(shares[0]), factor=self.quantity.factor)
 
-    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+    def shown(self, shares: Shares) -> dict[str, Any]:
         return {self.quantity.key: self.quantity.value(shares[0])}
 
 
@@ -60,11 +70,11 @@ class Dealt:
     def size(self) -> int:
         return len(self.keys)
 
-    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+    def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
         order = sorted(range(self.size), key=lambda each: shares[each])
         return {self.keys[place]: key.value for place, key in zip(order, self.keys, strict=True)}
 
-    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+    def shown(self, shares: Shares) -> dict[str, Any]:
         values = self.values(shares)
         return {key.name: values[key] for key in self.keys}
 
@@ -85,15 +95,15 @@ class Space:
         """Names of all values in a table."""
         return list(self.shown([0.5] * self.size))
 
-    def values(self, shares: Sequence[float]) -> dict[ScenarioKey, Any]:
+    def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
         """Return what a scenario gets for shares (size,)."""
         return {key: value for each, own in self._parts(shares) for key, value in each.values(own).items()}
 
-    def shown(self, shares: Sequence[float]) -> dict[str, Any]:
+    def shown(self, shares: Shares) -> dict[str, Any]:
         """Return the values of shares (size,) by their names in a table."""
         return {name: value for each, own in self._parts(shares) for name, value in each.shown(own).items()}
 
-    def _parts(self, shares: Sequence[float]) -> list[tuple[Dimension, Sequence[float]]]:
+    def _parts(self, shares: Shares) -> list[tuple[Dimension, Shares]]:
         found, begin = [], 0
         for each in self.dimensions:
             found.append((each, shares[begin : begin + each.size]))
@@ -118,17 +128,21 @@ def space_of(settings: OptimiseSettings, scenario: Scenario, drawn: Sequence[str
     """
     dimensions: list[Dimension] = []
     named: set[str] = set(drawn)
-    makers = ((settings.quantities, _along), (settings.places, _in_box), (settings.orders, _dealt))
-    for tables, make in makers:
+
+    def add(tables: Sequence[_Table], make: Callable[[_Table, Scenario], list[Dimension]]) -> None:
         for number, table in enumerate(tables, start=1):
             try:
                 made = make(table, scenario)
-                for each in made:
-                    _check_new(each.keys, named, drawn)
-                    _check_ends(scenario, each)
-                dimensions += made
+                for dimension in made:
+                    _check_new(dimension.keys, named, drawn)
+                    _check_ends(scenario, dimension)
+                dimensions.extend(made)
             except ScenarioError as error:
                 raise ScenarioError(f"[[{table.table}]] number {number}: {error}") from error
+
+    add(settings.quantities, _along)
+    add(settings.places, _in_box)
+    add(settings.orders, _dealt)
     return Space(tuple(dimensions))
 
 
