@@ -74,7 +74,7 @@ def test_a_study_that_is_done_gets_its_report_with_pictures_of_two_draws(study, 
     again = {int(path.name) for path in (done / "again").iterdir()}
     table = read_runs(done / "runs.csv")
     assert again >= {int(table.numbers[row]) for row in (table.median_row, table.worst_row)}
-    assert "Median draw, " in page and "Worst draw, " in page
+    assert "Median run, " in page and "Worst run, " in page
 
 
 def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):
