@@ -39,11 +39,6 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
     Scenario
         Frozen dataclasses, named as the tables and keys of the file; `dataclasses.replace` varies them.
 
-    Raises
-    ------
-    DemolitionError
-        It cannot be read, or a value in it cannot be used; the text names file and key.
-
     Examples
     --------
     >>> from dataclasses import replace
@@ -77,11 +72,6 @@ def run(scenario: Scenario, output: str | PathLike[str], *, overwrite: bool = Fa
     -------
     Results
         As `load_results` reads them.
-
-    Raises
-    ------
-    DemolitionError
-        The scenario cannot be built or run, or the folder is there already or cannot be written.
     """
     from .cli.progress import Silence
     from .simulation.run import run_scenario
@@ -103,11 +93,6 @@ def load_results(folder: str | PathLike[str]) -> Results:
     Results
         Its parts ``inventory``, ``frames`` and ``balls`` hold numpy arrays; `Results.arrays` gives all by their names
         in the file. Large ones are read when they are looked at.
-
-    Raises
-    ------
-    DemolitionError
-        There are none, or they are damaged.
     """
     from .model.results.arrays import load_results as load
 

@@ -36,13 +36,7 @@ def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
 
 
 def set_substeps(scene: bpy.types.Scene, substeps: int) -> None:
-    """Let the coming frame have so many sub-steps.
-
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
-    """
+    """Let the coming frame have so many sub-steps."""
     layout = platform_layout()
     for world in _evaluated_worlds(scene):
         checks.check_settings(layout, world)

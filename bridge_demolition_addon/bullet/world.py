@@ -185,13 +185,6 @@ class BulletWorld:
         """What writes to the rows of the connections of this world, as long as it is bound; all have to exist.
 
         When the world is released they are as Blender made them again.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected.
-        SimulationError
-            A connection is switched off.
         """
         names = [connection.name for connection in self.connection_objects]
         exists = self.constraints.exists

@@ -300,11 +300,6 @@ def write_charts(
     """Draw all charts into a folder, which is made if it is new, and return their paths.
 
     `drawn` is called with how many are drawn, and how many there are.
-
-    Raises
-    ------
-    OutputError
-        The folder or a picture cannot be written.
     """
     paths = []
     try:

@@ -14,13 +14,7 @@ SMALLEST, LARGEST = 1e-6, 1e9
 
 
 def quantity(text: str, largest: float = LARGEST) -> float:
-    """Return a number for something that there is: above 0, and of a size that means something.
-
-    Raises
-    ------
-    argparse.ArgumentTypeError
-        It is none; the parser adds the option's name.
-    """
+    """Return a number for something that there is: above 0, and of a size that means something."""
     try:
         number = float(text)
     except ValueError:

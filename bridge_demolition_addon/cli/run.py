@@ -99,13 +99,7 @@ def _model_of(path: str, scenario: Scenario) -> Model:
 
 
 def comparison_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
-    """Return the folders of the runs of several scenario files, called like these.
-
-    Raises
-    ------
-    OutputError
-        Two of the files are called the same, also where only capitals differ, which some file systems do not see.
-    """
+    """Return the folders of the runs of several scenario files, called like these."""
     files: dict[str, str] = {}
     for file in scenarios:
         name = Path(file).stem

@@ -49,11 +49,6 @@ class ContourSettings:
         Whether faces are darker the more they look away from the light; without it each colour is as in the bar.
     magnification
         How many times as far as they are displaced bodies are shown.
-
-    Raises
-    ------
-    ContourError
-        A fixed range is empty, or begins at 0 or below and is logarithmic.
     """
 
     quantity: ContourQuantity = ContourQuantity.RESULTANT

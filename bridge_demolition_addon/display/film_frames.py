@@ -21,11 +21,6 @@ def film_rows(times_s: np.ndarray, pictures_per_second: float, slowness: float =
         Of the film.
     slowness
         How many seconds of film a second of the simulation takes: 1 is real time, 10 is ten times slower.
-
-    Raises
-    ------
-    OutputError
-        There are no frames, or a number is not positive.
     """
     times_s = np.asarray(times_s, float)
     if not len(times_s):

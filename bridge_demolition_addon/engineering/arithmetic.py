@@ -121,24 +121,12 @@ def cube_root(x: ArrayLike) -> FloatArray:
 
 
 def sine(angle: ArrayLike) -> FloatArray:
-    """Sine of an angle in rad.
-
-    Raises
-    ------
-    ValueError
-        An angle is larger than `LARGEST_ANGLE`.
-    """
+    """Sine of an angle in rad."""
     return _sine_after(0, angle)
 
 
 def cosine(angle: ArrayLike) -> FloatArray:
-    """Cosine of an angle in rad.
-
-    Raises
-    ------
-    ValueError
-        An angle is larger than `LARGEST_ANGLE`.
-    """
+    """Cosine of an angle in rad."""
     return _sine_after(1, angle)
 
 

@@ -29,11 +29,6 @@ def write_alembic(results: Results, path: Path, tell: Callable[[int, int, str], 
         File to write.
     tell
         Told after each frame how many are written, of how many.
-
-    Raises
-    ------
-    MissingLibraryError
-        This Blender has no Alembic.
     """
     if not bpy.app.build_options.alembic:
         raise MissingLibraryError(

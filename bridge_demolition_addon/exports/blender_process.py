@@ -37,13 +37,6 @@ def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress,
         Shown frame by frame.
     blender
         Program of Blender; by default it is a module of this Python.
-
-    Raises
-    ------
-    MissingLibraryError
-        Blender is not there, or lacks what writes the format.
-    SimulationError
-        It ended before all was written.
     """
     progress.stage(f"writing {form.name} with Blender")
     with tempfile.TemporaryFile() as last_words:

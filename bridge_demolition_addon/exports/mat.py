@@ -16,13 +16,7 @@ MOST_BYTES = 2**31 - 1
 
 
 def write_mat(results: Results, path: Path, progress: Progress) -> None:
-    """Write all arrays under the names that they have in ``results.npz``; texts become cell arrays.
-
-    Raises
-    ------
-    OutputError
-        An array is larger than such a file can hold.
-    """
+    """Write all arrays under the names that they have in ``results.npz``; texts become cell arrays."""
     arrays = {name: np.asarray(values) for name, values in results.arrays().items()}
     progress.stage(f"writing {len(arrays)} arrays")
     for name, values in arrays.items():

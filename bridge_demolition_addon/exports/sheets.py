@@ -71,13 +71,7 @@ class _Table:
 
 
 def check_sheets() -> None:
-    """Make sure that the library is there.
-
-    Raises
-    ------
-    MissingLibraryError
-        It is not.
-    """
+    """Make sure that the library is there."""
     if find_spec("xlsxwriter") is None:
         raise MissingLibraryError(
             "a workbook is written by XlsxWriter, which this Python does not have: pip install "

@@ -32,11 +32,6 @@ def write_usd(results: Results, path: Path, tell: Callable[[int, int, str], None
         File to write; its ending says how it is encoded.
     tell
         Told after each body how many are written, of how many.
-
-    Raises
-    ------
-    MissingLibraryError
-        The library is not there, or Blender has not been asked for its own.
     """
     pxr = _library()
     stage = pxr.Usd.Stage.CreateNew(str(path))

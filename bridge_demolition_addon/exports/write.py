@@ -33,16 +33,6 @@ def export_run(folder: Path, form: Format, output: Path, progress: Progress, ble
         Shows stages and frames.
     blender
         Program of the Blender that writes what only Blender can; by default Blender as a module of this Python.
-
-    Raises
-    ------
-    MissingLibraryError
-        A library or Blender is not there that the format needs.
-    SimulationError
-        Blender ended while it wrote.
-    OutputError
-        There is no run in the folder, its results cannot be read, there is something at the output, its ending is not
-        that of the format, or it cannot be written.
     """
     _check_output(form, output)
     if form == formats.XLSX:

@@ -111,15 +111,7 @@ class ImportedBridge:
 
 
 def read_bridge(path: Path, settings: ImportSettings) -> ImportedBridge:
-    """Read a bridge from an IFC file.
-
-    Raises
-    ------
-    IfcError
-        The file is none, or says too little; the text names the element and what to do.
-    MissingLibraryError
-        IfcOpenShell is not installed.
-    """
+    """Read a bridge from an IFC file."""
     table = material_table(settings.materials)
     with naming_contradictions(path):
         return _bridge(path, table, settings)

@@ -46,13 +46,7 @@ class Substance:
 def substances(
     source: IfcSource, elements: Sequence[Element], table: MaterialTable, settings: ImportSettings
 ) -> list[Substance]:
-    """Return what each element is made of.
-
-    Raises
-    ------
-    IfcError
-        An element has no material, or one that the table does not know, and the user names none.
-    """
+    """Return what each element is made of."""
     if settings.material is not None and table.row(settings.material) is None:
         raise IfcError(f'material is "{settings.material}", which {_told(settings.materials)} does not know')
     reader = _Reader(source, table, settings.material)

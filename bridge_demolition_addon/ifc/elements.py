@@ -70,13 +70,7 @@ class Element:
 
 
 def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, ...]:
-    """Return all elements of a file in its order, openings and the like not among them.
-
-    Raises
-    ------
-    IfcError
-        None is a member, or what the user named is not there.
-    """
+    """Return all elements of a file in its order, openings and the like not among them."""
     found = tuple(_elements(source.model, settings))
     for pattern in (*settings.without, *(pattern for pattern, _ in settings.kinds)):
         if not any(matches(pattern, each.names) for each in found):

@@ -29,13 +29,7 @@ _COLUMNS = (
 
 
 def check_new(folder: Path) -> None:
-    """Make sure that a folder is not there, or is empty.
-
-    Raises
-    ------
-    OutputError
-        It has something in it, or is no folder.
-    """
+    """Make sure that a folder is not there, or is empty."""
     if folder.is_dir() and not any(folder.iterdir()):
         return
     if folder.exists() or folder.is_symlink():
@@ -43,15 +37,7 @@ def check_new(folder: Path) -> None:
 
 
 def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
-    """Write an imported bridge, whole or not at all, and return what there is to say of it, line by line.
-
-    Raises
-    ------
-    IfcError
-        Its members cannot be used as they are.
-    OutputError
-        The folder has something in it, or cannot be written.
-    """
+    """Write an imported bridge, whole or not at all, and return what there is to say of it, line by line."""
     check_new(folder)
     with writing(folder), tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".bda-import-") as name:
         # One folder deeper: that of `tempfile` is for its owner alone, and is deleted by it.

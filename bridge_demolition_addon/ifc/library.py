@@ -18,13 +18,7 @@ _HOW = (
 
 
 def library(part: str = "") -> ModuleType:
-    """Return IfcOpenShell, or a part of it such as ``util.unit``.
-
-    Raises
-    ------
-    MissingLibraryError
-        It is not installed, cannot be loaded or is too old.
-    """
+    """Return IfcOpenShell, or a part of it such as ``util.unit``."""
     try:
         whole = importlib.import_module("ifcopenshell")
         found = importlib.import_module(f"ifcopenshell.{part}") if part else whole

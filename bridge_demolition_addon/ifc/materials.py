@@ -72,13 +72,7 @@ class MaterialTable(Table):
 
 
 def material_table(path: Path | None = None) -> MaterialTable:
-    """Return the user's table of materials, or that of the add-on.
-
-    Raises
-    ------
-    IfcError
-        It cannot be read, or a value in it is wrong.
-    """
+    """Return the user's table of materials, or that of the add-on."""
     try:
         if path is None:
             return table_of_document(MaterialTable, toml_document(_text()))
@@ -88,13 +82,7 @@ def material_table(path: Path | None = None) -> MaterialTable:
 
 
 def write_material_table(path: Path) -> None:
-    """Write the add-on's table of materials, for the user to change.
-
-    Raises
-    ------
-    OutputError
-        There is a file already, or it cannot be written.
-    """
+    """Write the add-on's table of materials, for the user to change."""
     if path.exists():
         raise OutputError(f"{path}: exists already; give another name, or delete it")
     with writing(path), whole_file(path) as part:

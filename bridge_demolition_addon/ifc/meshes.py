@@ -25,11 +25,6 @@ def element_solids(source: IfcSource, elements: Sequence[Element]) -> tuple[list
     """Return the bodies of elements as solids, and a point (3,) in m near them that they are given from.
 
     A file may lie thousands of kilometres from its origin, where single steps of numbers get coarse.
-
-    Raises
-    ------
-    IfcError
-        Geometry fails, or makes no solid.
     """
     found = _meshes(source, elements)
     missing = [each.title for each in elements if each.entity.id() not in found]

@@ -61,11 +61,6 @@ def naming_contradictions(path: Path) -> Iterator[None]:
     """Say that a file contradicts its schema, where IfcOpenShell finds something else than it has to in it.
 
     Errors of other code are let through: they are no fault of the file.
-
-    Raises
-    ------
-    IfcError
-        IfcOpenShell met a missing element, or one of a wrong class.
     """
     try:
         yield
@@ -79,15 +74,7 @@ def naming_contradictions(path: Path) -> Iterator[None]:
 
 
 def open_source(path: Path, settings: ImportSettings) -> IfcSource:
-    """Open an IFC file.
-
-    Raises
-    ------
-    IfcError
-        It is none, is cut short, is of a schema that is not known, or has no project or unit of length.
-    MissingLibraryError
-        IfcOpenShell is not installed.
-    """
+    """Open an IFC file."""
     openshell = library()
     content = _content(path)
     mended, count = _AMERICAN.subn(rb"\1METRE\2", content)

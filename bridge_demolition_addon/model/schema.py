@@ -112,11 +112,6 @@ class Table:
     """Base of the dataclasses of a scenario, one for each table: checks its values when it is made.
 
     Whole numbers are taken where a number is expected, and lists are kept as tuples.
-
-    Raises
-    ------
-    ScenarioError
-        A value has the wrong type or is outside its limits, or values contradict each other.
     """
 
     __slots__ = ()
@@ -207,13 +202,7 @@ def subtable_class(item: Field[Any]) -> type[Table] | None:
 
 
 def checked(item: Field[Any], name: str, value: Any) -> Any:
-    """Check the value of a key or table and return it as it is kept.
-
-    Raises
-    ------
-    ScenarioError
-        The value is not what `expected` says; the text gives the key's name and the value found.
-    """
+    """Check the value of a key or table and return it as it is kept."""
     if value is None and is_optional(item):
         return None
     table_class = subtable_class(item)
@@ -262,13 +251,7 @@ def _is_text(text: str, rule: Key) -> bool:
 
 
 def check_exactly_one(table: Table, *names: str) -> None:
-    """Check that one of several keys is given.
-
-    Raises
-    ------
-    ScenarioError
-        None is, or more than one.
-    """
+    """Check that one of several keys is given."""
     given = [name for name in names if getattr(table, name) is not None]
     if len(given) != 1:
         state = "given together" if given else "all missing"

@@ -93,13 +93,7 @@ def shown_name(folder: Path) -> str:
 
 
 def read_run(folder: Path) -> ReportedRun:
-    """Read a run's folder, and say what is missing of it.
-
-    Raises
-    ------
-    OutputError
-        It is no folder, or holds neither results nor a log of a run.
-    """
+    """Read a run's folder, and say what is missing of it."""
     if not folder.is_dir():
         raise OutputError(f"{folder}: expected the folder of a run, found {'a file' if folder.exists() else 'nothing'}")
     at_work = writer_of_run(folder)  # before anything is read: what a run that has ended by now left is whole

@@ -108,14 +108,6 @@ def write_report(
         tables go to where the report goes.
     progress
         Shows stages, pictures and pages.
-
-    Raises
-    ------
-    ScenarioError
-        The scenario's stages cannot be worked out.
-    OutputError
-        A folder holds nothing to report on, several runs are to be compared without a folder for it, something cannot
-        be written, or a run or another report is being written to the folder.
     """
     if len(folders) > 1:
         return _write_comparison(folders, output, stages=stages, progress=progress)

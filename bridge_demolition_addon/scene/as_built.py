@@ -53,13 +53,7 @@ def forget_built_bodies(scene: bpy.types.Scene) -> None:
 
 
 def changed_bodies(scene: bpy.types.Scene) -> list[str]:
-    """Return in sentences which bodies are missing, were added or moved since a scene was built.
-
-    Raises
-    ------
-    SimulationError
-        Its shards lie where a simulation left them.
-    """
+    """Return in sentences which bodies are missing, were added or moved since a scene was built."""
     kept = values_from_text(scene.get(_BODIES, ""), {})
     bodies = body_settings_of(scene)
     built = {name: np.array(place) for places in kept.values() for name, place in places.items()}
@@ -114,11 +108,6 @@ def check_start(setup: RunSetup, positions_m: np.ndarray) -> None:
         What is simulated.
     positions_m : (n, 3) float
         Where the simulation has its bodies before any time has passed.
-
-    Raises
-    ------
-    SimulationError
-        It begins with shards elsewhere.
     """
     bodies = setup.bodies
     rows = _free_shards(bodies)

@@ -11,13 +11,7 @@ from ..model.schema import LARGEST_NUMBER
 
 
 def kept_numbers(holder: bpy.types.ID, name: str, default: Sequence[float]) -> tuple[float, ...]:
-    """Return the numbers that a property holds, as many as its default, which is returned where there is none.
-
-    Raises
-    ------
-    SimulationError
-        It holds something else.
-    """
+    """Return the numbers that a property holds, as many as its default, which is returned where there is none."""
     value = holder.get(name, default)
     try:
         numbers = tuple(map(float, value))
@@ -29,13 +23,7 @@ def kept_numbers(holder: bpy.types.ID, name: str, default: Sequence[float]) -> t
 
 
 def kept_number(holder: bpy.types.ID, name: str, default: float) -> float:
-    """Return the number that a property holds, or the default where there is none.
-
-    Raises
-    ------
-    SimulationError
-        It holds something else.
-    """
+    """Return the number that a property holds, or the default where there is none."""
     value = holder.get(name, default)
     if not isinstance(value, int | float) or not abs(value) <= LARGEST_NUMBER:
         raise edited(holder, name, "a number that something can have")

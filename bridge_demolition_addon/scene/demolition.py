@@ -58,15 +58,6 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     -------
     list of bpy.types.Object
         The shards, in the model's order.
-
-    Raises
-    ------
-    GeometryError
-        Nothing lies under the ball or under the beginning of a jackhammer's path; nothing is left of what was made.
-    ScenarioError
-        There is no record that the ground could move by; nothing was made.
-    SimulationError
-        Blender is not in object mode, which fields need; nothing is left of what was made.
     """
     record = scenario.ground_record
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
@@ -79,15 +70,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
 
 
 def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
-    """See that what was built in a scene can be removed and another model built in its place, and change nothing.
-
-    Raises
-    ------
-    GeometryError, ScenarioError
-        As `check_actions`.
-    SimulationError
-        The rigid-body world has bodies that were not built here, and would stay.
-    """
+    """See that what was built in a scene can be removed and another model built in its place, and change nothing."""
     if others := [body.name for body in bodies_of(scene) if not is_marked(body)]:
         raise SimulationError(
             f"the rigid-body world has {len(others)} bodies that were not built here, such as {others[0]!r}: take them "

@@ -15,13 +15,7 @@ from .connections.constraints import sections_of
 
 
 def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> Inventory:
-    """Read all that stays the same throughout a simulation.
-
-    Raises
-    ------
-    SimulationError
-        A connection lacks a body.
-    """
+    """Read all that stays the same throughout a simulation."""
     moves = np.array([body.rigid_body.type == "ACTIVE" for body in bodies], bool)
     pairs = _pairs(bodies, connections)
     areas, normals, second_moments = sections_of(connections)

@@ -389,11 +389,6 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         With a rigid-body world.
     with_connections
         Whether the inventory has connections; a run of which motion alone can be read has none.
-
-    Raises
-    ------
-    BlastError, ScenarioError, SimulationError
-        What the scene keeps was edited to something that cannot be, or a connection lacks a body.
     """
     bodies, connections = body_settings_of(scene), constraint_settings_of(scene)
     return RunSetup(

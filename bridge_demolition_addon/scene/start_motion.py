@@ -23,12 +23,6 @@ def keep_start_motion(
 
 
 def start_motion_of(bodies: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray]:
-    """Return velocities (n, 3), m/s, and angular velocities (n, 3), rad/s, with which bodies (n,) begin.
-
-    Raises
-    ------
-    SimulationError
-        What is kept with a body is no motion.
-    """
+    """Return velocities (n, 3), m/s, and angular velocities (n, 3), rad/s, with which bodies (n,) begin."""
     motion = np.array([kept_numbers(body, _MOTION, _RESTS) for body in bodies], float).reshape(-1, 6)
     return motion[:, :3], motion[:, 3:]

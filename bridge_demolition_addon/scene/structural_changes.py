@@ -31,22 +31,10 @@ def _keep(scene: bpy.types.Scene, name: str, tables: Sequence[Table]) -> None:
 
 
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
-    """Return the changes that a scene keeps.
-
-    Raises
-    ------
-    ScenarioError
-        A kept text holds a value that no change can have.
-    """
+    """Return the changes that a scene keeps."""
     return tables_from_text(scene.get(_CHANGES, ""), (Removal, SawCut, Weakening))
 
 
 def loads_of(scene: bpy.types.Scene) -> tuple[Load, ...]:
-    """Return the loads that a scene keeps.
-
-    Raises
-    ------
-    ScenarioError
-        A kept text holds a value that no load can have.
-    """
+    """Return the loads that a scene keeps."""
     return tables_from_text(scene.get(_LOADS, ""), (Load,))

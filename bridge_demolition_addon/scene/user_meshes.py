@@ -17,11 +17,6 @@ def solid_of_object(body: bpy.types.Object) -> Repaired:
 
     Modifiers are applied, and it is scaled, turned and moved as the object and its parents are. The object itself is
     not changed. Linked, parented, mirrored and scaled objects are taken as they are seen.
-
-    Raises
-    ------
-    GeometryError
-        It is not a mesh, or not a solid and cannot be made one; the text begins with its name.
     """
     _check_is_mesh(body, "convert it, or leave it out")
     return repaired_solid(_mesh_in_world(body), body.name)
@@ -38,11 +33,6 @@ def painted_points(body: bpy.types.Object, group: str) -> tuple[np.ndarray, np.n
         In m, in the world's axes.
     weights : (v,) float
         From 0 to 1.
-
-    Raises
-    ------
-    GeometryError
-        The object is not a mesh, or has no such group.
     """
     _check_is_mesh(body, "choose the object that was painted")
     index = body.vertex_groups.find(group)

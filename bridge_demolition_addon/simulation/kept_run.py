@@ -82,13 +82,7 @@ def is_run_of(scene: bpy.types.Scene, folder: Path) -> bool:
 
 
 def folder_of_run(scene: bpy.types.Scene) -> Path:
-    """Return where the results of the run are that is kept with a scene: its folder, or one that moved with the file.
-
-    Raises
-    ------
-    OutputError
-        They are not there any more, or are of another run by now.
-    """
+    """Return where the results of the run kept with a scene are: its folder, or one that moved with the file."""
     for folder in _places(Path(str(scene[_FOLDER]))):
         if result_digest_in(folder) == scene.get(_DIGEST):
             return folder

@@ -36,13 +36,6 @@ def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple
     -------
     Results, dict
         What was recorded, and its summary, as in ``summary.json``.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be written to.
-    SimulationError, LayoutError
-        The simulation cannot be run or read.
     """
     with interrupted_afterwards():
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)  # add-ons stay, one of which this may be

@@ -115,13 +115,7 @@ class Playing:
 
 
 def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
-    """Play all frames of a scene that nobody can edit meanwhile, and end the recording.
-
-    Raises
-    ------
-    DemolitionError
-        It ended before its time.
-    """
+    """Play all frames of a scene that nobody can edit meanwhile, and end the recording."""
     playing = Playing(recording, stop_at, alone=True)
     try:
         while not playing.finished:

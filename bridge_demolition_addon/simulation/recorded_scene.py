@@ -78,13 +78,7 @@ class RecordedScene:
         return recording
 
     def show_results(self, results: Results) -> None:
-        """Show kept results, until something new is recorded.
-
-        Raises
-        ------
-        ContourError
-            None of their bodies is in the scene.
-        """
+        """Show kept results, until something new is recorded."""
         self.results.load(results)
         self.contours.refresh()
 

@@ -73,17 +73,6 @@ def run_scenario(
     -------
     dict
         The content of ``summary.json``.
-
-    Raises
-    ------
-    GeometryError, ScenarioError
-        The bridge cannot be cut as asked, or something planned concerns nothing.
-    OutputError
-        The folder is there already or cannot be written, or pictures are to be taken by a camera that is not there.
-    SimulationError, LayoutError
-        The simulation cannot be run or read.
-    Interrupted
-        By Ctrl-C, or by a request to end; the results so far are kept.
     """
     check_folder(output, overwrite=overwrite)
     if pictures or film:

@@ -46,13 +46,6 @@ class DaskCluster:
     ----------
     versions : dict
         What all workers have to run.
-
-    Raises
-    ------
-    ClusterError
-        No scheduler answers there, it has no workers, or Dask is not installed here.
-    SimulationError
-        Workers have no Blender.
     """
 
     def __init__(

@@ -52,13 +52,7 @@ class Engine(Protocol):
         """Have a run made as soon as there is room for it."""
 
     def collect(self, timeout_s: float) -> Sequence[tuple[Task, RunOutcome]]:
-        """Return runs that have ended since the last call; wait for the first one up to a time.
-
-        Raises
-        ------
-        DemolitionError, OSError
-            Runs cannot be made at all, or their files not be written.
-        """
+        """Return runs that have ended since the last call; wait for the first one up to a time."""
 
     def close(self) -> None:
         """Stop at once; runs under way are lost. It may be called again."""

@@ -45,11 +45,6 @@ class OptunaProposals:
         How many numbers from 0 to 1 make a candidate.
     seed
         Start of its random numbers.
-
-    Raises
-    ------
-    MissingLibraryError
-        Optuna is not installed.
     """
 
     def __init__(self, size: int, seed: int):

@@ -72,13 +72,7 @@ class RunLimits:
 
     @classmethod
     def of(cls, settings: EnsembleSettings) -> Self:
-        """Return those of a study, a search or an optimisation.
-
-        Raises
-        ------
-        ScenarioError
-            It limits memory, and this is not Linux.
-        """
+        """Return those of a study, a search or an optimisation."""
         if settings.memory_limit_mb is not None and sys.platform != "linux":
             raise ScenarioError(f"{settings.table}.memory_limit_mb: memory can be limited on Linux only; leave it out")
         return cls(settings.time_limit_s, settings.memory_limit_mb)

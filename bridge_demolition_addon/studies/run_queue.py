@@ -50,13 +50,7 @@ class RunQueue:
         return outcome
 
     def collect(self, timeout_s: float) -> list[tuple[SampledRun, RunOutcome]]:
-        """Return runs that have ended, and keep their outcomes; wait for the first one up to a time.
-
-        Raises
-        ------
-        DemolitionError, OSError
-            Runs cannot be made at all, or outcomes not be kept.
-        """
+        """Return runs that have ended, and keep their outcomes; wait for the first one up to a time."""
         ended = []
         for task, outcome in self._engine.collect(0.0 if self.is_empty else timeout_s):
             runs = self._under_way.pop(task.cache_key)

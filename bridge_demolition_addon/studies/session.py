@@ -44,11 +44,6 @@ class EnsembleSession:
         Keeps them.
     is_paused : bool
         Whether no further run begins.
-
-    Raises
-    ------
-    DemolitionError
-        The folder is another's, or cannot be written; or a library is missing.
     """
 
     def __init__(self, ensemble: Ensemble, path: Path, engine: Engine):

@@ -18,13 +18,7 @@ _SHORT = 12
 
 
 def installed_blender() -> str:
-    """Return the version of Blender's module, without loading it.
-
-    Raises
-    ------
-    SimulationError
-        It is not there.
-    """
+    """Return the version of Blender's module, without loading it."""
     try:
         return version("bpy")
     except PackageNotFoundError as error:

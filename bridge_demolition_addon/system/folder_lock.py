@@ -47,11 +47,6 @@ class FolderLock:
     is_new
         Whether it was made for this holder.
 
-    Raises
-    ------
-    OutputError
-        Another one writes to the folder, which is named with its process and since when; or it cannot be written.
-
     Attributes
     ----------
     folder, is_new
@@ -91,13 +86,7 @@ class FolderLock:
 
 
 def check_unlocked(folder: Path) -> None:
-    """See that nobody writes to a folder, without changing anything in it.
-
-    Raises
-    ------
-    OutputError
-        Someone does.
-    """
+    """See that nobody writes to a folder, without changing anything in it."""
     path = folder / LOCK_FILE
     if path.is_file():
         with writing(folder), path.open("rb+", buffering=0) as file:

@@ -125,13 +125,7 @@ class RenderingTask(GuardedOperator):
     _total = 0
 
     def begin(self, context: bpy.types.Context) -> tuple[Iterator[Path], int]:
-        """Return the pictures, each rendered when it is asked for, and how many there are.
-
-        Raises
-        ------
-        DemolitionError
-            They cannot be rendered.
-        """
+        """Return the pictures, each rendered when it is asked for, and how many there are."""
         raise NotImplementedError
 
     def finish(self) -> set[str]:

@@ -106,26 +106,14 @@ def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
 
 
 def absolute(path: str) -> Path:
-    """Return a path as the user gave it, where ``//`` is the folder of the saved file.
-
-    Raises
-    ------
-    OutputError
-        The path is relative to a file that has not been saved yet.
-    """
+    """Return a path as the user gave it, where ``//`` is the folder of the saved file."""
     if path.startswith("//") and not bpy.data.filepath:
         raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
     return Path(bpy.path.abspath(path))
 
 
 def write_file(path: Path, content: bytes, *, new_folder: bool = False) -> None:
-    """Write a file, and make its folder where there is none if that is wanted.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    """
+    """Write a file, and make its folder where there is none if that is wanted."""
     with writing(path):
         if new_folder:
             path.parent.mkdir(parents=True, exist_ok=True)

@@ -41,11 +41,6 @@ def stand_off_for_overpressure(
         Charge, kg of TNT.
     burst, model : Burst, BlastModel
         Where it detonates, and where the wave comes from.
-
-    Raises
-    ------
-    BlastError
-        A number is out of its range, or no TNT gives this overpressure at any distance.
     """
     _check(overpressure_pa, "overpressure", "Pa")
     size = float(cube_root(checked(tnt_kg, "charge", "kg of TNT")))
@@ -78,11 +73,6 @@ def smallest_charge_for_impulse(
 
     The impulse of W kg is that of 1 kg at the same Z, times W^(1/3) = R/Z. So Z is where (impulse of 1 kg) / Z is the
     wanted impulse over R.
-
-    Raises
-    ------
-    BlastError
-        A number is out of its range, or no charge gives this impulse before it is so large that it touches.
     """
     _check(impulse_pa_s, "impulse", "Pa·s")
     _check(stand_off_m, "stand-off", "m")

@@ -76,11 +76,6 @@ def blast_wave(
     Wave
         Arrays of the shape to which stand-offs and charges broadcast.
 
-    Raises
-    ------
-    BlastError
-        A stand-off or a charge is negative or not finite.
-
     Examples
     --------
     >>> wave = blast_wave([10.0, 20.0], 8.0)
@@ -181,11 +176,6 @@ def blast_pulses(
     pressure_factor : float
         Factor on the pressures. Impulses grow with it, times and decays stay.
 
-    Raises
-    ------
-    BlastError
-        A number is negative or not finite, or the arrays do not fit each other.
-
     Examples
     --------
     >>> pulses = blast_pulses([[10.0, 20.0]], [8.0, 8.0], [0.0, 0.025], ["air", "surface"])
@@ -215,13 +205,7 @@ def blast_pulses(
 
 
 def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
-    """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s.
-
-    Raises
-    ------
-    BlastError
-        The step ends before it starts.
-    """
+    """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s."""
     if not end_s >= start_s:
         raise BlastError(f"end of the step is {end_s:g}: expected at least its start, {start_s:g} (s)")
     return pulse_impulse(

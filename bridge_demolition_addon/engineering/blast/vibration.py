@@ -61,11 +61,6 @@ def peak_particle_velocity(
         Explosive that detonates within one delay, kg, at least 0. Its own mass: the constants are not for TNT.
     ground : VibratingGround
         What carries the vibration.
-
-    Raises
-    ------
-    BlastError
-        A distance is not above 0, or a number is negative or not finite.
     """
     distance, charge = _distances(distance_m), checked(charge_kg, "charge", "kg")
     return ground.velocity_m_s * power(np.sqrt(charge) / distance, ground.exponent)

@@ -110,11 +110,6 @@ def scaled_distance(stand_off_m: ArrayLike, tnt_kg: ArrayLike) -> FloatArray:
         Distances from the charges, m, at least 0.
     tnt_kg : (...) float
         Charges, kg of TNT, at least 0, of a shape that broadcasts; without charge the distance is infinite.
-
-    Raises
-    ------
-    BlastError
-        A stand-off or a charge is negative or not finite.
     """
     stand_off = checked(stand_off_m, "stand-off", "m")
     size = cube_root(checked(tnt_kg, "charge", "kg of TNT"))
@@ -124,13 +119,7 @@ def scaled_distance(stand_off_m: ArrayLike, tnt_kg: ArrayLike) -> FloatArray:
 
 
 def checked(values: ArrayLike, name: str, unit: str) -> FloatArray:
-    """Return values as floats.
-
-    Raises
-    ------
-    BlastError
-        One of them is negative or not finite; the text names the first.
-    """
+    """Return values as floats."""
     numbers = np.asarray(values, float)
     wrong = numbers[~((numbers >= 0.0) & np.isfinite(numbers))]
     if wrong.size:

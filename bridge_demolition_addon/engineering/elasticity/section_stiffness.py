@@ -44,11 +44,6 @@ class ElasticModuli:
         Modulus of elasticity.
     poisson : float
         Poisson's ratio.
-
-    Raises
-    ------
-    ScenarioError
-        No material has such numbers.
     """
 
     young_pa: float

@@ -38,11 +38,6 @@ class Steel:
         Tensile strength over yield strength, f_t / f_y.
     rupture_strain : float
         Strain under the largest force, ε_u, at which they rupture.
-
-    Raises
-    ------
-    ScenarioError
-        They would rupture before they yield, or soften.
     """
 
     yield_pa: float = YIELD_PA

@@ -65,11 +65,6 @@ def painted_density(points_m: FloatArray, weights: FloatArray, factor: float) ->
     factor : float
         At least 1.
 
-    Raises
-    ------
-    GeometryError
-        There are no points, weights are not from 0 to 1, or the factor is below 1.
-
     References
     ----------
     D. Shepard (1968), A two-dimensional interpolation function for irregularly-spaced data, Proc. 23rd ACM National

@@ -34,11 +34,6 @@ def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float)
         What they were cut from.
     gap_m : float
         Clear distance between two shards, m; with 0 the shards come back as they are.
-
-    Raises
-    ------
-    GeometryError
-        Nothing is left of a shard.
     """
     if gap_m == 0.0:
         return tuple(shards)

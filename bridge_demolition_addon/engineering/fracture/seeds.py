@@ -24,13 +24,7 @@ _FILLED_ENOUGH = 0.3
 def random_points(
     solid: TriangleMesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
 ) -> FloatArray:
-    """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first.
-
-    Raises
-    ------
-    GeometryError
-        When there are fewer points than bodies.
-    """
+    """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first."""
     if count < 1:
         raise GeometryError(f"A solid cannot be cut into {count} shards; ask for at least one.")
     whole = to_manifold(solid)

@@ -74,11 +74,6 @@ def convex_cells(points: FloatArray, lower: FloatArray, upper: FloatArray) -> It
         Inside the box.
     lower, upper : (3,) float
         Opposite corners of the box.
-
-    Raises
-    ------
-    GeometryError
-        When two points coincide.
     """
     scale = float(np.max(np.abs([lower, upper])))
     for first in range(0, len(points), _CELLS_PER_BLOCK):

@@ -73,11 +73,6 @@ def convex_hulls(bodies: Sequence[FloatArray], names: Sequence[str] | None = Non
         Vertices of each body, m, in its own axes from its centre of mass.
     names : sequence of str, optional
         What each body is called where it is refused; by default its number.
-
-    Raises
-    ------
-    GeometryError
-        A body has no volume.
     """
     called: Iterable[int | str] = range(len(bodies)) if names is None else map(repr, names)
     meshes = [_hull(np.asarray(vertices, float), name) for name, vertices in zip(called, bodies, strict=True)]

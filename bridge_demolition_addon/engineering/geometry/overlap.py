@@ -41,11 +41,6 @@ def overlaps(meshes: Sequence[TriangleMesh], tolerance: float = SHARD_OVERLAP_TO
         Closed, for example shards.
     tolerance : float
         Part of the smaller volume of two meshes that they may have in common.
-
-    Raises
-    ------
-    GeometryError
-        A mesh is not closed.
     """
     solids = [_manifold(mesh, index) for index, mesh in enumerate(meshes)]
     volumes = np.array([solid.volume() for solid in solids])
@@ -78,11 +73,6 @@ def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[lis
         The same objects where nothing was cut off.
     volumes : (n,) float
         What was cut off each, m³.
-
-    Raises
-    ------
-    GeometryError
-        Nothing is left of a solid.
     """
     whole = [to_manifold(solid, name) for solid, name in zip(solids, names, strict=True)]
     result, removed = list(solids), np.zeros(len(solids))

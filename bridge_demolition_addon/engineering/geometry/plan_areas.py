@@ -41,13 +41,7 @@ def outlines(area: CrossSection) -> list[FloatArray]:
 
 
 def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:
-    """How far points (p, 2) are outside an area, m (p,); 0 within it.
-
-    Raises
-    ------
-    ValueError
-        The area is empty.
-    """
+    """How far points (p, 2) are outside an area, m (p,); 0 within it."""
     if not area.num_contour():
         raise ValueError("an empty area has no distance to anything")
     rings = outlines(area)

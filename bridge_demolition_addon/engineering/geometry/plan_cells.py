@@ -38,13 +38,7 @@ class PlanCells:
 
     @classmethod
     def over(cls, low_m: FloatArray, high_m: FloatArray, most: int) -> PlanCells:
-        """Return cells that cover a rectangle (2,) to (2,), as small as `most` along its longer side allow.
-
-        Raises
-        ------
-        ValueError
-            The rectangle is larger than any bridge.
-        """
+        """Return cells that cover a rectangle (2,) to (2,), as small as `most` along its longer side allow."""
         longest_m = float((high_m - low_m).max())
         fitting = [side for side in _SIZES_M if longest_m <= side * (most - 2)]
         if not fitting:

@@ -38,11 +38,6 @@ def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) ->
         Edge lengths along x, y and z.
     centre_m : (3,) float
         Where its centre is.
-
-    Raises
-    ------
-    GeometryError
-        When an edge length is not a positive number.
     """
     size, centre = np.asarray(size_m, dtype=float), np.asarray(centre_m, dtype=float)
     if not (np.isfinite(size).all() and np.isfinite(centre).all() and (size > 0).all()):
@@ -63,13 +58,7 @@ def cylinder(radius_m: float, height_m: float, sides: int) -> TriangleMesh:
 
 
 def union(solids: Sequence[TriangleMesh]) -> TriangleMesh:
-    """What is inside at least one of the solids, as one solid.
-
-    Raises
-    ------
-    GeometryError
-        When there is nothing to unite or one of the solids is not closed.
-    """
+    """What is inside at least one of the solids, as one solid."""
     if not len(solids):
         raise GeometryError("There are no solids to unite; give at least one.")
     operands = [to_manifold(each, f"solid {index + 1} of {len(solids)}") for index, each in enumerate(solids)]
@@ -77,13 +66,7 @@ def union(solids: Sequence[TriangleMesh]) -> TriangleMesh:
 
 
 def difference(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
-    """What is inside the solid and inside none of the others; without faces where nothing is.
-
-    Raises
-    ------
-    GeometryError
-        When one of them is not closed.
-    """
+    """What is inside the solid and inside none of the others; without faces where nothing is."""
     operands = [to_manifold(each) for each in (solid, *others)]
     return from_manifold(Manifold.batch_boolean(operands, OpType.Subtract))
 
@@ -104,12 +87,6 @@ def checked_solid(mesh: TriangleMesh, name: str) -> TriangleMesh:
     -------
     TriangleMesh
         Closed, consistently wound, of positive volume.
-
-    Raises
-    ------
-    GeometryError
-        When it has no faces, is not finite, is not closed, is wound inconsistently or has no volume, or when its bodies
-        overlap, are inside out or thinner than anything that is built.
     """
     _check_surface(mesh, name)
     if mesh.volume < 0.0:
@@ -141,11 +118,6 @@ def to_manifold(
         Number, reserved in the engine, by which triangles that stem from this mesh can be known in what is made of it.
     face_ids : (t,) int, optional
         Numbers that its triangles keep with it.
-
-    Raises
-    ------
-    GeometryError
-        When the engine refuses it, which it does unless every edge has exactly two, oppositely wound, faces.
     """
     marks = {}
     if original is not None and face_ids is not None:
@@ -188,11 +160,6 @@ def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The so
         Shells that enclose no more than this, in m³, are left out, unless there is only one.
     name : str
         What the user calls the solid.
-
-    Raises
-    ------
-    GeometryError
-        When an inside-out shell lies in no body, and so is no cavity.
     """
     shells = manifold.decompose()
     if len(shells) <= 1:

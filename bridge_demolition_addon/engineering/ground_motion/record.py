@@ -84,13 +84,7 @@ def integrated(times_s: FloatArray, accelerations_m_s2: FloatArray) -> GroundRec
 
 
 def corrected(times_s: FloatArray, accelerations_m_s2: FloatArray, baseline: str) -> GroundRecord:
-    """Return the motion by accelerations (k, 3) at times (k,), with a baseline taken off them.
-
-    Raises
-    ------
-    ScenarioError
-        The ground does not end at rest, or drifts away.
-    """
+    """Return the motion by accelerations (k, 3) at times (k,), with a baseline taken off them."""
     taken_off: dict[str, Callable[[GroundRecord], FloatArray]] = {"linear": _line, "parabola": _parabola}
     found = integrated(times_s, accelerations_m_s2)
     if baseline in taken_off:

@@ -37,11 +37,6 @@ class Strength:
         Torsional moment by torsion modulus: the shear stress at the edge of an uncracked section.
     bending_pa : float or (m,) float
         Bending moment by elastic section modulus: the stress that an uncracked section would have at its edge.
-
-    Raises
-    ------
-    ScenarioError
-        A strength is not a positive number.
     """
 
     compression_pa: float | FloatArray
@@ -127,11 +122,6 @@ class Ductility:
     elongation_m : float or (m,) float
         How far the two sides of the crack may part before it lets go. It is a length and not a share of one: the
         distance between two shards depends on how finely the bridge is cut, the width of a crack does not.
-
-    Raises
-    ------
-    ScenarioError
-        The share is not between 0 and 1, or the elongation is negative or not a number.
     """
 
     strength_share: float | FloatArray

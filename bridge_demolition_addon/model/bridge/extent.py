@@ -58,11 +58,6 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
         All members of the scenario.
     place_m : (2,) float
         Along the road, and across it.
-
-    Raises
-    ------
-    GeometryError
-        No member lies under the place.
     """
     if scenario.bridge and not scenario.geometry:
         return deck_top(scenario.bridge)

@@ -37,13 +37,6 @@ def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tup
         Which files, and how they are placed.
     is_flat : bool
         Whether the ground is flat, so that nothing may reach below it; elsewhere it is dug away.
-
-    Raises
-    ------
-    ScenarioError
-        A file is not there or of no known kind, or files of one name disagree in kind or density.
-    GeometryError
-        A file cannot be read, or what is in it cannot be made into a solid.
     """
     members, notes = [], []
     ordered = sorted(tables, key=lambda each: [other.name for other in tables].index(each.name))
@@ -63,15 +56,7 @@ def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tup
 
 
 def placed_mesh(table: Geometry) -> TriangleMesh:
-    """The mesh in a file as it is, scaled, turned and moved to its place.
-
-    Raises
-    ------
-    ScenarioError
-        The file is not there or of no known kind.
-    GeometryError
-        The file cannot be read or has no faces.
-    """
+    """The mesh in a file as it is, scaled, turned and moved to its place."""
     path = Path(table.file)
     mesh = _file_mesh(path)
     vertices = mesh.vertices * table.scale

@@ -23,15 +23,7 @@ _SAME_LEVEL_M = 1e-9
 
 
 def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple[Member, ...]:
-    """Solids of all members, touching without overlap: decks and girders, abutments, each pier's cap and columns.
-
-    Raises
-    ------
-    ScenarioError
-        Members with a density of their own weigh as much as the whole bridge, or more.
-    GeometryError
-        The ground is too high for what stands on it.
-    """
+    """Solids of all members, touching without overlap: decks and girders, abutments, each pier's cap and columns."""
     members = [*superstructure(bridge), *substructure(bridge, ground)]
     if bridge.merge:
         convex = tuple(part for each in members for part in each.parts or (each.solid,))
@@ -41,13 +33,7 @@ def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple
 
 
 def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
-    """Density of the members without one of their own, kg/m³: as given, or what the total mass leaves for them.
-
-    Raises
-    ------
-    ScenarioError
-        Members with a density of their own weigh as much as the whole bridge, or more, or all have one.
-    """
+    """Density of the members without one of their own, kg/m³: as given, or what the total mass leaves for them."""
     if bridge.density_kg_m3 is not None:
         return bridge.density_kg_m3
     own = [_own_density(bridge, member.kind) for member in members]

@@ -69,15 +69,7 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
 
 
 def without_overlap(members: Sequence[Member]) -> PreparedMembers:
-    """Members of which each has lost what it had in common with those before it.
-
-    Raises
-    ------
-    ScenarioError
-        Two members have the same name.
-    GeometryError
-        Nothing is left of a member.
-    """
+    """Members of which each has lost what it had in common with those before it."""
     names = [member.name for member in members]
     for name in names:
         if names.count(name) > 1:

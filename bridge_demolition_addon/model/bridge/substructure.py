@@ -31,11 +31,6 @@ def substructure(bridge: Bridge, ground: GroundHeight = level_ground) -> list[Me
     """Every abutment, pier cap, column and wall; piers are numbered along the road.
 
     Columns, walls and abutments reach down to the ground under their middles.
-
-    Raises
-    ------
-    GeometryError
-        The ground is as high as what stands on it, or nearly.
     """
     axes = pier_axes(bridge)
     if bridge.abutments is None:

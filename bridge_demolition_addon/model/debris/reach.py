@@ -20,13 +20,7 @@ def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:
 
 
 def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np.ndarray:
-    """Return how far each body sticks out of a plan at any recorded time, at most, m (b,); 0 where it stays within.
-
-    Raises
-    ------
-    ValueError
-        The plan is empty, and there are bodies.
-    """
+    """Return how far each body sticks out of a plan at any recorded time, at most, m (b,); 0 where it stays within."""
     own, sides = results.inventory.vertices_by_body(), straightened(plan)
     farthest = np.zeros(len(bodies))
     for row, body in enumerate(bodies):

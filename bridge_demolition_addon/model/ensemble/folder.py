@@ -183,13 +183,7 @@ class EnsembleFolder:
 
 
 def check_folder(path: Path, ensemble: Ensemble, versions: Mapping[str, str]) -> None:
-    """Check that a folder is new, or of that very ensemble apart from its number of runs, without changing anything.
-
-    Raises
-    ------
-    OutputError
-        It is neither, or another process is at work in it.
-    """
+    """Check that a folder is new, or of that very ensemble apart from its number of runs, without changing anything."""
     with writing(path):
         if path.exists() and not path.is_dir():
             raise OutputError(f"{path}: expected a folder for the {ensemble.kind}, found a file")
@@ -223,13 +217,7 @@ def holds_ensemble(folder: Path, file_name: str = "") -> bool:
 
 
 def ensemble_in(folder: Path) -> Ensemble:
-    """Return the study, the search or the optimisation of a folder.
-
-    Raises
-    ------
-    OutputError
-        It holds none, or one that cannot be read.
-    """
+    """Return the study, the search or the optimisation of a folder."""
     name = _file_name_in(folder)
     if name is None:
         raise OutputError(f"{folder}: expected the folder of a study, with {STUDY_FILE} in it")
@@ -240,13 +228,7 @@ def ensemble_in(folder: Path) -> Ensemble:
 
 
 def study_in(folder: Path) -> Study:
-    """Return the study of a folder.
-
-    Raises
-    ------
-    OutputError
-        It holds none, or one that cannot be read.
-    """
+    """Return the study of a folder."""
     ensemble = ensemble_in(folder)
     if not isinstance(ensemble, Study):
         raise OutputError(f"{folder}: expected the folder of a study, with {STUDY_FILE} in it")
@@ -293,11 +275,6 @@ class EnsembleRuns:
         """Return the folders of all runs that finished, by their numbers.
 
         They are known by their inputs: their cache keys depend on the version that made them, which may be another.
-
-        Raises
-        ------
-        OutputError
-            One is not there, or what is kept of it cannot be read.
         """
         names, by_inputs = self.table.inputs, {}
         for path in (self.folder / RUNS_FOLDER).glob(f"*/{OUTCOME_FILE}"):
@@ -315,13 +292,7 @@ class EnsembleRuns:
         return folders
 
     def outlines_in(self, run_folder: Path) -> Outlines:
-        """Return what debris covered in a run, by its folder.
-
-        Raises
-        ------
-        OutputError
-            It cannot be read.
-        """
+        """Return what debris covered in a run, by its folder."""
         path = run_folder / OUTLINES_FILE
         try:
             check_file(path, _MOST_BYTES)
@@ -347,13 +318,7 @@ class EnsembleRuns:
 
 
 def read_ensemble(folder: Path) -> EnsembleRuns:
-    """Read a study, a search or an optimisation, and its runs.
-
-    Raises
-    ------
-    OutputError
-        The folder holds none, or no run of it is there, or it cannot be read.
-    """
+    """Read a study, a search or an optimisation, and its runs."""
     ensemble = ensemble_in(folder)
     path = folder / ensemble.table_file
     if not path.exists():
@@ -365,13 +330,7 @@ def read_ensemble(folder: Path) -> EnsembleRuns:
 
 
 def result_of_runs(ensemble: Ensemble, table: RunsTable) -> Conclusions | Answer | Best:
-    """Return what all runs of an ensemble state.
-
-    Raises
-    ------
-    OutputError
-        Not all runs are there, or the table is damaged.
-    """
+    """Return what all runs of an ensemble state."""
     try:
         match ensemble:
             case Study():
@@ -405,13 +364,7 @@ def outcome_in(run_folder: Path) -> RunOutcome | None:
 
 
 def versions_of(folder: Path) -> dict[str, str]:
-    """Return the versions that a study was begun with.
-
-    Raises
-    ------
-    OutputError
-        They cannot be read.
-    """
+    """Return the versions that a study was begun with."""
     try:
         return dict(json.loads(_text(folder / VERSIONS_FILE)))
     except (ValueError, TypeError) as error:

@@ -21,14 +21,7 @@ _GAP = 1.5
 
 
 def accelerogram_from_file(path: Path, columns: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return times (k,) in s and accelerations (k, columns) in the file's unit.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, a row does not hold the time and so many finite numbers, or times do not increase, or
-        have a gap.
-    """
+    """Return times (k,) in s and accelerations (k, columns) in the file's unit."""
     try:
         text = file_text(path, MOST_BYTES)
     except UnreadableError as error:

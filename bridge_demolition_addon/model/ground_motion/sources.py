@@ -22,13 +22,7 @@ _SAMPLES_PER_CYCLE = 100
 
 
 def ground_record(motion: GroundMotion, seed: int) -> GroundRecord:
-    """Return how the ground moves; the seed draws the phases of a record that is made from a spectrum.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, holds no accelerogram in that unit, or the ground would not end at rest.
-    """
+    """Return how the ground moves; the seed draws the phases of a record that is made from a spectrum."""
     times, found = _accelerations(motion, seed)
     along = np.zeros((len(times), len(DIRECTIONS)))
     along[:, [DIRECTIONS.index(each) for each in motion.directions]] = motion.factor * found

@@ -60,13 +60,7 @@ class Material(Table):
 
 
 def check_materials(materials: Iterable[Material]) -> None:
-    """Check that materials differ by name from each other and from those that are known.
-
-    Raises
-    ------
-    ScenarioError
-        One does not.
-    """
+    """Check that materials differ by name from each other and from those that are known."""
     names = list(MATERIALS)
     for each in materials:
         if each.name in names:
@@ -80,13 +74,7 @@ def strengths(materials: Iterable[Material]) -> Mapping[str, Strength]:
 
 
 def moduli(materials: Iterable[Material], name: str) -> ElasticModuli:
-    """Return how the material of a name deforms.
-
-    Raises
-    ------
-    ScenarioError
-        It is the user's own, and has no modulus of elasticity.
-    """
+    """Return how the material of a name deforms."""
     own = {each.name: each for each in materials}
     if name not in own:
         return ELASTIC_MODULI[name]

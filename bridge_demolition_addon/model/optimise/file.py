@@ -48,13 +48,7 @@ def read_optimisation(path: str | PathLike[str]) -> Optimisation:
 
 
 def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisation:
-    """Return the optimisation of a scenario.
-
-    Raises
-    ------
-    ScenarioError
-        The scenario lacks what is changed or asked, or there are too few candidates for it.
-    """
+    """Return the optimisation of a scenario."""
     check_criteria(settings.criteria, scenario)
     _check_objective(settings, scenario)
     variations = variations_of(settings.vary, scenario)

@@ -120,11 +120,6 @@ def space_of(settings: OptimiseSettings, scenario: Scenario, drawn: Sequence[str
         Which keys, and where.
     drawn : sequence of str
         Names of keys that vary by chance: they cannot be chosen.
-
-    Raises
-    ------
-    ScenarioError
-        The scenario lacks a key, or cannot have the ends of its range, or one is named twice.
     """
     dimensions: list[Dimension] = []
     named: set[str] = set(drawn)

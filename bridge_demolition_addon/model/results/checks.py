@@ -106,13 +106,7 @@ _KNOWN = (
 
 
 def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
-    """Make sure that arrays by their names in the file have the kinds, shapes and sizes of a run's.
-
-    Raises
-    ------
-    OutputError
-        One does not; the text begins with its name.
-    """
+    """Make sure that arrays by their names in the file have the kinds, shapes and sizes of a run's."""
     lengths: dict[str, tuple[int, str]] = {}
     for name, (kind, shape) in _SHAPES.items():
         if name in arrays:

@@ -43,11 +43,6 @@ class FrameStream(Sequence[Frame]):
         Bodies and connections.
     contacts : bool
         Whether contacts are kept as well.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be written to.
     """
 
     def __init__(self, folder: Path, load_sampling: str, inventory: Inventory, *, contacts: bool = False):
@@ -81,13 +76,7 @@ class FrameStream(Sequence[Frame]):
         return frames_of(columns(self._frames.row(number)))[0]
 
     def append(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
-        """Add a frame, what hit the balls in its sub-steps, and its contacts, where there are any and they are kept.
-
-        Raises
-        ------
-        OutputError
-            They cannot be written. Those before them stay.
-        """
+        """Add a frame, what hit the balls in its sub-steps, and its contacts, where there are any and they are kept."""
         arrays = {name: np.asarray(values)[None] for name, values in named_arrays(frame)}
         frames = self._begin(arrays) if self._frames is None else self._frames
         if len(balls.times_s) and self._substeps is not None:  # first, so that no whole frame is without them

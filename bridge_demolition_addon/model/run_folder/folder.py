@@ -32,14 +32,7 @@ _BLENDERS_LONGEST_PATH = 1023
 
 
 def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
-    """Make the folder, or clear it of an earlier run's results and of nothing else, and keep others out of it.
-
-    Raises
-    ------
-    OutputError
-        The folder has something in it and may not be overwritten, is no folder, cannot be written, or another run is at
-        work in it.
-    """
+    """Make the folder, or clear it of an earlier run's results and of nothing else, and keep others out of it."""
     check_folder(folder, overwrite=overwrite)
     is_new = not folder.exists()
     with writing(folder):
@@ -84,14 +77,7 @@ def withdraw_folder(lock: FolderLock) -> None:
 
 
 def check_folder(folder: Path, *, overwrite: bool) -> None:
-    """See that a folder for results is new or empty, or may be overwritten, without changing anything.
-
-    Raises
-    ------
-    OutputError
-        The folder has something in it and may not be overwritten, is no folder, has a path that is too long for
-        Blender, or another run is at work in it.
-    """
+    """See that a folder for results is new or empty, or may be overwritten, without changing anything."""
     with writing(folder):
         if folder.exists() and not folder.is_dir():
             raise OutputError(f"{folder}: expected a folder for the results, found a file")
@@ -140,13 +126,6 @@ def keep_site(folder: Path, site: Mapping[str, Any]) -> None:
         Of the run.
     site
         Values of fields of a scenario.
-
-    Raises
-    ------
-    OutputError
-        The folder is being written to, or cannot be.
-    ScenarioError
-        Its scenario cannot be read.
     """
     if not (folder / SCENARIO_FILE).is_file():
         return

@@ -71,13 +71,7 @@ class JointSettings(_Breaking):
         return Springs(**{name: getattr(self, name) or 0.0 for name in _SPRING_KEYS})
 
     def check_type(self, kind: str) -> None:
-        """Check that what is free and the springs go with the type of the connection.
-
-        Raises
-        ------
-        ScenarioError
-            They do not.
-        """
+        """Check that what is free and the springs go with the type of the connection."""
         wrong = {"free": kind not in ("GENERIC", "GENERIC_SPRING")}
         wrong |= {name: kind != "GENERIC_SPRING" for name in _SPRING_KEYS}
         for name, is_wrong in wrong.items():
@@ -334,11 +328,6 @@ class ConnectionSettings(JointSettings):
         ----------
         materials
             The user's own.
-
-        Raises
-        ------
-        ScenarioError
-            A material is unknown, or does not say how it deforms.
         """
         known = {name: each.times(self.strength_factor) for name, each in strengths(materials).items()}
         self._check_materials(known)
@@ -354,13 +343,7 @@ class ConnectionSettings(JointSettings):
         return (own, *(_joint_between(own, rule, factor, known, materials) for rule in self.between))
 
     def with_strength(self, shards: int) -> Self:
-        """Return the settings of a bridge in so many shards: large ones need no strength.
-
-        Raises
-        ------
-        ScenarioError
-            None is given, and the model is not large, or its connections have no area that a strength could count for.
-        """
+        """Return the settings of a bridge in so many shards: large ones need no strength."""
         if not self._has_strength and shards >= LARGE_MODEL and self.method == "face":
             return replace(self, material=MATERIAL_OF_LARGE_MODELS)
         check_exactly_one(self, *STRENGTH_KEYS)

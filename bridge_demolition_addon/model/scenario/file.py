@@ -58,13 +58,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
 
 
 def scenario_from_text(text: str) -> Scenario:
-    """Read a scenario from TOML. It cannot be based on a file, as it has no place to look for that from.
-
-    Raises
-    ------
-    ScenarioError
-        The text is not TOML, or a key is unknown, missing or has a wrong value.
-    """
+    """Read a scenario from TOML. It cannot be based on a file, as it has no place to look for that from."""
     return table_of_document(Scenario, toml_document(text))
 
 
@@ -137,11 +131,6 @@ def take_based_on(document: dict[str, Any]) -> tuple[str | None, list[str]]:
     ----------
     document : dict
         As read from TOML. The two keys are removed from it.
-
-    Raises
-    ------
-    ScenarioError
-        One of the two is no text, or something is left out of no file.
     """
     heading = document.get(Scenario.table)
     if not isinstance(heading, dict):
@@ -165,11 +154,6 @@ def varied(base: dict[str, Any], changes: dict[str, Any], without: Iterable[str]
         Documents as read from TOML; both stay as they are.
     without : iterable of str
         Names such as ``ball`` or ``bridge.pier_caps`` of what is left out of the base.
-
-    Raises
-    ------
-    ScenarioError
-        The base has nothing of a name.
     """
     result = base
     for name in without:

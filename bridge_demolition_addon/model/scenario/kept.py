@@ -21,13 +21,7 @@ def tables_text(tables: Iterable[Table]) -> str:
 
 
 def tables_from_text(text: str, classes: Iterable[type[Table]]) -> tuple[Table, ...]:
-    """Return the tables in a JSON list, each of one of some classes; none where the text is empty.
-
-    Raises
-    ------
-    ScenarioError
-        A key has a value that it cannot have, or the text is no such list.
-    """
+    """Return the tables in a JSON list, each of one of some classes; none where the text is empty."""
     named = {each.table: each for each in classes}
     kept = values_from_text(text, [])
     try:
@@ -42,13 +36,7 @@ def table_values(table: Table) -> dict[str, Any]:
 
 
 def table_from_values(table_class: type[_Table], values: Mapping[str, Any]) -> _Table:
-    """Return the table with some values, and the defaults of keys that have none.
-
-    Raises
-    ------
-    ScenarioError
-        A key has a value that it cannot have.
-    """
+    """Return the table with some values, and the defaults of keys that have none."""
     kinds = {item.name: value_type(item) for item in key_fields(table_class)}
     # Blender gives some truth values back as numbers.
     return table_class(**{name: bool(value) if kinds[name] is bool else value for name, value in values.items()})
@@ -60,13 +48,7 @@ def values_text(values: Any) -> str:
 
 
 def values_from_text(text: str, nothing: Any) -> Any:
-    """Return the values in JSON; `nothing` where the text is empty.
-
-    Raises
-    ------
-    ScenarioError
-        The text is none that `values_text` gives, as where it was edited by hand.
-    """
+    """Return the values in JSON; `nothing` where the text is empty."""
     if text == "":
         return nothing
     try:

@@ -110,13 +110,7 @@ class Scenario(Table):
 
     @property
     def ground_record(self) -> GroundRecord | None:
-        """Return how the ground moves, None where it rests.
-
-        Raises
-        ------
-        ScenarioError
-            As `ground_record`, of a file.
-        """
+        """Return how the ground moves, None where it rests."""
         return ground_record(self.ground_motion, self.seed) if self.ground_motion else None
 
     @property

@@ -67,13 +67,7 @@ def read_search(path: str | PathLike[str]) -> Search:
 
 
 def search_of(settings: SearchSettings, scenario: Scenario) -> Search:
-    """Return the search in a scenario.
-
-    Raises
-    ------
-    ScenarioError
-        The scenario lacks what is changed or asked, or cannot have the ends of the range.
-    """
+    """Return the search in a scenario."""
     check_criteria(settings.criteria, scenario)
     variations = variations_of(settings.vary, scenario)
     keys = keys_named(scenario, settings.key)

@@ -73,14 +73,6 @@ def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -
     ----------
     members : sequence of Member, optional
         Those of the scenario, where they are prepared already.
-
-    Raises
-    ------
-    GeometryError
-        The bridge cannot be cut as asked, nothing lies under the ball or the beginning of a jackhammer's path, or the
-        ball begins within a member.
-    ScenarioError
-        There is no member of a name, or a change or a load acts on nothing.
     """
     model = build_model(scenario, members)
     check_actions(scenario, model)

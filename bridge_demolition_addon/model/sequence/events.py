@@ -97,13 +97,7 @@ def recorded_structure(inventory: Inventory, centres_m: np.ndarray) -> Structure
 
 
 def schedule(changes: Sequence[Change], structure: Structure) -> tuple[Event, ...]:
-    """Return changes as events, in order of time; those of the same time in the order in which they are given.
-
-    Raises
-    ------
-    ScenarioError
-        A change names a member that is not there, or concerns nothing.
-    """
+    """Return changes as events, in order of time; those of the same time in the order in which they are given."""
     return tuple(sorted((_event(change, structure) for change in changes), key=lambda event: event.time_s))
 
 

@@ -49,11 +49,6 @@ def placed_loads(
         Masses; 0 for those that cannot move.
     boxes_m : (n, 2, 3) float
         Lowest and highest corners of the boxes along the axes that the bodies fill.
-
-    Raises
-    ------
-    ScenarioError
-        A load names a member that is not there, or nothing that moves bears it.
     """
     return tuple(_placed(number, load, structure, masses_kg, boxes_m) for number, load in enumerate(loads, start=1))
 

@@ -22,11 +22,6 @@ def equipment_loads(model: Model, equipment: Sequence[Equipment], removed: np.nd
     """Return forces and moments (6, n) on the shards by what stands on them.
 
     Each part of a footprint stands on the highest shard under it. A force at the edge of a shard turns it as well.
-
-    Raises
-    ------
-    ScenarioError
-        Nothing is under a part of a footprint.
     """
     loads = np.zeros((6, len(model.shards)))
     boxes = np.array([each.bounds for each in model.shards])

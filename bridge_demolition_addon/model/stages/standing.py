@@ -256,11 +256,6 @@ def made_elastic(scenario: Scenario) -> Scenario:
     """Return a scenario with elastic connections, where they break by a force as stiff as the others.
 
     Where all do, they are as stiff as reinforced concrete.
-
-    Raises
-    ------
-    ScenarioError
-        They cannot be elastic: they stand for no faces, or are of a type that has no stiffness.
     """
     between = tuple(
         replace(each, breaking_force_n=None, breaking_force_kgf=None) for each in scenario.connections.between

@@ -62,13 +62,7 @@ _GROUND = "ground"
 def write_tables(
     folder: Path, stages: Sequence[Stage], members: Sequence[Criticality], bridge: StandingBridge
 ) -> list[dict[str, Any]]:
-    """Write all tables to a folder, made if new, and return the rows of stages.
-
-    Raises
-    ------
-    OSError
-        One cannot be written.
-    """
+    """Write all tables to a folder, made if new, and return the rows of stages."""
     folder.mkdir(parents=True, exist_ok=True)
     rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
     write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)

@@ -31,11 +31,6 @@ def rules_of_pairs(
     -------
     (k,) int
         0 for a pair that follows none, 1 for the first rule, and so on.
-
-    Raises
-    ------
-    ScenarioError
-        There is no member of a name or kind that a rule names.
     """
     ground = len(members)
     rule_between = np.zeros((ground + 1, ground + 1), int)

@@ -62,13 +62,7 @@ class LayersOfMember:
 
 
 def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> Iterator[LayersOfMember]:
-    """Yield the layers of each member, together as far as they bear the same moments.
-
-    Raises
-    ------
-    ScenarioError
-        There is no member of a name, or a layer is not within its member.
-    """
+    """Yield the layers of each member, together as far as they bear the same moments."""
     for layer in layers:
         for name in layer.members:
             if not any(name in (each.name, each.kind) for each in members):
@@ -143,11 +137,6 @@ def face_bars(
         Where shards are connected, and what each of them has in common with others, (m,) int.
     factor : float
         How many times as strong the bars are.
-
-    Raises
-    ------
-    ScenarioError
-        There is no member of a name, or a layer is not within its member.
     """
     count = len(connections)
     yield_n, by_place = np.zeros(count), np.zeros((count, 3))

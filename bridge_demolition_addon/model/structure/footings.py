@@ -29,14 +29,7 @@ def soil_springs(
     shards: Sequence[TriangleMesh],
     connections: Connections,
 ) -> SoilSprings | None:
-    """Return the springs under a model's footings; None where it stands on ground that does not give.
-
-    Raises
-    ------
-    ScenarioError
-        There is no such member, nothing of it stands on the ground and can move, two foundations are under one, it
-        stands on a slope, or a footing is smaller than what stands on it.
-    """
+    """Return the springs under a model's footings; None where it stands on ground that does not give."""
     found: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
     for foundation in foundations:
         for index in _chosen(foundation, members):

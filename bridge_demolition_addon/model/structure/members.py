@@ -65,13 +65,6 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         Says how many shards, and how they are cut.
     members : sequence of Member
         What is cut.
-
-    Raises
-    ------
-    ScenarioError
-        A member that the scenario names is not there, or a file of points or paint cannot be read.
-    GeometryError
-        The members cannot be cut into that many shards, or a point lies outside of all.
     """
     settings = scenario.fracture
     density = _density(settings)
@@ -102,13 +95,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
 
 
 def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
-    """The shards with gaps between those of one member.
-
-    Raises
-    ------
-    GeometryError
-        Nothing is left of a shard.
-    """
+    """The shards with gaps between those of one member."""
     bounds = np.searchsorted(fractured.member_of_shard, np.arange(len(members) + 1))
     return tuple(
         shard
@@ -118,13 +105,7 @@ def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap
 
 
 def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
-    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together.
-
-    Raises
-    ------
-    GeometryError
-        There are fewer shards than members.
-    """
+    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together."""
     if shard_count < len(volumes):
         raise GeometryError(
             f"fracture.shards is {shard_count}: expected at least {len(volumes)}, one for each member of the bridge"

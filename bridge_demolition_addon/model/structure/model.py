@@ -107,11 +107,6 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         What to build.
     members : sequence of Member, optional
         What is cut into shards, without overlap; by default all members that the scenario names.
-
-    Raises
-    ------
-    GeometryError
-        The bridge cannot be cut into that many shards.
     """
     members = prepared_members(scenario).members if members is None else tuple(members)
     solids = [(member.name, member.solid) for member in members]

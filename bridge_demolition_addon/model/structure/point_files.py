@@ -21,24 +21,12 @@ _NUMBER = re.compile(r"""[\s"']*[-+]?(\.?\d|(nan|inf|infinity)\s*$)""", re.IGNOR
 
 
 def points_from_file(path: Path) -> np.ndarray:
-    """Points in a CSV file, (n, 3) in m: x, y and z in a row; a first row without any number is a heading, and skipped.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, or a row does not hold three finite numbers.
-    """
+    """Points in a CSV file, (n, 3) in m: x, y and z in a row; a first row without a number is a skipped heading."""
     return _numbers(path, "points_file", 3)
 
 
 def paint_from_file(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Painted places in a CSV file, (n, 3) in m, and their weights (n,): x, y, z and weight in a row.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, holds nothing, or a row does not hold four finite numbers, the last from 0 to 1.
-    """
+    """Painted places in a CSV file, (n, 3) in m, and their weights (n,): x, y, z and weight in a row."""
     rows = _numbers(path, "painted_file", 4)
     if not len(rows) or (rows[:, 3] < 0.0).any() or (rows[:, 3] > 1.0).any():
         raise ScenarioError(f"{path}: expected rows of x, y, z (m) and a weight from 0 to 1")

@@ -44,11 +44,6 @@ def connection_stiffness(
         What they were cut from.
     fixed : (n,) bool
         Shards that never move: like the ground, they do not give way.
-
-    Raises
-    ------
-    GeometryError
-        A connection has no area.
     """
     without = np.flatnonzero(connections.areas <= 0.0)
     if len(without):

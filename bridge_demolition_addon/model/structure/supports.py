@@ -43,13 +43,6 @@ def fixed_shards(
         Before gaps are made.
     member_of_shard : (n,) int
         Index of the member of each shard.
-
-    Raises
-    ------
-    ScenarioError
-        A member is not there.
-    GeometryError
-        Every shard is fixed, so that nothing is left to move.
     """
     fixed = np.zeros(len(shards), dtype=bool)
     for support in supports:

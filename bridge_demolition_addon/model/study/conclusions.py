@@ -175,13 +175,7 @@ class Conclusions:
 
 
 def conclusions(study: Study, table: RunsTable) -> Conclusions:
-    """Return the conclusions of a study from the table of all its runs.
-
-    Raises
-    ------
-    OutputError
-        Not all runs are there: whoever stops when a result pleases has no confidence to state.
-    """
+    """Return the conclusions of a study from the table of all its runs."""
     settings = study.settings
     if len(table) != settings.runs:
         raise OutputError(

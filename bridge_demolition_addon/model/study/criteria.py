@@ -121,13 +121,7 @@ class Criterion(Table):
         return KINDS[self.kind].share if self.share is None else self.share
 
     def check_against(self, scenario: Scenario) -> None:
-        """Check that the scenario has what is asked about.
-
-        Raises
-        ------
-        ScenarioError
-            It has not.
-        """
+        """Check that the scenario has what is asked about."""
         spans = len(scenario.bridge.span_lengths_m) if scenario.bridge else 1
         if self.span is not None and self.span > spans:
             raise self.unexpected("span", f"a whole number up to {spans}, as the scenario has no more spans")
@@ -148,13 +142,7 @@ class Criterion(Table):
 
 
 def check_criteria(criteria: tuple[Criterion, ...], scenario: Scenario) -> None:
-    """Check that criteria differ by name, and that the scenario has what they ask about.
-
-    Raises
-    ------
-    ScenarioError
-        Two have one name, or one asks about nothing; the text gives its number.
-    """
+    """Check that criteria differ by name, and that the scenario has what they ask about."""
     names = [each.name for each in criteria]
     for number, each in enumerate(criteria, start=1):
         try:

@@ -194,11 +194,6 @@ class Normal:
     """Normal distribution, cut off below the lowest and above the highest value where they are given.
 
     What is cut off does not pile up at the ends: the rest is scaled up.
-
-    Raises
-    ------
-    ScenarioError
-        Less than `LEAST_KEPT` of the distribution lies between the ends.
     """
 
     mean: float

@@ -107,14 +107,7 @@ def read_ensemble_file(
     ensemble_of: Callable[[_Settings, Scenario], _Ensemble],
     what: str,
 ) -> _Ensemble:
-    """Read a file of settings, and the scenario that goes with it.
-
-    Raises
-    ------
-    ScenarioError
-        A file cannot be read or is not TOML; a key is unknown, missing or has a wrong value; or the scenario does not
-        have what is asked. The text is one line: the path as given, and what was expected.
-    """
+    """Read a file of settings, and the scenario that goes with it."""
     path = Path(path)
     try:
         settings = table_of_document(settings_class, document_of_file(path, what))
@@ -129,25 +122,13 @@ def read_study(path: str | PathLike[str]) -> Study:
 
 
 def study_of(settings: StudySettings, scenario: Scenario) -> Study:
-    """Return the study of a scenario.
-
-    Raises
-    ------
-    ScenarioError
-        The scenario lacks what is varied or asked, or a run could not be made.
-    """
+    """Return the study of a scenario."""
     check_criteria(settings.criteria, scenario)
     return Study(settings, scenario, variations_of(settings.vary, scenario))
 
 
 def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation, ...]:
-    """Return what varies in a scenario, for each key of all tables.
-
-    Raises
-    ------
-    ScenarioError
-        The scenario lacks it, or a draw could not be run.
-    """
+    """Return what varies in a scenario, for each key of all tables."""
     variations: dict[str, Variation] = {}
     for number, vary in enumerate(tables, start=1):
         try:

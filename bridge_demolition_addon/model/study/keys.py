@@ -48,13 +48,7 @@ class ScenarioKey:
 
 
 def keys_named(scenario: Scenario, name: str) -> tuple[ScenarioKey, ...]:
-    """Return the key of a dotted name; several where it is that of all tables of a list.
-
-    Raises
-    ------
-    ScenarioError
-        It is no such name, or the scenario has nothing of it.
-    """
+    """Return the key of a dotted name; several where it is that of all tables of a list."""
     parts = _parts(name)
     if parts[0] == Scenario.table:
         parts = parts[1:] if len(parts) > 1 else parts

@@ -63,13 +63,7 @@ class Outlines:
 
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Self:
-        """Outlines from what `arrays` gives.
-
-        Raises
-        ------
-        KeyError, ValueError
-            It is something else.
-        """
+        """Outlines from what `arrays` gives."""
         return cls(*(_rings(arrays[f"{each.name}_m"], arrays[f"{each.name}_counts"]) for each in fields(cls)))
 
 
@@ -110,11 +104,6 @@ def evaluate(
         What makes it a success.
     least_mass_kg
         Of the lightest shard that is a hazard.
-
-    Raises
-    ------
-    OutputError
-        The bridge covers no area in plan, or a body is nowhere.
     """
     left = relative_to_ground(without_removed(results)[0])
     shards, balls = left.inventory.of_kind("shard"), left.inventory.of_kind("ball")

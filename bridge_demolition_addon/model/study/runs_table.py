@@ -163,13 +163,7 @@ def write_runs(table: RunsTable, path: Path) -> None:
 
 
 def read_runs(path: Path) -> RunsTable:
-    """Read a table of runs.
-
-    Raises
-    ------
-    OutputError
-        It cannot be read, or is no such table.
-    """
+    """Read a table of runs."""
     try:
         lines = csv.reader(io.StringIO(file_text(path, _MOST_BYTES), newline=""))
         columns = next(lines, [])

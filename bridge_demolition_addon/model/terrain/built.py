@@ -116,12 +116,6 @@ def built_ground(scenario: Scenario, members: Sequence[tuple[str, TriangleMesh]]
         Names and solids of its members.
     half_size_m : float
         How far it reaches from the origin to every side.
-
-    Raises
-    ------
-    ScenarioError, GeometryError
-        The file cannot be used, misses the bridge, or has no data under a pier; a surface lies under the ground, or a
-        member reaches through it.
     """
     terrain = terrain_of(scenario)
     if terrain is None:
@@ -132,13 +126,7 @@ def built_ground(scenario: Scenario, members: Sequence[tuple[str, TriangleMesh]]
 
 
 def check_under(terrain: Terrain, members: Sequence[tuple[str, TriangleMesh]]) -> None:
-    """Make sure that a terrain has data somewhere under a bridge.
-
-    Raises
-    ------
-    GeometryError
-        It has none.
-    """
+    """Make sure that a terrain has data somewhere under a bridge."""
     vertices = np.concatenate([solid.vertices[:, :2] for _, solid in members])
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     x, y = (np.linspace(low[axis], high[axis], 33) for axis in (0, 1))
@@ -213,13 +201,7 @@ def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:
 
 
 def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
-    """Return the facts that a run's summary keeps.
-
-    Raises
-    ------
-    KeyError, TypeError
-        They are others.
-    """
+    """Return the facts that a run's summary keeps."""
     known = {each.name: values[each.name] for each in fields(TerrainFacts)}
     x, y = known["error_place_m"]
     return TerrainFacts(

@@ -29,13 +29,6 @@ def read_terrain(name: str, ground: Ground) -> Raster | Surface:
         Its path.
     ground : Ground
         How it is read: what stands for no data, which way is up.
-
-    Raises
-    ------
-    ScenarioError
-        There is no such file, or it is of no known kind.
-    GeometryError
-        It holds no terrain.
     """
     path = _checked(name, "ground.file", TERRAIN_FILES)
     suffix = path.suffix.lower()
@@ -54,13 +47,7 @@ def read_terrain(name: str, ground: Ground) -> Raster | Surface:
 
 
 def read_surface(name: str, ground: Ground) -> TriangleMesh:
-    """Read the mesh of a surface on the ground, in its own coordinates and units; errors are those of `read_terrain`.
-
-    Raises
-    ------
-    ScenarioError, GeometryError
-        As `read_terrain`.
-    """
+    """Read the mesh of a surface on the ground, in its own coordinates and units; errors are as of `read_terrain`."""
     path = _checked(name, "ground.surfaces.file", SURFACE_FILES)
     try:
         return _surface_mesh(path, ground)

@@ -27,13 +27,6 @@ def read_landxml(path: Path, scale: float) -> Surface:
         The file.
     scale : float
         What the user takes for metres in one unit of the file.
-
-    Raises
-    ------
-    UnreadableError
-        The file cannot be read.
-    GeometryError
-        It is no LandXML with one surface of triangles.
     """
     check_file(path, _MOST_BYTES)
     try:

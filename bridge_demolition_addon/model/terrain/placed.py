@@ -104,13 +104,7 @@ class Terrain:
 
 
 def terrain_of(scenario: Scenario) -> Terrain | None:
-    """Return the terrain of a scenario; None where its ground is flat.
-
-    Raises
-    ------
-    ScenarioError, GeometryError
-        The file is not there, or holds no terrain.
-    """
+    """Return the terrain of a scenario; None where its ground is flat."""
     ground = scenario.ground
     if ground.file is None:
         return None
@@ -121,13 +115,7 @@ def terrain_of(scenario: Scenario) -> Terrain | None:
 
 
 def surface_mesh(scenario: Scenario, name: str) -> TriangleMesh:
-    """Return the mesh of a surface's file in the scenario.
-
-    Raises
-    ------
-    ScenarioError, GeometryError
-        The file is not there, or holds no mesh.
-    """
+    """Return the mesh of a surface's file in the scenario."""
     mesh = read_surface(name, scenario.ground)
     return TriangleMesh(Placing.of(scenario).to_scenario(mesh.vertices), mesh.triangles)
 

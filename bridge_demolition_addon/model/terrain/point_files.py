@@ -57,13 +57,7 @@ def on_grid(points: np.ndarray) -> Raster | None:
 
 
 def triangulated(points: np.ndarray) -> Surface:
-    """Return the triangles of Delaunay between points (n, 3) in plan.
-
-    Raises
-    ------
-    GeometryError
-        They are too many, or lie on a line.
-    """
+    """Return the triangles of Delaunay between points (n, 3) in plan."""
     if len(points) > MOST_SCATTERED:
         raise GeometryError(
             f"holds {len(points)} points that lie on no grid: expected at most {MOST_SCATTERED}; make a grid of them"

@@ -57,11 +57,6 @@ def built_surfaces(
         Names and solids of its members; level surfaces leave room for them.
     ground_at : callable
         Heights (n,) of the ground at places (n, 2).
-
-    Raises
-    ------
-    ScenarioError, GeometryError
-        A file cannot be used, a surface lies under the ground, or a member reaches through a mesh.
     """
     found = []
     for settings in scenario.ground.surfaces:

@@ -50,11 +50,6 @@ class ReportedEnsemble:
             Of the ensemble.
         evaluated
             Returns the further attributes of a subclass, from the ensemble and its table.
-
-        Raises
-        ------
-        OutputError
-            The folder holds none, or no run of it is there, or it cannot be read.
         """
         found = read_ensemble(folder)
         try:

@@ -110,13 +110,7 @@ class StudyRuns(ReportedEnsemble):
 
 
 def read_study_runs(folder: Path) -> StudyRuns:
-    """Read a study and its runs.
-
-    Raises
-    ------
-    OutputError
-        The folder is none of a study, no run of it is there, or what is kept of one cannot be read.
-    """
+    """Read a study and its runs."""
     return study_runs(read_ensemble(folder))
 
 

@@ -49,13 +49,7 @@ def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
 
 
 def stages_section(folder: Path) -> Section:
-    """Return what the tables of stages in a folder say.
-
-    Raises
-    ------
-    OutputError
-        One cannot be read, or is none.
-    """
+    """Return what the tables of stages in a folder say."""
     stages = _rows(folder / STAGES_FILE, STAGE_COLUMNS)
     members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
     try:

@@ -34,13 +34,7 @@ class BuildCount:
 
 
 def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Object]) -> BuildCount:
-    """Give each body one force object, and remove those of bodies that are gone.
-
-    Raises
-    ------
-    SimulationError
-        There is no body that could be pushed, or Blender is not in object mode.
-    """
+    """Give each body one force object, and remove those of bodies that are gone."""
     pushed = [body for body in bodies if body.rigid_body.type == "ACTIVE"]
     if not pushed:
         raise SimulationError("no active body to push: give the bridge's shards an active rigid body first")
@@ -73,13 +67,7 @@ def has_other_fields(scene: bpy.types.Scene) -> bool:
 
 
 def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
-    """The force objects of bodies, in their order.
-
-    Raises
-    ------
-    SimulationError
-        A body has none.
-    """
+    """The force objects of bodies, in their order."""
     existing = force_objects(scene)
     lacking = [body.name for body in bodies if body not in existing]
     if lacking:
@@ -89,13 +77,7 @@ def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> lis
 
 
 class ForceFields:
-    """The force objects of n bodies, as they push in the coming frame.
-
-    Raises
-    ------
-    SimulationError
-        A body has no force object.
-    """
+    """The force objects of n bodies, as they push in the coming frame."""
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]):
         self._scene = scene
@@ -116,11 +98,6 @@ class ForceFields:
             (k,) forces in N, (k, 3) unit vectors along which, and (k, 3) where the bodies are, m.
         reaches
             Of the k fields.
-
-        Raises
-        ------
-        SimulationError
-            A field was deleted, or is not part of what Blender evaluates, and would push nothing.
         """
         self.rest()
         # Blender pushes a rigid body with the strength over the frame rate, whatever its base or the time scale.

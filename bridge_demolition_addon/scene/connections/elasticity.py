@@ -38,13 +38,7 @@ class ConnectionElasticity:
 
 
 def elasticity_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object]) -> ConnectionElasticity | None:
-    """Return how the connections of a scene are elastic; None where they are rigid.
-
-    Raises
-    ------
-    SimulationError
-        A connection has no stiffness, or one that was edited.
-    """
+    """Return how the connections of a scene are elastic; None where they are rigid."""
     if not is_elastic(scene):
         return None
     return ConnectionElasticity(damping_ratio_of(scene), stiffness_of(connections), thicknesses_of(connections))
@@ -94,13 +88,7 @@ def damping_ratio_of(scene: bpy.types.Scene) -> float:
 
 
 def stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
-    """Return the stiffness of connections.
-
-    Raises
-    ------
-    SimulationError
-        One has none, as it was not built with the others.
-    """
+    """Return the stiffness of connections."""
     for each in connections:
         if _STIFFNESS not in each:
             raise SimulationError(

@@ -26,13 +26,7 @@ def keep_soil(connections: Sequence[bpy.types.Object], soil: SoilSprings) -> Non
 
 
 def soil_of(connections: Sequence[bpy.types.Object]) -> SoilSprings | None:
-    """Return what connections stand on; None where the ground does not give under any.
-
-    Raises
-    ------
-    SimulationError
-        What is kept was edited to something else.
-    """
+    """Return what connections stand on; None where the ground does not give under any."""
     rows = [row for row, each in enumerate(connections) if _SOIL in each]
     if not rows:
         return None

@@ -34,13 +34,7 @@ _KEPT = {
 
 @dataclass(frozen=True, slots=True)
 class RenderSettings:
-    """Size of pictures of the contours.
-
-    Raises
-    ------
-    OutputError
-        A size is not a positive even number, as films cannot have odd ones.
-    """
+    """Size of pictures of the contours."""
 
     width_px: int = 1280
     height_px: int = 720
@@ -53,13 +47,7 @@ class RenderSettings:
 
 @contextmanager
 def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings, view: PictureSettings) -> Iterator[None]:
-    """Render PNG pictures within this context; afterwards the scene is as it was, at its frame.
-
-    Raises
-    ------
-    OutputError
-        The camera that is asked for is not there.
-    """
+    """Render PNG pictures within this context; afterwards the scene is as it was, at its frame."""
     render, image = scene.render, scene.render.image_settings
     with seen_from(scene, view, settings.width_px / settings.height_px), put_back_afterwards(scene, _KEPT):
         render.engine = _RENDERER
@@ -74,13 +62,7 @@ def set_up_for_pictures(scene: bpy.types.Scene, settings: RenderSettings, view: 
 
 
 def encode_film(pictures: Sequence[Path], film: Path, pictures_per_second: float) -> None:
-    """Make an MP4 film (H.264) of pictures of one size in one folder; a picture may come several times.
-
-    Raises
-    ------
-    OutputError
-        There are no pictures, or Blender was built without its encoder, or wrote no film.
-    """
+    """Make an MP4 film (H.264) of pictures of one size in one folder; a picture may come several times."""
     if not pictures:
         raise OutputError(f"{film}: there are no pictures to make a film of")
     if not bpy.app.build_options.codec_ffmpeg:

@@ -44,11 +44,6 @@ def lay_site_plan(
     -------
     tuple of float
         Width and height on the ground, m.
-
-    Raises
-    ------
-    OutputError
-        Blender cannot read the picture; what was there before stays.
     """
     image = _loaded(path)
     height_m = width_m * image.size[1] / image.size[0]

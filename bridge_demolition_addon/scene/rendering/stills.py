@@ -59,13 +59,7 @@ def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
 
 @contextmanager
 def prepared_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> Iterator[None]:
-    """Render pictures within this context; afterwards the scene is as it was, at its frame.
-
-    Raises
-    ------
-    OutputError
-        The scene has no camera, and its own one is asked for.
-    """
+    """Render pictures within this context; afterwards the scene is as it was, at its frame."""
     with seen_from(scene, view, view.width_px / view.height_px), put_back_afterwards(scene, _KEPT):
         prepare_pictures(scene, view.width_px, view.height_px)
         yield
@@ -91,13 +85,7 @@ def put_back_afterwards(scene: bpy.types.Scene, names: Mapping[str, Sequence[str
 
 @contextmanager
 def seen_from(scene: bpy.types.Scene, view: PictureSettings, aspect: float) -> Iterator[None]:
-    """Let the scene be seen by the camera that is asked for within this context.
-
-    Raises
-    ------
-    OutputError
-        The scene has no camera, and its own one is asked for; or nothing that a camera could see.
-    """
+    """Let the scene be seen by the camera that is asked for within this context."""
     before = scene.camera
     if view.camera == CameraKind.OWN and not view.camera_m:
         if before is None:

@@ -52,13 +52,7 @@ def keep_ground_motion(scene: bpy.types.Scene, record: GroundRecord | None, star
 
 
 def ground_motion_of(scene: bpy.types.Scene) -> GroundMotionOfScene | None:
-    """Return how the ground of a scene moves, None where it rests.
-
-    Raises
-    ------
-    SimulationError
-        What is kept was edited to no record.
-    """
+    """Return how the ground of a scene moves, None where it rests."""
     if _TIMES not in scene:
         return None
     try:
@@ -101,13 +95,7 @@ def move_with_ground(
 
 
 def rows_on_moving_ground(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
-    """Return which of the bodies (r,) move with the ground.
-
-    Raises
-    ------
-    SimulationError
-        None does.
-    """
+    """Return which of the bodies (r,) move with the ground."""
     rows = [row for row, body in enumerate(bodies) if _is_fixed(body) and body.rigid_body.kinematic]
     if not rows:
         raise SimulationError("the ground is to move, and no body of it is left: build the scenario anew")

@@ -78,13 +78,6 @@ class FilmRendering:
         Where to; made if new.
     contour_settings, film_settings
         What the pictures show, and how they are put together.
-
-    Raises
-    ------
-    ContourError
-        Nothing was recorded.
-    OutputError
-        The folder cannot be written.
     """
 
     def __init__(

@@ -19,13 +19,7 @@ from ...system.disk import writing
 
 
 def check_camera(view: PictureSettings) -> None:
-    """See that pictures of a scene that is about to be made can be taken as is asked for.
-
-    Raises
-    ------
-    OutputError
-        They are to be taken by a camera that the scene will not have.
-    """
+    """See that pictures of a scene that is about to be made can be taken as is asked for."""
     if reason := view.why_not_without_window:
         raise OutputError(reason)
 
@@ -44,13 +38,7 @@ def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
 def rendered_pictures(
     scene: bpy.types.Scene, folder: Path, view: PictureSettings, key_frame: int, last_frame: int
 ) -> Iterator[Path]:
-    """Render the pictures of a run that was just played into its folder, one by one, and yield their paths.
-
-    Raises
-    ------
-    OutputError
-        The camera is not there, or Blender wrote no picture.
-    """
+    """Render the pictures of a run that was just played into its folder, one by one, and yield their paths."""
     frames = {BEFORE: START_FRAME, IMPACT: key_frame, AFTER: last_frame}
     with writing(folder):
         (folder / PICTURE_FOLDER).mkdir(parents=True, exist_ok=True)

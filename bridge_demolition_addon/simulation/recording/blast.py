@@ -54,13 +54,7 @@ class FieldBlast:
         self._centres: np.ndarray | None = None
 
     def before_frame(self, start_s: float, frame_s: float, centres: np.ndarray, rotations: np.ndarray) -> None:
-        """Aim and load the fields for a frame that begins at a time and is that long.
-
-        Raises
-        ------
-        LayoutError
-            Blender does not let its fields act again.
-        """
+        """Aim and load the fields for a frame that begins at a time and is that long."""
         self._fields.rest()
         let_fields_act(self._scene)
         self._loads, self._pushed = no_loads(), np.zeros(0, int)
@@ -82,13 +76,7 @@ class FieldBlast:
         self._fields.push(self._pushed, forces, self._directions, centres[self._pushed], self._reaches)
 
     def after_frame(self, centres: np.ndarray) -> StepLoads:
-        """Return the loads of the frame, after which the bodies are at centres (n, 3).
-
-        Raises
-        ------
-        SimulationError
-            A field was changed or deleted while it pushed.
-        """
+        """Return the loads of the frame, after which the bodies are at centres (n, 3)."""
         if not self._fields.still_push():
             raise SimulationError(
                 "a force object was changed or deleted while it pushed: leave them alone while the blast goes on"
@@ -161,11 +149,6 @@ class Blast(Driver):
         The scene, and what decides its run, with charges that go off.
     world
         The bound world; None where Bullet's memory is not to be trusted.
-
-    Raises
-    ------
-    BlastError, GeometryError, SimulationError
-        A charge is not as it should be, a body has no volume, or loads cannot be applied in the way that is asked for.
     """
 
     def __init__(self, scene: bpy.types.Scene, setup: RunSetup, world: BulletWorld | None):
@@ -213,23 +196,11 @@ class Blast(Driver):
 
 
 def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
-    """Check the charges and force objects of a scene, before anything is simulated.
-
-    Raises
-    ------
-    BlastError, SimulationError
-        A charge is not as it should be, or an active body lacks the force object that is to push it.
-    """
+    """Check the charges and force objects of a scene, before anything is simulated."""
     if goes_off(scene) and blast_of(scene).apply == Apply.FIELDS:
         fields_of(scene, [body for body in bodies if body.rigid_body.type == "ACTIVE"])
 
 
 def goes_off(scene: bpy.types.Scene) -> bool:
-    """Return whether anything explodes in a scene: the explosion is asked for, and some charge has a mass.
-
-    Raises
-    ------
-    BlastError
-        A charge is not as it should be.
-    """
+    """Return whether anything explodes in a scene: the explosion is asked for, and some charge has a mass."""
     return blast_of(scene).explosion and any(charge.mass_kg > 0.0 for charge in charges_of(scene))

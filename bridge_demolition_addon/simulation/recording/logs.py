@@ -75,13 +75,7 @@ class Logs:
         self._largest_kinetic_j = np.zeros(len(bodies))
 
     def write_frame(self, frame: Frame) -> None:
-        """Log the loads of a frame; of the first frame, also where everything is.
-
-        Raises
-        ------
-        SimulationError
-            The folder is not there any more: what is written to its open files would be lost with them.
-        """
+        """Log the loads of a frame; of the first frame, also where everything is."""
         if not self._breaking.in_place:
             raise SimulationError(f"{self._folder}: was moved or deleted while a run wrote to it")
         self._forces.write(frame.number, frame.time_s, frame)
@@ -127,13 +121,7 @@ class Logs:
 
 
 def checked_log(path: Path, *, overwrite: bool) -> Path:
-    """A file for a log, after seeing that it can be written.
-
-    Raises
-    ------
-    OutputError
-        It is there already and may not be overwritten, is no file, or cannot be written.
-    """
+    """A file for a log, after seeing that it can be written."""
     if path.is_dir():
         raise OutputError(f"{path}: expected a file for the log, found a folder")
     if path.exists() and not path.is_file():

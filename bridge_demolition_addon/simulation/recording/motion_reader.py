@@ -31,13 +31,7 @@ _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
 
 
 def check_motion_is_enough(setup: RunSetup, layout_error: LayoutError, *, contacts: bool) -> None:
-    """Refuse a run that needs more than the motion of its bodies.
-
-    Raises
-    ------
-    SimulationError
-        It does, and Blender's memory cannot be read for this reason.
-    """
+    """Refuse a run that needs more than the motion of its bodies."""
     needs = [(subject, remedy) for is_needed, subject, remedy in _NEED_MEMORY if is_needed(setup)]
     if contacts:
         needs.append(("contacts need", "switch recording.contacts off in the scenario"))

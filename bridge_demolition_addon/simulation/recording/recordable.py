@@ -10,14 +10,7 @@ from ...scene.connections.constraints import connections_of, loose_connections, 
 
 
 def check_recordable(scene: bpy.types.Scene) -> None:
-    """Refuse a scene that cannot be recorded as it is.
-
-    Raises
-    ------
-    SimulationError
-        It has no rigid-body world, or one without bodies or in which no time passes, other units than metres, nothing
-        that bears what was built in it, or connections without a body, or whose sections were edited by hand.
-    """
+    """Refuse a scene that cannot be recorded as it is."""
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
     if not bodies_of(scene):

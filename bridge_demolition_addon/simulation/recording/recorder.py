@@ -59,11 +59,6 @@ class Recording(RecordedFrames):
     contacts : bool
         Whether the contacts of the last sub-step of each frame are kept, where loads are.
 
-    Raises
-    ------
-    BlastError, SimulationError
-        The scene, a charge or the force objects are not as they should be, or shards lie where a simulation left them.
-
     Attributes
     ----------
     scene, folder
@@ -125,13 +120,7 @@ class Recording(RecordedFrames):
         self.substeps = 0
 
     def before_frame(self) -> None:
-        """Set how much time passes in the coming frame, and what explodes in it.
-
-        Raises
-        ------
-        SimulationError
-            Time is animated and cannot be set.
-        """
+        """Set how much time passes in the coming frame, and what explodes in it."""
         try:
             self._timing.set_time(holds_first=self.layout_error is None)
         except LayoutError as error:
@@ -148,13 +137,7 @@ class Recording(RecordedFrames):
             self._reader.before_frame(self.substeps)
 
     def after_frame(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Record the frame.
-
-        Raises
-        ------
-        LayoutError, SimulationError
-            The world cannot be read any more, or the simulation does not begin with what was built.
-        """
+        """Record the frame."""
         began = time.perf_counter()
         try:
             if not self.layout_error:

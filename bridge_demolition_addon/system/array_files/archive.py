@@ -59,11 +59,6 @@ def read_archive(path: Path) -> dict[str, np.ndarray]:
     """Read all arrays of an archive by their names, and check that they are as they were written.
 
     Large arrays are mapped from a copy, and stay as they are, whatever becomes of the archive.
-
-    Raises
-    ------
-    OSError, RuntimeError, ValueError, KeyError, zipfile.BadZipFile, zlib.error
-        It is none, is damaged, or holds something else than plain arrays.
     """
     with zipfile.ZipFile(path) as archive:
         members = [each for each in archive.infolist() if each.filename.endswith(_ENDING)]

@@ -17,13 +17,6 @@ def mapped_copy(content: IO[bytes], dtype: np.dtype, shape: tuple[int, ...], *, 
 
     The copy has no name, and goes with the array. A mapped file that another program cuts short or empties would end
     the process. Where there is no room for the copy on the disk, it is in memory.
-
-    Raises
-    ------
-    OSError
-        The file cannot be read.
-    ValueError
-        The content is less than the array.
     """
     order: Literal["F", "C"] = "F" if is_fortran else "C"
     start = content.tell()

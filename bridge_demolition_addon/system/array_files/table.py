@@ -37,11 +37,6 @@ class GrowingTable:
     row_type : np.dtype
         Names, types and shapes of the columns.
 
-    Raises
-    ------
-    OutputError
-        The file cannot be written.
-
     Attributes
     ----------
     path, row_type
@@ -70,13 +65,7 @@ class GrowingTable:
         return not self._file.closed and is_in_place(self._file.fileno(), self.path)
 
     def append(self, rows: np.ndarray) -> None:
-        """Add rows (k,).
-
-        Raises
-        ------
-        OutputError
-            They cannot be written. Those before them stay.
-        """
+        """Add rows (k,)."""
         count = self._count + len(rows)
         with writing(self.path), self._lock:
             self._write(self._start + self._count * self.row_type.itemsize, rows.view(np.uint8).data)
@@ -84,13 +73,7 @@ class GrowingTable:
         self._count = count
 
     def row(self, number: int) -> np.ndarray:
-        """Return one row as rows (1,), read from the file.
-
-        Raises
-        ------
-        OutputError
-            Something else has cut the file short.
-        """
+        """Return one row as rows (1,), read from the file."""
         row = np.empty(1, self.row_type)
         left = memoryview(row.view(np.uint8))
         with self._lock:
@@ -130,13 +113,7 @@ class GrowingTable:
 
 
 def stored_rows(path: Path) -> np.ndarray:
-    """Return the whole rows (k,) of a table that was left, or that still grows, mapped from a copy.
-
-    Raises
-    ------
-    OSError, ValueError
-        The file is no table, or cannot be read.
-    """
+    """Return the whole rows (k,) of a table that was left, or that still grows, mapped from a copy."""
     with path.open("rb") as file:
         if np.lib.format.read_magic(file) != (2, 0):
             raise ValueError("no table")

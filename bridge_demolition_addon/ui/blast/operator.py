@@ -19,13 +19,7 @@ _NEW_CHARGE_KG = 10.0
 
 
 def keep_shown_blast(scene: bpy.types.Scene) -> None:
-    """Keep in the scene what the sidebar shows of the blast, for the next recording.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used.
-    """
+    """Keep in the scene what the sidebar shows of the blast, for the next recording."""
     keep_blast(scene, table_of(scene.bda.scenario.blast, BlastSettings))
 
 

@@ -18,13 +18,7 @@ _refusals: dict[int, str] = {}
 
 
 def settings_of(scene: bpy.types.Scene) -> ContourSettings:
-    """Return what the sidebar's settings ask for.
-
-    Raises
-    ------
-    ContourError
-        They cannot be shown.
-    """
+    """Return what the sidebar's settings ask for."""
     settings = scene.bda
     quantity = ContourQuantity[settings.contour_quantity]
     size = quantity.units.of_range.size

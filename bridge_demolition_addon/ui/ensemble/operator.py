@@ -117,13 +117,7 @@ def show_ensemble(settings: bpy.types.PropertyGroup, work: Work, asked: Ensemble
 
 
 def with_shared(settings: bpy.types.PropertyGroup, work: Work, **others: Any) -> EnsembleSettings:
-    """Return the settings that a panel shows, with those that all kinds share from the panel Study.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used; the text names the key.
-    """
+    """Return the settings that a panel shows, with those that all kinds share from the panel Study."""
     study = table_of(settings.study, StudySettings)
     shared = {item.name: getattr(study, item.name) for item in fields(EnsembleSettings)}
     shared["criteria"] = _criteria(settings, work, study.criteria)

@@ -31,13 +31,7 @@ WORKS.append(WORK)
 
 
 def shown_optimisation(settings: bpy.types.PropertyGroup) -> Optimisation:
-    """Return the optimisation that the panels show, of the scenario that they show.
-
-    Raises
-    ------
-    DemolitionError
-        A value cannot be used; the text names the key.
-    """
+    """Return the optimisation that the panels show, of the scenario that they show."""
     return optimisation_of(with_shared(settings, WORK), scenario_of(settings))
 
 

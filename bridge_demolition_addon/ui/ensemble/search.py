@@ -31,13 +31,7 @@ WORKS.append(WORK)
 
 
 def shown_search(settings: bpy.types.PropertyGroup) -> Search:
-    """Return the search that the panels show, of the scenario that they show.
-
-    Raises
-    ------
-    DemolitionError
-        A value cannot be used; the text names the key.
-    """
+    """Return the search that the panels show, of the scenario that they show."""
     scenario, quantity = scenario_of(settings), settings.search_quantity
     of_quantity = {}
     if quantity != ANOTHER_KEY:

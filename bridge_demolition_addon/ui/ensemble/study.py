@@ -89,13 +89,7 @@ def show(path: Path) -> ShownStudy:
 
 
 def shown_study(settings: bpy.types.PropertyGroup) -> Study:
-    """Return the study that the panels show, of the scenario that they show.
-
-    Raises
-    ------
-    DemolitionError
-        A value cannot be used; the text names the key.
-    """
+    """Return the study that the panels show, of the scenario that they show."""
     return study_of(table_of(settings.study, StudySettings), scenario_of(settings))
 
 

@@ -40,13 +40,7 @@ def is_wanted(context: bpy.types.Context) -> bool:
 
 
 def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:
-    """Return what the panels would build as lines (2 k, 3) float, m; none where just that is built.
-
-    Raises
-    ------
-    ScenarioError
-        A size cannot be used; the text names the key.
-    """
+    """Return what the panels would build as lines (2 k, 3) float, m; none where just that is built."""
     sizes = sizes_shown(settings)
     if settings.built_scenario and sizes == _sizes_of(settings.built_scenario):
         return np.zeros((0, 3))
@@ -54,13 +48,7 @@ def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:
 
 
 def sizes_shown(settings: bpy.types.PropertyGroup) -> tuple[Bridge | None, Ball | None, bool]:
-    """Return bridge and ball as the panels show them, and whether the bridge is all there is to fall on.
-
-    Raises
-    ------
-    ScenarioError
-        A size cannot be used; the text names the key.
-    """
+    """Return bridge and ball as the panels show them, and whether the bridge is all there is to fall on."""
     group = settings.scenario
     return inner_of(group, _FIELDS["bridge"]), inner_of(group, _FIELDS["ball"]), not len(group.geometry)
 

@@ -140,13 +140,7 @@ def warn_of_changed_bodies(operator: bpy.types.Operator, recording: Recording) -
 
 
 def check_output(settings: bpy.types.PropertyGroup) -> None:
-    """See that the folder and the files of logs that are chosen can be used, without changing anything.
-
-    Raises
-    ------
-    OutputError
-        One of them cannot be used.
-    """
+    """See that the folder and the files of logs that are chosen can be used, without changing anything."""
     for path in (settings.force_log_path, settings.debris_log_path):
         _log_file(path, settings.overwrite)
     if settings.output_directory:

@@ -216,13 +216,7 @@ class BDA_OT_open_report(Action, bpy.types.Operator):
 
 
 def folder_to_report(scene: bpy.types.Scene) -> Path:
-    """Return the folder whose run a report is of: the chosen one, or else that of the scene's run.
-
-    Raises
-    ------
-    OutputError
-        The scene's run is not there any more.
-    """
+    """Return the folder whose run a report is of: the chosen one, or else that of the scene's run."""
     chosen = scene.bda.output_directory
     return absolute(chosen) if chosen else folder_of_run(scene)
 
@@ -234,13 +228,7 @@ def new_export(folder: Path, form: Format) -> Path:
 
 
 def open_path(path: Path) -> None:
-    """Open a folder or file as the system does.
-
-    Raises
-    ------
-    OutputError
-        It is not there any more, or the system has nothing that opens it.
-    """
+    """Open a folder or file as the system does."""
     if not path.exists():
         raise OutputError(f"{path}: is not there any more")
     if sys.platform.startswith("linux") and not shutil.which(_OPENER):

@@ -65,13 +65,7 @@ class ShownRun:
 
     @classmethod
     def of(cls, folder: Path, summary: RunSummary, last_frame: int, results: Callable[[], Results]) -> ShownRun:
-        """Put a summary into texts.
-
-        Raises
-        ------
-        OutputError
-            It is not one that a run writes.
-        """
+        """Put a summary into texts."""
         try:
             force, throw = summary.largest_force_n, summary.largest_throw_m
             return cls(

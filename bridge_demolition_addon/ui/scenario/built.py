@@ -156,13 +156,7 @@ def counts_in_building(item: Field) -> bool:
 
 
 def shown_site(settings: bpy.types.PropertyGroup) -> dict[str, Any]:
-    """Return what only reports read of a scenario, as the panels show it.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used; the text names the key.
-    """
+    """Return what only reports read of a scenario, as the panels show it."""
     fields = {item.name: item for item in shown_tables(Scenario)}
     return {name: inner_of(settings.scenario, fields[name]) for name in _SITE}
 
@@ -181,13 +175,7 @@ def changed_in_blender(scene: bpy.types.Scene) -> list[ChangedValue]:
 
 
 def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
-    """Return what a scene was built from, with all that a run takes as it is shown; None where it was not built.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used, or has changed since the scene was built.
-    """
+    """Return what a scene was built from, with all that a run takes as it is shown; None where it was not built."""
     if not settings.built_scenario:
         return None
     built, shown = scenario_from_text(settings.built_scenario), scenario_of(settings)

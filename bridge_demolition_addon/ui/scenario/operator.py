@@ -227,11 +227,6 @@ def build(scene: bpy.types.Scene, *, anew: bool = False) -> str:
         Where to.
     anew
         Whether it takes the place of what was built there before.
-
-    Raises
-    ------
-    DemolitionError
-        The scenario cannot be built; what was there before is as it was.
     """
     settings = scene.bda
     is_new = settings.scenario_path not in ("", settings.loaded_path)
@@ -254,11 +249,6 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
         Whether the panels show it already.
     anew
         Whether it takes the place of what was built there before.
-
-    Raises
-    ------
-    DemolitionError
-        The scenario cannot be built; what was there before is as it was.
     """
     settings, model = scene.bda, checked_model(scenario)
     if anew:

@@ -38,24 +38,12 @@ _ROUNDING = 1e-14
 
 
 def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
-    """Return the scenario that the sidebar shows, with the charges of its scene.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used; the text names the key.
-    """
+    """Return the scenario that the sidebar shows, with the charges of its scene."""
     return table_of(settings.scenario, Scenario, charges=_charges(settings))
 
 
 def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others: Any) -> Table:
-    """Return the table that a property group shows; values that are given take the place of those that it shows.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used; the text names the key.
-    """
+    """Return the table that a property group shows; values that are given take the place of those that it shows."""
     given = values_from_text(getattr(group, GIVEN), {})
     values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in shown_keys(table_class)}
     for item in shown_tables(table_class):
@@ -64,13 +52,7 @@ def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others:
 
 
 def inner_of(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table, ...] | None:
-    """Return the table, or the tables, that a group shows in one field; None where it is not used.
-
-    Raises
-    ------
-    ScenarioError
-        A value cannot be used; the text names the key.
-    """
+    """Return the table, or the tables, that a group shows in one field; None where it is not used."""
     table_class = subtable_class(item)
     inner = getattr(group, item.name)
     if not holds_many(item):
