@@ -55,7 +55,8 @@ def test_runs_that_did_not_finish_are_named_and_count():
     assert told.notices[0].startswith("These runs set no limit: 2 of 93 did not finish")
     assert "2 of 93 runs did not finish: 17 (crashed), 60 (timed out)." in told.notices
     assert "limit" not in told.column("study_areas", "area")
-    assert any(text.startswith("Where the probability is below 5 % cannot be said: 2 runs") for text in told.paragraphs)
+    beginning = "Where the probability is below 5 % cannot be stated: 2 runs"
+    assert any(text.startswith(beginning) for text in told.paragraphs)
 
 
 def test_runs_that_still_moved_are_counted(told):

@@ -36,7 +36,7 @@ def varied_section(runs: ReportedEnsemble) -> Section:
         Column("median", "median", ".5g"),
         Column("highest", "highest", ".5g"),
     )
-    rows = [_varied_row(runs, each) for each in runs.ensemble.variations]
+    rows = [_varied_row(runs, variation) for variation in runs.ensemble.variations]
     words = (
         "All inputs are drawn for each run, independently of each other. The seed of the fracture, which decides "
         "how the shards are cut, is drawn as well."
@@ -65,12 +65,12 @@ def influence_section(runs: ReportedEnsemble) -> Section | None:
     blocks: list[Block] = [Paragraph(words)]
     if cells := correlations_of(runs):
         inputs, outputs = (list(dict.fromkeys(column)) for column in list(zip(*cells, strict=True))[:2])
-        values = {(one, other): value for one, other, value in cells}
+        values = {(name, output): value for name, output, value in cells}
         picture = partial(
             correlation_map,
             inputs=[shown(name) for name in inputs],
             outputs=[shown(name) for name in outputs],
-            correlations=np.array([[values.get((one, other), math.nan) for other in outputs] for one in inputs]),
+            correlations=np.array([[values.get((name, output), math.nan) for output in outputs] for name in inputs]),
             by_chance=by_chance,
         )
         title = "Rank correlation of each output with each input, in the order of the strongest."
@@ -82,13 +82,13 @@ def influence_section(runs: ReportedEnsemble) -> Section | None:
 
 def correlations_of(runs: ReportedEnsemble) -> list[tuple[str, str, float]]:
     """Return inputs, outputs and their rank correlations, as far as both change, the strongest first."""
-    found = [
-        (one, other, _correlation(runs, one, other))
-        for one in runs.varied
-        if runs.table.input(one).dtype == float
-        for other in (*runs.numbers, *runs.criteria)
+    cells = [
+        (name, output, _correlation(runs, name, output))
+        for name in runs.varied
+        if runs.table.input(name).dtype == float
+        for output in (*runs.numbers, *runs.criteria)
     ]
-    return sorted((cell for cell in found if math.isfinite(cell[2])), key=lambda cell: -abs(cell[2]))
+    return sorted((cell for cell in cells if math.isfinite(cell[2])), key=lambda cell: -abs(cell[2]))
 
 
 def correlation_table(runs: ReportedEnsemble) -> DataTable:
@@ -114,10 +114,10 @@ def _varied_row(runs: ReportedEnsemble, variation: Variation) -> tuple:
 
 def _settings(distribution: Distribution) -> Iterator[str]:
     """Yield the settings of a distribution, each as text."""
-    for each in fields(distribution):
-        value = getattr(distribution, each.name)
-        if value != each.default:
-            yield f"{each.name.replace('_', ' ')} {_words(value)}"
+    for item in fields(distribution):
+        value = getattr(distribution, item.name)
+        if value != item.default:
+            yield f"{item.name.replace('_', ' ')} {_words(value)}"
 
 
 def _words(value: object) -> str:

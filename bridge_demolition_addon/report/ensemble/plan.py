@@ -78,17 +78,17 @@ def _likely_by_words(runs: StudyRuns) -> dict[str, CrossSection]:
 
 
 def _words(runs: StudyRuns) -> Iterator[str]:
-    settings, found = runs.ensemble.settings, given(runs.map)
+    settings, likely = runs.ensemble.settings, given(runs.map)
     yield (
-        f"The plan is cut into squares of {found.cells.side_m:g} m. For each of them the probability that a run brings "
+        f"The plan is cut into squares of {likely.cells.side_m:g} m. For each the probability that a run brings "
         "debris there, even over a corner of it and only for a moment, has an upper limit after Clopper and Pearson. "
         "These limits hold for each place by itself. For all places at once there is the limit around the bridge."
     )
     for level in LEVELS:
-        if not found.resolves(level):
-            needed = found.runs_for(level)
-            why = f"it takes {needed} runs" if found.runs < needed else f"{found.unfinished} runs did not finish"
-            yield f"Where the probability is below {percent(level)} cannot be said: {why}."
+        if not likely.resolves(level):
+            needed = likely.runs_for(level)
+            why = f"it takes {needed} runs" if likely.runs < needed else f"{likely.unfinished} runs did not finish"
+            yield f"Where the probability is below {percent(level)} cannot be stated: {why}."
     if corners := runs.hull_corners:
         yield shape_sentence(corners, settings.quantile, settings.confidence)
     if runs.conclusions:

@@ -51,15 +51,15 @@ class ReportedEnsemble:
         evaluated
             Returns the further attributes of a subclass, from the ensemble and its table.
         """
-        found = read_ensemble(folder)
+        read = read_ensemble(folder)
         try:
-            attributes = evaluated(found.ensemble, found.table)
+            attributes = evaluated(read.ensemble, read.table)
         except (KeyError, TypeError, ValueError) as error:
             raise OutputError(
-                f"{folder / found.ensemble.table_file} is damaged ({error}): go on with the command that started the "
-                f"{found.ensemble.kind}"
+                f"{folder / read.ensemble.table_file} is damaged ({error}): go on with the command that started the "
+                f"{read.ensemble.kind}"
             ) from error
-        return cls(found.name, found.ensemble, found.table, found.versions, **attributes)
+        return cls(read.name, read.ensemble, read.table, read.versions, **attributes)
 
     @property
     def criteria(self) -> tuple[str, ...]:
@@ -91,7 +91,7 @@ def shown(name: str) -> str:
     in_list = _IN_LIST.search(name)
     place = in_list[0] if in_list else ""
     name = name.removesuffix(place)
-    name = _QUOTED_OR_DOT.sub(lambda found: " " if found[0] == "." else found[0], name)
+    name = _QUOTED_OR_DOT.sub(lambda part: " " if part[0] == "." else part[0], name)
     for ending, unit in _UNITS.items():
         if name.endswith(ending):
             return f"{name.removesuffix(ending).replace('_', ' ')}{place.replace('.', ' ')} ({unit})"

@@ -86,7 +86,7 @@ def _other_outputs(runs: ReportedEnsemble) -> tuple[str, ...]:
 
 
 def _strongest_inputs(runs: ReportedEnsemble, without: Sequence[str]) -> tuple[str, ...]:
-    strongest = [one for one, other, _ in correlations_of(runs) if other == REACH]
+    strongest = [name for name, output, _ in correlations_of(runs) if output == REACH]
     names = [name for name in dict.fromkeys([*strongest, *runs.varied]) if name not in without]
     return tuple(names[:_MOST_INPUTS])
 

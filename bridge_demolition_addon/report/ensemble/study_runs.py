@@ -64,7 +64,7 @@ class StudyRuns(ReportedEnsemble):
         zones = (
             []
             if self.bridge.is_empty()
-            else [each for each in self.ensemble.scenario.zones if holds(each, self.bridge)]
+            else [zone for zone in self.ensemble.scenario.zones if holds(zone, self.bridge)]
         )
         return [proportion_leaving(zone, self.swept, self.ensemble.settings.confidence) for zone in zones]
 
@@ -89,10 +89,10 @@ class StudyRuns(ReportedEnsemble):
         if self.conclusions is None or not math.isfinite(self.conclusions.reach.limit_m):
             return {}
         limit_m = self.conclusions.reach.limit_m
-        found = {"limit": (limit_m, widened_around(self.bridge, limit_m))}
+        limits = {"limit": (limit_m, widened_around(self.bridge, limit_m))}
         if self.buffer_m:
-            found["limit and buffer"] = limit_m + self.buffer_m, widened_around(self.bridge, limit_m + self.buffer_m)
-        return found
+            limits["limit and buffer"] = limit_m + self.buffer_m, widened_around(self.bridge, limit_m + self.buffer_m)
+        return limits
 
     @property
     def limit(self) -> CrossSection | None:
