@@ -103,7 +103,7 @@ def body_settings_of(scene: bpy.types.Scene) -> BodySettings:
 def _keys(body: bpy.types.Object) -> np.ndarray:
     if not (body.animation_data and body.animation_data.action) or lifts_of(body):
         return np.zeros(0)
-    keys = [np.zeros(0)]
+    keys: list[np.ndarray] = [np.zeros(0)]
     for curve in curves_of(body.animation_data):
         points = np.empty(2 * len(curve.keyframe_points), np.float32)
         curve.keyframe_points.foreach_get("co", points)

@@ -62,9 +62,9 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
     record = scenario.ground_record
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
         shards = _build(scene, scenario, model)
-        keep_ground_motion(scene, record, scenario.ground_motion.start_s if record else 0.0)
+        start_s = scenario.ground_motion.start_s if scenario.ground_motion else 0.0
+        keep_ground_motion(scene, record, start_s)
         if record:
-            start_s = scenario.ground_motion.start_s
             move_with_ground(scene, record, start_s, FIRST_STEP_FRAME - 1, scenario.timeline)
         return shards
 

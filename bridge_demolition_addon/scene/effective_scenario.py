@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from ..model.schema import Table
 from .bodies import Kind
 from .body_settings import BodySettings
 from .world import START_FRAME
+
+_Table = TypeVar("_Table", bound=Table)
 
 if TYPE_CHECKING:
     from .run_setup import RunSetup
@@ -148,5 +150,5 @@ def _read(values: Mapping[str, Any], given: Table) -> dict[str, Any]:
     return {name: as_given(value, getattr(given, name)) for name, value in values.items()}
 
 
-def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
+def _replaced(table: _Table, values: Mapping[str, Any]) -> _Table:
     return replace(table, **values) if any(getattr(table, name) != value for name, value in values.items()) else table

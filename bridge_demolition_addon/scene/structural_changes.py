@@ -32,7 +32,8 @@ def _keep(scene: bpy.types.Scene, name: str, tables: Sequence[Table]) -> None:
 
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
     """Return the changes that a scene keeps."""
-    return tables_from_text(scene.get(_CHANGES, ""), (Removal, SawCut, Weakening))
+    classes: tuple[type[Change], ...] = (Removal, SawCut, Weakening)
+    return tables_from_text(scene.get(_CHANGES, ""), classes)
 
 
 def loads_of(scene: bpy.types.Scene) -> tuple[Load, ...]:

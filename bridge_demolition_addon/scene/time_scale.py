@@ -88,7 +88,8 @@ def animate_time_scale(scene: bpy.types.Scene, timeline: Timeline, first_frame: 
     for frame, scale in keys.items():
         world.time_scale = scale
         scene.keyframe_insert(_PATH, frame=frame)
-    for point in _curve(scene).keyframe_points:
+    curve = _curve(scene)
+    for point in curve.keyframe_points if curve else ():
         point.interpolation = "CONSTANT"
     world.time_scale = normal
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...engineering.arithmetic import cosine, sine
 from ...engineering.geometry.vectors import length, points_along
@@ -319,7 +320,7 @@ class Ball(_Drop, PlannedAction):
             raise cable.unexpected("length_m", wanted)
 
 
-def lift_path(start_m: np.ndarray, end_m: np.ndarray, shares: np.ndarray) -> np.ndarray:
+def lift_path(start_m: ArrayLike, end_m: ArrayLike, shares: np.ndarray) -> np.ndarray:
     """Return the positions of a lifted ball: straight up, then level to its next drop.
 
     It goes up by the way that it came down. Its speed rises from 0 and falls to 0 again, with 3 s² - 2 s³ of the way

@@ -20,7 +20,7 @@ def tables_text(tables: Iterable[Table]) -> str:
     return values_text([{"table": each.table, **asdict(each)} for each in tables])
 
 
-def tables_from_text(text: str, classes: Iterable[type[Table]]) -> tuple[Table, ...]:
+def tables_from_text(text: str, classes: Iterable[type[_Table]]) -> tuple[_Table, ...]:
     """Return the tables in a JSON list, each of one of some classes; none where the text is empty."""
     named = {each.table: each for each in classes}
     kept = values_from_text(text, [])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from numbers import Real
+from typing import Any
 
 import bpy
 from mathutils import Matrix, Vector
@@ -25,7 +26,7 @@ _SYMBOL_SIZE_M = 0.3
 _SYMBOL_SEGMENTS = 16
 _SYMBOL_MARK = "bda_charge_symbol"
 
-_SHOWN = {
+_SHOWN: dict[str, dict[str, Any]] = {
     MASS: {"min": 0.0, "description": "Mass of the explosive itself, in kg; with 0 nothing goes off"},
     EXPLOSIVE: {"description": "What it is made of: " + ", ".join(EXPLOSIVES)},
     DELAY: {

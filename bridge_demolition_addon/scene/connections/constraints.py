@@ -70,7 +70,8 @@ def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np
 
 def _normal(connection: bpy.types.Object) -> tuple[float, float, float]:
     if _NORMAL in connection:
-        return kept_numbers(connection, _NORMAL, (0.0, 0.0, 1.0))
+        x, y, z = kept_numbers(connection, _NORMAL, (0.0, 0.0, 1.0))
+        return x, y, z
     constraint = connection.rigid_body_constraint
     between = constraint.object2.matrix_world.translation - constraint.object1.matrix_world.translation
     return tuple(between.normalized()) if between.length else (0.0, 0.0, 1.0)

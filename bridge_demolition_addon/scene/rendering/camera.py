@@ -51,7 +51,7 @@ def aim_camera(
     return camera
 
 
-def stand(camera: bpy.types.Object, place: Sequence[float], back: Vector) -> None:
+def stand(camera: bpy.types.Object, place: Sequence[float] | np.ndarray, back: Vector) -> None:
     """Put a camera in a place, with this direction behind it."""
     camera.location, camera.rotation_euler = place, back.to_track_quat("Z", "Y").to_euler()
 

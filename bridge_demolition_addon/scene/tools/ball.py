@@ -12,6 +12,7 @@ from ...engineering.geometry.solids import sphere
 from ...model.scenario import Ball
 from ...model.scenario.ball import lift_path
 from ...model.scenario.kept import values_from_text, values_text
+from ...model.schema import given
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from ..custom_properties import edited
 from ..world import START_FRAME
@@ -29,7 +30,7 @@ def create_ball(site: BuildSite, settings: Ball) -> bpy.types.Object:
 
     In the release frame it is free for the first time, so that it falls in the step towards that frame.
     """
-    surfaces_m = [site.height_at(drop.target_m) for drop in settings.drops]
+    surfaces_m = [site.height_at(given(drop.target_m)) for drop in settings.drops]
     radius = settings.diameter_m / 2.0
     ball = create_body(site.world, mesh_of("Wrecking ball", sphere(radius, _BALL_SEGMENTS)), Kind.BALL, "SPHERE")
     ball.location = settings.start_m(surfaces_m[0] if surfaces_m else 0.0)
@@ -61,7 +62,8 @@ def _create_hits(site: BuildSite, ball: bpy.types.Object, settings: Ball, surfac
     release_frame = site.frame_after(settings.release_time_s)
     key_values(ball, "location", [START_FRAME, release_frame], [start, start])
     key_values(ball, "rotation_euler", [START_FRAME], [ball.rotation_euler], constant=True)
-    lying = (*settings.target_m, surfaces_m[0] + radius)
+    along, across = given(settings.target_m)
+    lying = (along, across, surfaces_m[0] + radius)
     for hit, surface in zip(settings.hits, surfaces_m[1:], strict=True):
         end = (*hit.target_m, surface + hit.drop_height_m + radius)
         first, last = (site.timeline.frames_until(time_s) for time_s in (hit.lift_time_s, hit.lift_end_s))

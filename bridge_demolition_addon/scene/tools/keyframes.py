@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 def key_values(
-    body: bpy.types.Object, data_path: str, frames: np.ndarray, values: np.ndarray, *, constant: bool = False
+    body: bpy.types.Object,
+    data_path: str,
+    frames: Sequence[float] | np.ndarray,
+    values: ArrayLike,
+    *,
+    constant: bool = False,
 ) -> None:
     """Set keyframes of a property with k components; its other keyframes stay.
 
@@ -18,10 +26,10 @@ def key_values(
     constant : bool
         Whether values hold until the next keyframe, instead of going there in a straight line.
     """
-    values = np.asarray(values, float).reshape(len(frames), -1)
-    for index in range(values.shape[1]):
+    columns = np.asarray(values, float).reshape(len(frames), -1).T
+    for index, column in enumerate(columns):
         curve = _curve(body, data_path, index)
-        keys = {**_keys(curve), **dict(zip(np.asarray(frames, float).tolist(), values[:, index].tolist(), strict=True))}
+        keys = {**_keys(curve), **dict(zip(np.asarray(frames, float).tolist(), column.tolist(), strict=True))}
         points = curve.keyframe_points
         points.add(len(keys) - len(points))
         points.foreach_set("co", np.array(sorted(keys.items())).ravel())
