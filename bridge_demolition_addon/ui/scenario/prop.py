@@ -96,8 +96,12 @@ def is_written_out(item: Field) -> bool:
 
 
 def shown_keys(table_class: type[Table]) -> list[Field]:
-    """Return the keys of a table; of searches and optimisations those that they do not share with studies."""
-    return [item for item in key_fields(table_class) if not _is_of_study(table_class, item)]
+    """Return the keys of a table; of searches and optimisations those that they do not share with studies.
+
+    Of a study its own come first, then those that it shares.
+    """
+    keys = [item for item in key_fields(table_class) if not _is_of_study(table_class, item)]
+    return sorted(keys, key=lambda item: table_class is StudySettings and item.name in _SHARED)
 
 
 def shown_tables(table_class: type[Table]) -> list[Field]:
