@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -56,7 +57,7 @@ class BodyMotionReader:
         body = layout.body
         transform = [body.transform + 32 * row + _VECTOR for row in range(4)]
         vectors = [body.linear_velocity, body.angular_velocity, body.total_force, body.total_force + 32]
-        offsets = [*transform, *(start + _VECTOR for start in vectors), [body.inverse_mass]]
+        offsets: list[Any] = [*transform, *(start + _VECTOR for start in vectors), [body.inverse_mass]]
         self._bodies, self._body = bodies, body
         self._motion = Places(bodies, np.concatenate(offsets))
         rows = [body.inverse_inertia + 32 * row + _VECTOR for row in range(3)]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterable
+from typing import Any
 
 import bpy
 import numpy as np
@@ -112,7 +113,7 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
     if raw is None:
         raise LayoutError(f"memory {name} cannot be read")
 
-    def value(format_: str, offset: int) -> int | float:
+    def value(format_: str, offset: int) -> Any:
         return struct.unpack_from("<" + format_, raw, offset)[0]
 
     _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)

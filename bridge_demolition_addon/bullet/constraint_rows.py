@@ -65,7 +65,8 @@ class ConstraintRows:
         for offset in (self._layout.spring.frame_a, self._layout.spring.frame_b):
             values = gather_doubles(self._addresses + np.uint64(offset), 15).T
             found += [values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()]
-        return tuple(found)
+        axes_a, places_a, axes_b, places_b = found
+        return axes_a, places_a, axes_b, places_b
 
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of constraints (r,) corrected in a sub-step, as softly as given.

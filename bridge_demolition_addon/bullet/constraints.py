@@ -118,7 +118,7 @@ class ConstraintTable:
     def let_broken_collide(self, intact: np.ndarray) -> None:
         """Let the bodies of connections (m,) that broke since the last call, and are not intact now, collide again."""
         broken = self._forbids_collision & ~intact
-        if broken.any():
+        if self._collision_pairs is not None and broken.any():
             self._collision_pairs.restore(self._pair_rows[broken])
             self._forbids_collision[broken] = False
 

@@ -255,8 +255,8 @@ def _check_point(layout: Layout, address: int, frictions: list[float]) -> None:
     # Bullet multiplies the two.
     friction = min(frictions[0] * frictions[1], _LARGEST_FRICTION)
     checks: Mapping[str, bool] = {
-        "normal": abs(length(normal) - 1.0) <= _UNIT,
-        "distance": abs(dot(gap, normal) - doubles[point.distance // 8]) <= _UNIT * reach,
+        "normal": bool(abs(length(normal) - 1.0) <= _UNIT),
+        "distance": bool(abs(dot(gap, normal) - doubles[point.distance // 8]) <= _UNIT * reach),
         "friction": abs(doubles[point.friction // 8] - friction) <= _UNIT * (1.0 + friction),
         "normal impulse": 0.0 <= doubles[point.normal_impulse // 8] < np.inf,
     }

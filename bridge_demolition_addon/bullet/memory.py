@@ -12,6 +12,7 @@ import os
 import struct
 import sys
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +29,7 @@ def read(address: int, size: int) -> bytes | None:
     return _read_own_process(address, size)
 
 
-def read_value(address: int, format_: str) -> int | float:
+def read_value(address: int, format_: str) -> Any:
     """One value at `address`, in `struct` notation."""
     raw = read(address, struct.calcsize("<" + format_))
     if raw is None:
@@ -38,7 +39,7 @@ def read_value(address: int, format_: str) -> int | float:
 
 def read_pointer(address: int) -> int:
     """Pointer at `address`, 0 where it is null."""
-    pointer = read_value(address, "Q")
+    pointer: int = read_value(address, "Q")
     if pointer and (pointer < _LOWEST or pointer >= _HIGHEST or pointer % 8):
         raise LayoutError(f"no pointer at {address:#x} but {pointer:#x}")
     return pointer
@@ -63,7 +64,9 @@ class Places:
         What the values are.
     """
 
-    def __init__(self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, type_: type = np.float64):
+    def __init__(
+        self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, type_: type[np.generic] = np.float64
+    ):
         self._space = _SPACES[type_]
         self._starts = _indices(addresses, self._space.itemsize)
         self._offsets = np.asarray(offsets, np.int64)[:, None] // self._space.itemsize
@@ -132,7 +135,7 @@ def write_integers(addresses: np.ndarray, values: np.ndarray | int) -> None:
     _INTEGERS[_indices(addresses, 4)] = values
 
 
-def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | int) -> None:
+def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | np.uint64 | int) -> None:
     """Write pointers to checked addresses."""
     _POINTERS[_indices(addresses, 8)] = pointers
 
@@ -189,7 +192,7 @@ def _linux_reader() -> Callable[[int, int], bytes | None]:
 
 
 def _windows_reader() -> Callable[[int, int], bytes | None]:
-    kernel = ctypes.windll.kernel32
+    kernel = getattr(ctypes, "windll").kernel32  # noqa: B009, it is on Windows alone
     kernel.GetCurrentProcess.restype = ctypes.c_void_p
     process = ctypes.c_void_p(kernel.GetCurrentProcess())
 

@@ -11,6 +11,7 @@ import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 import bpy
 import numpy as np
@@ -137,14 +138,20 @@ class BulletWorld:
         return WorldState.NEW
 
     @property
+    def _world(self) -> _BoundWorld:
+        """The world that it is bound to."""
+        assert self._bound is not None
+        return self._bound
+
+    @property
     def bodies(self) -> BodyTable:
         """Its bodies, as long as it is bound."""
-        return self._bound.bodies
+        return self._world.bodies
 
     @property
     def constraints(self) -> ConstraintTable:
         """Its connections, as long as it is bound."""
-        return self._bound.constraints
+        return self._world.constraints
 
     def call_around_substeps(
         self, before: Callable[[float], None], after: Callable[[float], None] | None = None
@@ -156,8 +163,8 @@ class BulletWorld:
         """
         world = self._layout.world
         for field, action in ((world.before_step, before), (world.after_step, after)):
-            address = ctypes.cast(_callback(action), ctypes.c_void_p).value if action else 0
-            write_pointers(self._bound.dynamics + field, address)
+            address = ctypes.cast(_callback(action), ctypes.c_void_p).value or 0 if action else 0
+            write_pointers(self._world.dynamics + field, address)
 
     def take_substep(self) -> float:
         """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
@@ -165,7 +172,7 @@ class BulletWorld:
         Bullet writes the length at every sub-step and never reads it back, so that taking it out tells frames that
         were simulated from frames that Blender played back from its cache.
         """
-        address = self._bound.dynamics + self._layout.world.step
+        address = self._world.dynamics + self._layout.world.step
         substep = float(gather_doubles(np.array([address]))[0, 0])
         write_doubles(np.array([address]), 0.0)
         return substep
@@ -215,7 +222,7 @@ class BulletWorld:
             self.constraints.restore()
             world = self._layout.world
             for field in (world.before_step, world.after_step, world.user_info):
-                write_pointers(self._bound.dynamics + field, 0)
+                write_pointers(self._world.dynamics + field, 0)
         self._bound = None
 
     def detach_freed(self, *, bodies_stay: bool = True) -> None:
@@ -230,7 +237,7 @@ class BulletWorld:
         """
         if not self._is_bound_to(self._find()):
             return
-        bound, constraints = self._bound, self.constraints
+        bound, constraints = self._world, self.constraints
         connections = constraints.existing
         alive = constraints.forget_freed()
         constraints.stop_loads()
@@ -251,7 +258,7 @@ class BulletWorld:
         """Return whether Blender has added anything to the world since it was bound, as it does after an edit."""
         world, count = self._layout.world, self._layout.array.count
         known = ((world.bodies, len(self.bodies)), (world.constraints, len(self.constraints.existing)))
-        return any(read_value(self._bound.dynamics + array + count, "i") > number for array, number in known)
+        return any(read_value(self._world.dynamics + array + count, "i") > number for array, number in known)
 
     def take_out_edited(self) -> list[bpy.types.Object]:
         """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
@@ -264,10 +271,10 @@ class BulletWorld:
         LayoutError
             Memory is not as expected; nothing has been written.
         """
-        if not self._is_bound_to(self._find()) or self._bound.copies is None:
+        if not self._is_bound_to(self._find()) or self._world.copies is None:
             return []
-        bound, constraints = self._bound, self.constraints
-        rows = self._bound.copies.edited_rows(self.scene)
+        bound, constraints = self._world, self.constraints
+        rows = self._world.copies.edited_rows(self.scene)
         rows = rows[constraints.exists[rows]]
         if len(rows):
             known, gone = set(constraints.existing.tolist()), set(constraints.addresses[rows].tolist())
@@ -286,7 +293,7 @@ class BulletWorld:
     def _is_marked(self, dynamics: int) -> bool:
         if not (dynamics and self._token):
             return False
-        return read_value(dynamics + self._layout.world.user_info, "Q") == self._token
+        return bool(read_value(dynamics + self._layout.world.user_info, "Q") == self._token)
 
     def _check(self, dynamics: int, depsgraph: bpy.types.Depsgraph, to_read: bool) -> _BoundWorld:
         """Check a new world from end to end. Nothing is written."""
@@ -309,7 +316,7 @@ class BulletWorld:
         return _BoundWorld(dynamics, BodyTable(layout, bodies, contacts), table, copies)
 
 
-def _callback(action: Callable[[float], None]) -> object:
+def _callback(action: Callable[[float], None]) -> Any:
     """A function as Bullet calls it, never to be freed."""
     callback = _STEP_FUNCTION(lambda _world, substep: action(substep))
     _callbacks_bullet_may_call.append(callback)

@@ -16,6 +16,7 @@ from ..model.results.arrays import RESULTS_FILE, Results, load_results
 from ..model.run_folder.files import FORCE_CHART, SCENARIO_FILE
 from ..model.run_folder.folder import keep_ground_motion, keep_scenario
 from ..model.run_folder.summary import RunSummary, result_digest_in, write_summary
+from ..model.schema import given
 from ..scene.blast.charges import charges_of
 from ..scene.blast.settings import blast_of
 from ..scene.rendering.markers import mark_moments
@@ -55,7 +56,9 @@ def _mark_run(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> 
     """Mark on the scene's timeline what happened in its run."""
     settings = blast_of(scene)
     charges = charges_of(scene) if settings.explosion else ()
-    detonations_s = {charge.name: settings.start_s + charge.delay_s for charge in charges if charge.mass_kg > 0.0}
+    detonations_s = {
+        given(charge.name): settings.start_s + charge.delay_s for charge in charges if charge.mass_kg > 0.0
+    }
     mark_moments(scene, moments(results, np.array(scene.gravity), detonations_s, summary.came_to_rest_s))
 
 

@@ -99,7 +99,9 @@ class Playing:
             self._between.note(began_s - self._stepped_at_s)
             if last := self.recording.last:
                 substeps, frames = self._workload.to_come(last), self.total - self.done
-                self.left_s = self._stepping.left_s(substeps) + self._between.left_s(frames)
+                in_steps_s, between_s = self._stepping.left_s(substeps), self._between.left_s(frames)
+                if in_steps_s is not None and between_s is not None:
+                    self.left_s = in_steps_s + between_s
         self._stepped_at_s = began_s + took_s
 
     def end(self) -> None:

@@ -166,7 +166,7 @@ class RecordedScene:
         return self.recording is not None and self.recording.error is None
 
     def _with_recording(self, action: Callable[[Recording], None]) -> None:
-        if not self._is_recorded:
+        if self.recording is None or not self._is_recorded:
             return
         try:
             action(self.recording)
@@ -174,7 +174,8 @@ class RecordedScene:
             self._fail(error)
 
     def _fail(self, error: Exception) -> None:
-        self.recording.fail(error)
+        if self.recording is not None:
+            self.recording.fail(error)
         self._guard.end_sharing(self._depsgraphs())
 
     def _depsgraphs(self) -> list[bpy.types.Depsgraph]:

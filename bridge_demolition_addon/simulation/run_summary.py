@@ -19,6 +19,7 @@ from ..model.results.fingerprint import motion_digest, result_digest
 from ..model.results.removed_shards import without_removed
 from ..model.results.summary import settling, summarise
 from ..model.scenario import Scenario
+from ..model.schema import given
 from ..model.sequence.rest import Rest, last_event_s
 from ..model.sequence.undisturbed import fell_by_itself
 from ..model.structure.settlement import settlements
@@ -110,7 +111,7 @@ def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
     """Digests of what was built, how it moved and what came out, and what it was calculated with."""
     whole = {"result": result_digest(results)} if recording.has_loads else {}
     return {
-        "built": recording.setup.digest,
+        "built": given(recording.setup).digest,
         "motion": motion_digest(results),
         **whole,
         "processor": _processor(),
@@ -159,17 +160,17 @@ def rest_watch(scenario: Scenario, motion: GroundMotionOfScene | None) -> Rest:
 
 def _ground_motion(motion: GroundMotionOfScene | None) -> dict[str, Any] | None:
     """Largest acceleration, velocity and displacement of the ground along x, y and z, and when it moves."""
-    return motion and {"start_s": motion.start_s, "end_s": motion.end_s, **motion.record.peaks()}
+    return {"start_s": motion.start_s, "end_s": motion.end_s, **motion.record.peaks()} if motion else None
 
 
 def _of_scenario(
     scenario: Scenario, recording: Recording, results: Results, motion: GroundMotionOfScene | None
 ) -> dict[str, Any]:
     rest = rest_watch(scenario, motion)
-    for motion in zip(
+    for state in zip(
         results.frames.time_s, results.frames.positions_m, results.frames.rotations, results.frames.asleep, strict=True
     ):
-        rest.observe(*motion)
+        rest.observe(*state)
     return {
         "seed": scenario.seed,
         "charges": _charges(scenario, recording),

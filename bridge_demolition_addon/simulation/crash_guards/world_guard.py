@@ -15,6 +15,7 @@ import bpy
 from ...bullet.time_control import stop_time
 from ...bullet.world import BulletWorld, WorldState
 from ...errors import DemolitionError, LayoutError
+from ...model.schema import given
 from ...scene.bodies import bodies_of, is_marked
 from ...scene.connections.constraints import connections_of, loose_connections
 from .world_objects import WorldObjects
@@ -155,7 +156,7 @@ class WorldGuard:
     def _stand_still(self, scene: bpy.types.Scene, *, bodies_stay: bool = True) -> None:
         """Make the world safe and stop time; where memory is not as expected, Blender is left to itself."""
         try:
-            self._world.detach_freed(bodies_stay=bodies_stay)
+            given(self._world).detach_freed(bodies_stay=bodies_stay)
             stop_time(scene)
             self.stands_still = True
         except LayoutError:

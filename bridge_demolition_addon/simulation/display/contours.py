@@ -90,7 +90,9 @@ class ContourDisplay:
         Of stages it is the stage that is shown, which has no row.
         """
         if self._shows_stages:
-            return (self.stages.show(self.stage, self.settings), None) if self.stages else None
+            if self.stages is None or self.settings is None:
+                return None
+            return self.stages.show(self.stage, self.settings), None
         current = self.shown.current_row
         if self.settings is None or current is None:
             return None
@@ -131,7 +133,7 @@ class ContourDisplay:
 
     def _paint_stage(self, depsgraph: bpy.types.Depsgraph) -> None:
         world = self.scene.rigidbody_world
-        if self.stages is None or not (world and world.collection):
+        if self.stages is None or self.settings is None or not (world and world.collection):
             return
         shards = [body for body in bodies_of(self.scene) if kind_of(body) == Kind.SHARD]
         positions_m = np.array([body.location for body in shards]).reshape(-1, 3)

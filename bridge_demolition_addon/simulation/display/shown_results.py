@@ -8,6 +8,7 @@ from ...display.contours import ContourSeries
 from ...errors import ContourError
 from ...model.results.arrays import Results
 from ...model.results.frames import Frame
+from ...model.schema import given
 from ...scene.bodies import bodies_of
 from ...scene.rendering.body_colours import place, put_back
 from ..recording.recorder import Recording
@@ -103,7 +104,7 @@ class ShownResults:
             return None
         frames, series = self.recording.frames, self._recorded
         if series is None or series.recorded is not frames:
-            series = self._recorded = ContourSeries(self.recording.inventory, frames)
+            series = self._recorded = ContourSeries(given(self.recording.inventory), frames)
         series.follow()
         return series
 

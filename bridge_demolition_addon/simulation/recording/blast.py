@@ -16,6 +16,7 @@ from ...engineering.geometry.vectors import length
 from ...errors import LayoutError, SimulationError
 from ...model.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ...model.blast.settings import Apply
+from ...model.schema import given
 from ...scene.blast.charges import charges_of
 from ...scene.blast.field_reach import FieldReach, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
@@ -83,7 +84,7 @@ class FieldBlast:
             )
         if len(self._pushed):
             moves = (centres - self._centres)[self._pushed]
-            self.lost_loads += int((~self._reaches.contain(moves, self._directions)).sum())
+            self.lost_loads += int((~given(self._reaches).contain(moves, self._directions)).sum())
         return self._loads
 
     def rest(self) -> None:
@@ -175,7 +176,7 @@ class Blast(Driver):
         """Prepare a frame that begins at a time, is that long, and finds all bodies at positions (n, 3)."""
         if self._fields:
             self._fields.before_frame(start_s, frame_s, positions_m[self._rows], rotations[self._rows])
-        else:
+        elif self._direct:
             self._direct.begin_frame(start_s)
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
@@ -185,7 +186,8 @@ class Blast(Driver):
 
     def after_frame(self, positions_m: np.ndarray) -> tuple[StepLoads, np.ndarray]:
         """Return the loads of the frame, after which all bodies are at these positions, and their impulses (n, 3)."""
-        loads = self._fields.after_frame(positions_m[self._rows]) if self._fields else self._direct.after_frame()
+        positions_m = positions_m[self._rows]
+        loads = self._fields.after_frame(positions_m) if self._fields else given(self._direct).after_frame()
         loads = replace(loads, bodies=self._rows[loads.bodies])
         return loads, loads.vectors(self._count)
 

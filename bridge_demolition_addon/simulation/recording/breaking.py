@@ -10,6 +10,7 @@ from ...bullet.constraints import ConstraintTable
 from ...engineering.mechanics.frame_loads import Moment
 from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
 from ...engineering.mechanics.section_forces import SectionForces
+from ...model.schema import given
 from .drivers import Driver, WarmUp
 from .elastic_connections import ElasticConnections
 from .meter import Meter, Reading
@@ -130,7 +131,7 @@ class Breaker:
         if not self._warm_up.is_over or not self.uses_strength:
             return _NONE
         resistance = self._resistance
-        rows = resistance.overloads.candidates(loads, self._meter.lever_arms_m, resistance.remaining_strength)
+        rows = given(resistance.overloads).candidates(loads, self._meter.lever_arms_m, resistance.remaining_strength)
         return rows[self._intact[rows]]
 
     def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
@@ -138,7 +139,9 @@ class Breaker:
         loads = ConnectionLoads(moment.connection_forces_n, moment.connection_moments_nm, moment.connection_points_m)
         axes, resistance = self._meter.section_axes(moment.rotations, rows), self._resistance
         parts = resistance.elastic.parts if resistance.elastic else None
-        return resistance.overloads.breaking(rows, loads, axes, self._intact, resistance.remaining_strength, parts)
+        return given(resistance.overloads).breaking(
+            rows, loads, axes, self._intact, resistance.remaining_strength, parts
+        )
 
     def _break(self, rows: np.ndarray, loads: Moment) -> None:
         """Break connections (b,) under loads; their reinforcement holds on."""

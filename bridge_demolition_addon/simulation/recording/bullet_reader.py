@@ -15,6 +15,7 @@ from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...errors import LayoutError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.schema import given
 from ...scene.run_setup import RunSetup
 from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
@@ -132,7 +133,8 @@ class BulletReader:
     def _elastic_connections(self, setup: RunSetup) -> ElasticConnections | None:
         """Return the connections, None where Bullet's memory does not let them be elastic."""
         bodies, soil = setup.bodies.objects, setup.soil
-        stiffness, ratio = setup.elasticity.stiffness, setup.elasticity.damping_ratio
+        elasticity = given(setup.elasticity)
+        stiffness, ratio = elasticity.stiffness, elasticity.damping_ratio
         try:
             return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, soil)
         except LayoutError as error:
@@ -154,7 +156,7 @@ class BulletReader:
             return None
         if elastic:
             kinds = kinds_of(inventory.body_members[inventory.pairs])
-            thicknesses_m = self._setup.elasticity.thicknesses_m
+            thicknesses_m = given(self._setup.elasticity).thicknesses_m
             sections = MemberSections(inventory.faces, self._built_positions_m, inventory.moves, kinds, thicknesses_m)
         return Overloads(inventory.faces, inventory.moves, strength, sections)
 
@@ -227,7 +229,7 @@ class BulletReader:
         """Return loads and work of the frame, and what broke in it; unknown where loads are not read."""
         if self._sums:
             return self._sums.finish_frame()
-        return self._no_loads, FrameWork.unknown(len(self._inventory.masses_kg)), []
+        return given(self._no_loads), FrameWork.unknown(len(self._inventory.masses_kg)), []
 
     def _frame(self, substep_s: float, loads: FrameLoads, work: FrameWork) -> Frame:
         positions, rotations = self._world.bodies.positions()

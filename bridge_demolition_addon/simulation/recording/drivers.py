@@ -23,6 +23,7 @@ class Driver(Protocol):
 
     def after_substep(self) -> None:
         """Act after the sub-step, before anything is measured; most do nothing then."""
+        return
 
 
 class LastSubstepLoads(Driver):

@@ -30,6 +30,7 @@ from ...engineering.geometry.vectors import transformed_back
 from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.mechanics.strength import rectangular_sections
 from ...model.results.inventory import Inventory
+from ...model.schema import given
 from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
 
@@ -125,7 +126,8 @@ class ElasticConnections:
         self._rest = self._settle(motion)
         self._structure: ElasticStructure | None = None
         self._is_first = is_first
-        self._inventory, self._cracks = inventory, None
+        self._inventory = inventory
+        self._cracks: Cracks | None = None
         self._built = motion
         self._substep_s = 0.0
         self._loads = np.zeros((2, 6, len(self._frames)))
@@ -145,13 +147,13 @@ class ElasticConnections:
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
         self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
         self._face_directions = components_first(sections.directions)
-        ductility = breaking.ductility
-        even = ductility.strength_share * breaking.strength.tension_pa * self._inventory.areas_m2
+        ductility = given(breaking.ductility)
+        even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
         yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
         if breaking.bars:
             places = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
             yield_n = yield_n + breaking.bars.yield_n * corner_shares(places, self._face_sides_m)
-        self._cracks = Cracks(breaking.steel, ductility.elongation_m, yield_n, left, self._axial_n_m)
+        self._cracks = Cracks(breaking.steel, float(ductility.elongation_m), yield_n, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke just now.
@@ -186,7 +188,7 @@ class ElasticConnections:
     @property
     def parts(self) -> np.ndarray:
         """What connections (m,) held together as the sub-step began: a number for each part, -1 for broken ones."""
-        return self._structure.part_of_connection
+        return given(self._structure).part_of_connection
 
     def begin_substep(self, substep_s: float) -> None:
         """Look at the bodies before a sub-step of a length in s, after all other loads on them."""
@@ -196,7 +198,7 @@ class ElasticConnections:
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
         velocities = left * motion.velocities
         velocities += substep_s * self._accelerations(motion, motion.loads)
-        self._structure.settle(motion.positions_m, motion.rotations)
+        given(self._structure).settle(motion.positions_m, motion.rotations)
         if self._footings:
             self._follow_lifting()
         self._start = StepInput(motion.positions_m, motion.rotations, velocities, motion.asleep)
@@ -210,7 +212,7 @@ class ElasticConnections:
             Forces and torques on Bullet's bodies A and B of each connection.
         """
         intact = self._world.constraints.intact()
-        self._coming = step = self._structure.step(self._start, intact, self._substep_s)
+        self._coming = step = given(self._structure).step(self._start, intact, self._substep_s)
         self._loads[:, :, ~self.holding(intact)] = 0.0
         for loads, of_connections, of_cracks in (
             (self._loads[0], step.of_first, step.of_cracks_on_first),
@@ -226,12 +228,12 @@ class ElasticConnections:
         moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
         self._reader.set_loads(moved, motion.loads[:, moved] + step.of_bodies[:, moved] / self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
-        self._structure.end_substep()
+        given(self._structure).end_substep()
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray:
         """Return the energy that is now in connections (m,) that are intact, or in what holds in their place."""
         motion = self._reader.read()
-        return self._structure.stored_j(motion.positions_m, motion.rotations) * self.holding(intact)
+        return given(self._structure).stored_j(motion.positions_m, motion.rotations) * self.holding(intact)
 
     def loads_on(self, sides: np.ndarray) -> np.ndarray:
         """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
@@ -282,7 +284,8 @@ class ElasticConnections:
 
     def _follow_lifting(self) -> None:
         """Let Bullet's own constraint of a footing answer as softly as what of it still touches the ground."""
-        touching, rows = self._footings.touching, self._footings.rows
+        footings = given(self._footings)
+        touching, rows = footings.touching, footings.rows
         changed = np.flatnonzero((touching != self._touching) & self._world.constraints.intact()[rows])
         if not len(changed):
             return

@@ -169,8 +169,8 @@ class FrameSums:
 
 def _stored_j(substeps: Sequence[MeasuredSubstep]) -> np.ndarray | None:
     """Energies (s, m) in elastic connections after sub-steps; None where they are rigid."""
-    stored = [substep.stored_j for substep in substeps]
-    return None if stored[0] is None else np.stack(stored)
+    stored = [substep.stored_j for substep in substeps if substep.stored_j is not None]
+    return np.stack(stored) if stored else None
 
 
 def _impulses(pairs: np.ndarray, loads: SubstepLoads, stored_j: np.ndarray | None) -> tuple[PairImpulses, PairImpulses]:

@@ -25,6 +25,7 @@ from ...model.run_folder.logs import (
     Flights,
     FrameBlast,
 )
+from ...model.schema import given
 from ...system.disk import writing
 from .breaking import Breaks
 
@@ -98,7 +99,7 @@ class Logs:
         bodies = self._inventory.body_names
         pairs = zip(loads.bodies, loads.charges, strict=True)
         entries = [(bodies[body], self._charges[charge]) for body, charge in pairs]
-        self._explosion.write(frame.number, frame.time_s, entries, FrameBlast(loads, frame_s))
+        given(self._explosion).write(frame.number, frame.time_s, entries, FrameBlast(loads, frame_s))
 
     def close(self, last_frame: Frame | None) -> None:
         """Log where everything is at last, if there was a frame, and close the files.
@@ -116,7 +117,7 @@ class Logs:
                 self._write_positions(last_frame)
 
     def _write_positions(self, frame: Frame) -> None:
-        flights = Flights(self._first_positions, frame.positions_m, self._made_j, self._largest_kinetic_j)
+        flights = Flights(given(self._first_positions), frame.positions_m, self._made_j, self._largest_kinetic_j)
         self._debris.write(frame.number, frame.time_s, flights)
 
 

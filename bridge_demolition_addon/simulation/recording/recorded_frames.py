@@ -12,6 +12,7 @@ from ...model.results.arrays import Results
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
 from ...model.results.stream import FrameStream
+from ...model.schema import given
 
 
 class RecordedFrames:
@@ -92,5 +93,5 @@ class RecordedFrames:
         self._stream = FrameStream(folder, load_sampling, inventory, contacts=contacts)
 
     def _append(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None) -> None:
-        self._stream.append(frame, balls, contacts)
+        given(self._stream).append(frame, balls, contacts)
         self.last = frame

@@ -15,6 +15,7 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...errors import LayoutError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.schema import given
 from ...scene.as_built import changed_bodies, check_start
 from ...scene.bodies import bodies_of
 from ...scene.connections.breaking_thresholds import rewrite_thresholds
@@ -227,14 +228,14 @@ class Recording(RecordedFrames):
         begins = number == self.scene.rigidbody_world.point_cache.frame_start
         if begins or not self._momentum:
             setup = run_setup_of(self.scene, with_connections=False)
-            check_motion_is_enough(setup, self.layout_error, contacts=self._has_contacts)
+            check_motion_is_enough(setup, given(self.layout_error), contacts=self._has_contacts)
             self._momentum = MomentumReader(self.scene, setup.bodies.objects, setup.inventory)
             self._begin(setup, None)
-        elif number != self.last.number + 1:
+        elif self.last is None or number != self.last.number + 1:
             return  # not a step forward in time, but a frame that was recorded already or will be
         frame = self._momentum.read_frame(depsgraph)
         if begins:
-            check_start(self.setup, frame.positions_m)
+            check_start(given(self.setup), frame.positions_m)
         self._keep(frame, BallHistory.unknown())
 
     def _record(self, state: WorldState, held: bool) -> None:
@@ -242,18 +243,19 @@ class Recording(RecordedFrames):
             return
         substep = self.world.take_substep()
         if state is WorldState.NEW:
-            self._begin_with_bullet(held)
+            reader = self._begin_with_bullet(held)
             # The solver of a new world names a default step before it has taken any.
-            self._keep(self._reader.read_first_frame(0.0 if held else substep), BallHistory.unknown())
+            self._keep(reader.read_first_frame(0.0 if held else substep), BallHistory.unknown())
         elif substep > 0.0:
-            frame, breaks = self._reader.read_frame(substep)
-            contacts = self._reader.take_contacts(frame.number) if self._has_contacts else None
-            self._keep(frame, self._reader.take_ball_history(), contacts)
+            reader = given(self._reader)
+            frame, breaks = reader.read_frame(substep)
+            contacts = reader.take_contacts(frame.number) if self._has_contacts else None
+            self._keep(frame, reader.take_ball_history(), contacts)
             if self._logs:
                 self._logs.write_breaks(frame.number, breaks)
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
-    def _begin_with_bullet(self, held: bool) -> None:
+    def _begin_with_bullet(self, held: bool) -> BulletReader:
         """Begin with the first frame of a new world, in which time was held or not."""
         if self._reader:  # of an earlier world
             self._reader.close()
@@ -265,6 +267,7 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
+        return self._reader
 
     def _begin(self, setup: RunSetup, world: BulletWorld | None) -> None:
         """Prepare what explodes, the frames, and the logs of all, in a world that can be read or None."""
@@ -280,20 +283,20 @@ class Recording(RecordedFrames):
             load_sampling = WITHOUT_LOADS
         self._begin_frames(self.folder, load_sampling, setup.inventory, contacts=self._has_contacts)
         if self.has_loads:
-            charges = [charge.name for charge in setup.charges] if self._blast else ()
+            charges = [given(charge.name) for charge in setup.charges] if self._blast else []
             self._logs = Logs(self.folder, setup.inventory, charges, self._log_files)
 
     def _keep(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
         """Keep and log a frame, with what exploded, what hit the balls and what touched in it."""
         frame_s = frame.time_s - (self.last.time_s if self.last else 0.0)
-        exploded = self._blast is not None and frame_s > 0.0
-        if exploded:
+        blast_loads = None
+        if self._blast is not None and frame_s > 0.0:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
             frame = replace(frame, blast_impulses_ns=impulses)
         self._append(frame, balls, contacts)
         if self._logs:
             self._logs.write_frame(frame)
-            if exploded:
+            if blast_loads is not None:
                 self._logs.write_blast(frame, blast_loads, frame_s)
 
 

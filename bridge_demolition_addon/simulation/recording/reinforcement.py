@@ -9,6 +9,7 @@ from ...engineering.elasticity.joint_rows import components_last
 from ...engineering.geometry.vectors import dot, transformed, transformed_back
 from ...engineering.mechanics.reinforcement import bar_forces, effective_masses, parting
 from ...model.results.inventory import Inventory
+from ...model.schema import given
 from ...scene.connections.breaking_settings import Breaking
 from .drivers import Driver
 
@@ -33,9 +34,9 @@ class Reinforcement(Driver):
     """
 
     def __init__(self, bodies: BodyTable, inventory: Inventory, breaking: Breaking, remaining_strength: np.ndarray):
-        self._bodies, self._inventory, self._ductility = bodies, inventory, breaking.ductility
+        self._bodies, self._inventory, self._ductility = bodies, inventory, given(breaking.ductility)
         self._remaining_strength = remaining_strength
-        self._yield_n = breaking.ductility.strength_share * breaking.strength.tension_pa * inventory.areas_m2
+        self._yield_n = self._ductility.strength_share * given(breaking.strength).tension_pa * inventory.areas_m2
         self._offsets_m = self._reader = None
         if breaking.bars:
             bars = breaking.bars.with_even(self._yield_n)
