@@ -13,7 +13,7 @@ from scipy.special import ndtr, ndtri
 
 from bridge_demolition_addon.engineering.search.bisection import median_interval
 from bridge_demolition_addon.engineering.search.neyer import NeyerTest
-from bridge_demolition_addon.engineering.search.probit import Trials, fitted, limit
+from bridge_demolition_addon.engineering.search.probit import LevelOutcomes, fitted, limit
 
 CONFIDENCE, PROBABILITY, GUESS = 0.95, 0.9, 0.1
 
@@ -48,7 +48,7 @@ def _searched(rng: np.random.Generator, count: int, at_once: int, spread: float)
     for _ in range(count):
         levels.append(next(chosen))
     outcome(count - 1)
-    trials = Trials(np.array(levels), np.array(outcomes))
+    trials = LevelOutcomes(np.array(levels), np.array(outcomes))
     found = fitted(trials)
     _, low, high = median_interval(trials, 0.0, 1.0, CONFIDENCE)
     holds = limit(trials, PROBABILITY, CONFIDENCE, 1) >= median + spread * ndtri(PROBABILITY)

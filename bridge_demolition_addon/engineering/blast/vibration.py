@@ -17,7 +17,7 @@ from ..arrays import FloatArray
 from .wave import checked
 
 DAMAGE_LIMIT_M_S = 0.0508
-"""Peak particle velocity (2 inches per second) that houses bear, USBM Bulletin 656; many codes ask for much less."""
+"""Peak particle velocity (2 inches per second) that houses withstand, USBM Bulletin 656; many codes ask for less."""
 
 
 @dataclass(frozen=True, slots=True)

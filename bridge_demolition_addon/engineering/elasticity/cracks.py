@@ -59,7 +59,7 @@ class Cracks:
     yield_n : (4, m) float
         Force at which the bars in each corner of a crack yield.
     shares : (m,) float
-        Part of the bars that is left, kept up to date by whoever gives it.
+        Part of the bars that is left; the caller keeps it up to date.
     pressed_n_m : (m,) float
         Stiffness of connections along their normals, with which the sides of a closed crack press on each other.
 

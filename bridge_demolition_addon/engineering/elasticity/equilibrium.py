@@ -16,7 +16,7 @@ _SLOWEST_S = 60.0
 """What would swing slower than in this period is not held: a mechanism, or a part without a support."""
 
 _LARGEST_M = 0.5
-"""What gives way further has no equilibrium near the shape in which it was built."""
+"""What deforms more has no equilibrium near the shape in which it was built."""
 
 _SOLUTIONS = 8
 """Linear solutions, one after another, of which each takes off what turning has left: two or three are enough."""

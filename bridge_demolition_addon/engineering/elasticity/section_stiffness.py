@@ -21,7 +21,7 @@ from ..arrays import BoolArray, FloatArray
 from .joint_rows import matrix_products, transposed
 
 SHEAR_FACTOR = 5.0 / 6.0
-"""Share of a rectangular section that bears shear evenly, κ (E. Reissner 1945)."""
+"""Share of a rectangular section that resists shear evenly, κ (E. Reissner 1945)."""
 
 DAMPING_RATIO = 0.05
 """Damping of concrete structures near their strength, where none is given: EN 1998-1:2004, 3.2.2.2 (3)."""
@@ -172,7 +172,7 @@ def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> Fl
 def in_frames(stiffness: SectionStiffness, sections: FloatArray, held: BoolArray) -> FloatArray:
     """Return stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
 
-    Rows that are not held (6, m) bear nothing: what they would, the others do not bear in their place.
+    Rows that are not held (6, m) resist nothing, and the others resist no more for that.
     """
     matrices = np.stack((stiffness.against_shifts(), stiffness.against_turns()))
     turned = [matrix_products(matrix_products(sections, each), transposed(sections)) for each in matrices]

@@ -25,7 +25,7 @@ _AGREES = 1e-4
 """Part of the mean force of the places under a footing by which that of one may be off."""
 
 _EVEN_M = 1e-10
-"""Settlement that is none."""
+"""Settlement up to this counts as none."""
 
 _ANY = 1e300
 """Pressure by which friction holds any slip."""

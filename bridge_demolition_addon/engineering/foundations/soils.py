@@ -1,4 +1,4 @@
-"""Soils: how stiff they are under a footing, what they bear, and how they hold it against sliding."""
+"""Soils: how stiff they are under a footing, what they carry, and how they resist sliding."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Soil:
 
     @property
     def capacity_pa(self) -> float:
-        """Pressure that it bears, by its stiffness."""
+        """Pressure that it carries, by its stiffness."""
         return PRESSURE_BY_STIFFNESS_M * self.stiffness_n_m3
 
 
@@ -47,7 +47,7 @@ SOILS = {
 """Classes to start from where nothing was measured.
 
 Stiffness: the middle of the range in J. E. Bowles (1996), Foundation Analysis and Design, 5th edition, table 9-1; his
-clays that bear up to 200 kPa, and from 200 to 800 kPa. Most ranges reach from half of it to one and a half times, that
+clays that carry up to 200 kPa, and from 200 to 800 kPa. Most ranges reach from half of it to one and a half times, that
 of medium dense sand from a fifth to 1.8 times. Friction: NAVFAC DM-7.02 (1986), chapter 3, table 1, mass concrete on
 soil.
 """

@@ -24,7 +24,7 @@ def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float)
     """TriangleMeshs of a solid with a gap between them.
 
     Half of it is taken from either side: of a shard that lies behind the plane of a cut, what is too close to the
-    plane; of one that reaches around the cut, what lies in front of the cut itself.
+    plane; of one that bends around the cut, what lies in front of the cut itself.
 
     Parameters
     ----------

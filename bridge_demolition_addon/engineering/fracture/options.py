@@ -9,7 +9,7 @@ from .density import PointDensity
 
 @dataclass(frozen=True, slots=True)
 class Recursion:
-    """Shards that are cut once more: a random `share` of those that hold at least `smallest_m3`, each into `shards`."""
+    """Shards that are cut again: a random `share` of those that hold at least `smallest_m3`, each into `shards`."""
 
     share: float
     shards: int
@@ -30,7 +30,7 @@ class FractureOptions:
     stretch : (3,) float
         How long shards are along x, y and z, relative to each other.
     recursion : Recursion, optional
-        Which shards are cut once more.
+        Which shards are cut again.
     """
 
     density: PointDensity | None = None

@@ -15,7 +15,7 @@ from ..geometry.vectors import dot
 from .density import PointDensity
 
 _MOST_MOVES = 20
-"""Tries to move a point without leaving the solid, before it stays: points in corners seldom need more."""
+"""Tries to move a point without leaving the solid, before it stays: points in corners rarely need more."""
 
 _FILLED_ENOUGH = 0.3
 """Part of its box that a part of the solid must fill before points are tried in the box without dicing it further."""

@@ -105,7 +105,7 @@ class _Triangles:
 def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
     """The solid in exactly `shard_count` shards, around points drawn from its volume, evenly unless options say else.
 
-    With recursion there are more, as some of that number are cut once more.
+    With recursion there are more, as some of that number are cut again.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: Frac
     seed : int
         The same seed gives the same shards, bit for bit.
     options : FractureOptions
-        Where the points lie closer, how shards are stretched, which are cut once more.
+        Where the points lie closer, how shards are stretched, which are cut again.
 
     Raises
     ------
@@ -197,7 +197,7 @@ def _with_recursion(
     recursion: Recursion,
     stretch: FloatArray | None,
 ) -> Fracture:
-    """A fracture of which some shards are cut once more; faces between their shards are found by where they touch."""
+    """A fracture of which some shards are cut again; faces between their shards are found by where they touch."""
     large = np.flatnonzero(first.volumes >= recursion.smallest_m3)
     chosen = set(generator.permutation(large)[: round(recursion.share * len(large))].tolist())
     if not chosen or recursion.shards < 2:

@@ -127,7 +127,7 @@ def _check_apart(distances: FloatArray, members: IntArray, tolerance: float) -> 
 
 
 def _nearest(distances: FloatArray, count: int) -> IntArray:
-    """Columns of the `count` smallest distances of each row, nearest first; ties in the order of the columns."""
+    """Columns of the `count` smallest distances of each row, nearest first; equal ones in the order of the columns."""
     count = min(count, distances.shape[1])
     farthest = np.partition(distances, count - 1, axis=1)[:, count - 1, None]
     nearer, level = distances < farthest, distances == farthest

@@ -37,7 +37,7 @@ _SLIT_TOLERANCE = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Repaired:
-    """A solid that can be cut, and what was done to the mesh for it, in words; nothing for a sound mesh."""
+    """A solid that can be cut, and what was done to the mesh for it, as text; nothing for a sound mesh."""
 
     solid: TriangleMesh
     repairs: tuple[str, ...]
@@ -56,7 +56,7 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     Raises
     ------
     GeometryError
-        It encloses no volume, has a hole that is not plane, edges with more than two faces that cannot be told apart,
+        It encloses no volume, has a hole that is not plane, edges with more than two faces that cannot be separated,
         or a body that crosses itself.
     """
     if not len(mesh.triangles):
@@ -77,7 +77,7 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     if crossing is not None:
         place = ", ".join(f"{coordinate:.4g}" for coordinate in crossing)
         raise GeometryError(
-            f"{name}: its surface crosses itself near ({place}) m, and it cannot be told what is inside; model it as "
+            f"{name}: its surface crosses itself near ({place}) m, so what is inside is unknown; model it as "
             "separate closed bodies, which are united."
         )
     return Repaired(checked_solid(solid, name), tuple(repairs))

@@ -226,7 +226,7 @@ class ImpactEstimate:
 def estimate(
     impulse_ns: float, speed_m_s: float, contact: Contact, contact_time_s: float | None = None
 ) -> ImpactEstimate:
-    """What a hit came to, from its impulse and the speed at which the bodies met.
+    """The result of a hit, from its impulse and the speed at which the bodies met.
 
     Parameters
     ----------

@@ -74,7 +74,7 @@ class Joint:
     strength : Strength, optional
         Stresses that break it; None where no stress does.
     moduli : ElasticModuli, optional
-        How it gives way; None where it is rigid.
+        How it deforms; None where it is rigid.
     """
 
     type: str

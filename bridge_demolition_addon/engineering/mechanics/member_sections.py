@@ -1,6 +1,6 @@
 """Sections across members, as far as loads spread in them: what elastic connections are judged by.
 
-Elastic connections share a load by their stiffness, so a face beside a notch, an edge or a fixed end bears more than
+Elastic connections share a load by their stiffness, so a face beside a notch, an edge or a fixed end carries more than
 the mean, and the more so the smaller the shards are. A member does not crack there before a whole section of it is
 overloaded. So a face is judged with all that a plane through it parts near it, as one section that stays plane. Such a
 section is as large with few shards as with many, and so is the load at which it breaks.
@@ -110,7 +110,7 @@ class MemberSections:
     def _faces(self, row: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Connections (e,) in the section of one, on which side of it their first bodies are, and their cosines.
 
-        Where the section doubles back, a face bears a load, and has no area.
+        Where the section doubles back, a face carries a load, and has no area.
         """
         if row not in self._found:
             point, normal = self._points[row], self._normals[row]

@@ -16,7 +16,7 @@ from .strength import Strength, largest_utilisations, rectangular_sections, sect
 _SINGLE_PRECISION = 1e-6
 
 _MOST_REDISTRIBUTED = 3.0
-"""By how much the stress in an elastic face may exceed its strength as long as its section bears the load.
+"""By how much the stress in an elastic face may exceed its strength as long as its section carries the load.
 
 A section evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
 further has torn, whatever the faces beside it carry. Rigid connections share a load by chance: only the cut counts.

@@ -1,7 +1,7 @@
 """Work done on bodies, sub-step by sub-step: by gravity, loads, tools and damping, and by Bullet's solver.
 
 Bullet finds impulses step by step and stops before they are exact. Where it pulls together connections that have
-sagged, or pushes apart hulls that overlap, it does work that no real connection or contact does: it makes energy.
+stretched, or pushes apart hulls that overlap, it does work that no real connection or contact does: it makes energy.
 
 A constant force changes the kinetic energy of a body by the force times the mean of its velocities before and after,
 times the step. So the work of an impulse is the impulse times that mean velocity where it acts, and all works together

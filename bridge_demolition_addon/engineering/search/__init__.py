@@ -1,1 +1,1 @@
-"""Trials along one quantity: where to try next, and how the probability of success depends on it."""
+"""Runs along one quantity: where to try next, and how the probability of success depends on it."""

@@ -1,11 +1,11 @@
-"""Where to try next: B. T. Neyer's D-optimal test of sensitivity, with several trials at once.
+"""Where to try next: B. T. Neyer's D-optimal test of sensitivity, with several runs at once.
 
 B. T. Neyer (1994), A D-optimality-based sensitivity test, Technometrics 36, 61-70. Until both kinds of outcome are
 there, the range is searched and left if need be; then it is halved down to the guess of the spread, which shrinks until
-trials overlap; from then on each trial is where it adds most to the determinant of Fisher's information on the median
+runs overlap; from then on each run is where it adds most to the determinant of Fisher's information on the median
 and the spread.
 
-Trials whose outcome is not there yet count as information: how much a trial gives does not depend on its outcome. So
+Runs whose outcome is not there yet count as information: how much a run gives does not depend on its outcome. So
 several at once are a greedy D-optimal batch.
 """
 
@@ -18,10 +18,10 @@ import numpy as np
 from scipy.special import log_ndtr
 
 from ..arrays import FloatArray
-from .probit import SuccessCurve, Trials, fitted
+from .probit import LevelOutcomes, SuccessCurve, fitted
 
 SHRINKS = 0.8
-"""By how much the guess of the spread shrinks with each trial without overlap."""
+"""By how much the guess of the spread shrinks with each run without overlap."""
 
 _ROUNDING = 1e-9
 _FARTHEST = 5.0
@@ -40,7 +40,7 @@ class NeyerTest:
     rounded : callable, optional
         What makes a level that can be tried of one that was chosen.
     pending : int
-        How many trials are under way while the next is chosen.
+        How many runs are under way while the next is chosen.
     """
 
     def __init__(
@@ -55,15 +55,15 @@ class NeyerTest:
         self.rounded, self.pending = rounded, pending
 
     def levels(self, outcomes: Sequence[bool], count: int) -> FloatArray:
-        """Return the levels (count,) of the first trials, of which the outcomes of the first n are known.
+        """Return the levels (count,) of the first runs, of which the outcomes of the first n are known.
 
-        Each was chosen when the outcomes of all trials but the last `pending` before it were known, so that count is at
+        Each was chosen when the outcomes of all runs but the last `pending` before it were known, so that count is at
         most n + pending + 1.
         """
         return np.array(list(islice(self.played(outcomes.__getitem__), count)))
 
     def played(self, outcome: Callable[[int], bool]) -> Iterator[float]:
-        """Give one level after another, and ask for the outcome of a trial, from 0 on, as soon as that decides one."""
+        """Give one level after another, and ask for the outcome of a run, from 0 on, as soon as that decides one."""
         levels: list[float] = []
         outcomes: list[bool] = []
         guess = self.spread
@@ -71,39 +71,39 @@ class NeyerTest:
             if len(levels) > self.pending:
                 outcomes.append(bool(outcome(len(outcomes))))
             known = len(outcomes)
-            trials = Trials(np.array(levels[:known]), np.array(outcomes, bool))
-            level, guess = self._next(trials, np.array(levels[known:]), guess)
+            runs = LevelOutcomes(np.array(levels[:known]), np.array(outcomes, bool))
+            level, guess = self._next(runs, np.array(levels[known:]), guess)
             levels.append(self.rounded(level))
             yield levels[-1]
 
-    def _next(self, trials: Trials, under_way: FloatArray, guess: float) -> tuple[float, float]:
+    def _next(self, runs: LevelOutcomes, under_way: FloatArray, guess: float) -> tuple[float, float]:
         """The next level, and the guess of the spread after it."""
-        if trials.overlap and (found := fitted(trials)):
-            low, high = trials.levels.min(), trials.levels.max()
+        if runs.overlap and (found := fitted(runs)):
+            low, high = runs.levels.min(), runs.levels.max()
             normal = SuccessCurve(float(np.clip(found.median, low, high)), min(found.spread, high - low))
-            return most_informative(np.concatenate((trials.levels, under_way)), normal), guess
-        place, width = self._search(trials, guess)
+            return most_informative(np.concatenate((runs.levels, under_way)), normal), guess
+        place, width = self._search(runs, guess)
         if place is not None:
             return most_informative(under_way, SuccessCurve(place, width)) if len(under_way) else place, guess
-        low, high = trials.levels.min(), trials.levels.max()
-        middle = float(np.clip((trials.lowest_success + trials.highest_failure) / 2.0, low, high))
+        low, high = runs.levels.min(), runs.levels.max()
+        middle = float(np.clip((runs.lowest_success + runs.highest_failure) / 2.0, low, high))
         normal = SuccessCurve(middle, min(guess, high - low))
-        return most_informative(np.concatenate((trials.levels, under_way)), normal), SHRINKS * guess
+        return most_informative(np.concatenate((runs.levels, under_way)), normal), SHRINKS * guess
 
-    def _search(self, trials: Trials, guess: float) -> tuple[float | None, float]:
+    def _search(self, runs: LevelOutcomes, guess: float) -> tuple[float | None, float]:
         """Where to look for both kinds of outcome, and how far that may be off; None once they are a guess apart."""
-        if not len(trials):
+        if not len(runs):
             return (self.lowest + self.highest) / 2.0, (self.highest - self.lowest) / 4.0
-        low, high = float(trials.levels.min()), float(trials.levels.max())
-        if not trials.successes.any():
+        low, high = float(runs.levels.min()), float(runs.levels.max())
+        if not runs.successes.any():
             place = max((self.highest + high) / 2.0, high + 2.0 * guess, 2.0 * high - low)
             return place, max(guess, (place - high) / 2.0)
-        if trials.successes.all():
+        if runs.successes.all():
             place = min((self.lowest + low) / 2.0, low - 2.0 * guess, 2.0 * low - high)
             return place, max(guess, (low - place) / 2.0)
-        apart = trials.lowest_success - trials.highest_failure
+        apart = runs.lowest_success - runs.highest_failure
         if apart > guess * (1.0 + _ROUNDING):
-            return (trials.lowest_success + trials.highest_failure) / 2.0, apart / 4.0
+            return (runs.lowest_success + runs.highest_failure) / 2.0, apart / 4.0
         return None, guess
 
 
@@ -126,6 +126,6 @@ def most_informative(levels: FloatArray, normal: SuccessCurve) -> float:
 
 
 def information(scores: FloatArray) -> FloatArray:
-    """Information (n,) that trials at scores (x - μ) / σ give on the median, φ² / (Φ (1 - Φ))."""
+    """Information (n,) that runs at scores (x - μ) / σ give on the median, φ² / (Φ (1 - Φ))."""
     gained: FloatArray = np.exp(-scores * scores - np.log(2.0 * np.pi) - log_ndtr(scores) - log_ndtr(-scores))
     return gained

@@ -1,8 +1,8 @@
-"""The probability of success along one quantity as a normal distribution, from trials that succeeded or did not.
+"""The probability of success along one quantity as a normal distribution, from runs that succeeded or did not.
 
-P(success at x) = Φ((x - μ) / σ). Trials overlap where a success is lower than a failure; only then is σ above 0 by
+P(success at x) = Φ((x - μ) / σ). Runs overlap where a success is lower than a failure; only then is σ above 0 by
 maximum likelihood (M. J. Silvapulle, 1981, Journal of the Royal Statistical Society B 43, 310-313). Limits are those of
-the likelihood ratio, which hold with few trials, unlike those by the curvature of the likelihood (B. T. Neyer, 1992,
+the likelihood ratio, which hold with few runs, unlike those by the curvature of the likelihood (B. T. Neyer, 1992,
 Sensitivity testing and analysis, 16th International Pyrotechnics Seminar).
 """
 
@@ -20,7 +20,7 @@ from ..arrays import BoolArray, FloatArray
 _ITERATIONS = 100
 _SAME = 1e-12
 _STEEPEST = 1e6
-"""Slope, by the range of the trials, that is as good as a jump."""
+"""Slope, by the range of the runs, that is as good as a jump."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class SuccessCurve:
     Attributes
     ----------
     median, spread : float
-        μ and σ; a spread of 0 where trials do not overlap: success at and above the median, failure below.
+        μ and σ; a spread of 0 where runs do not overlap: success at and above the median, failure below.
     """
 
     median: float
@@ -42,8 +42,8 @@ class SuccessCurve:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trials:
-    """n trials.
+class LevelOutcomes:
+    """n runs.
 
     Attributes
     ----------
@@ -77,24 +77,24 @@ class Trials:
         return bool(self.levels[self.successes].mean() > self.levels[~self.successes].mean())
 
 
-def fitted(trials: Trials) -> SuccessCurve | None:
-    """Return the likeliest distribution; None where trials are all of one kind, or succeed the less the higher."""
-    if trials.successes.all() or not trials.successes.any():
+def fitted(runs: LevelOutcomes) -> SuccessCurve | None:
+    """Return the likeliest distribution; None where runs are all of one kind, or succeed the less the higher."""
+    if runs.successes.all() or not runs.successes.any():
         return None
-    if trials.overlap:
-        return _likeliest(trials)
-    if trials.lowest_success > trials.highest_failure:
-        return SuccessCurve((trials.lowest_success + trials.highest_failure) / 2.0, 0.0)
-    if trials.lowest_success == trials.highest_failure:
-        return SuccessCurve(trials.lowest_success, 0.0)
+    if runs.overlap:
+        return _likeliest(runs)
+    if runs.lowest_success > runs.highest_failure:
+        return SuccessCurve((runs.lowest_success + runs.highest_failure) / 2.0, 0.0)
+    if runs.lowest_success == runs.highest_failure:
+        return SuccessCurve(runs.lowest_success, 0.0)
     return None
 
 
-def _likeliest(trials: Trials) -> SuccessCurve:
+def _likeliest(runs: LevelOutcomes) -> SuccessCurve:
     """By Newton's method: the logarithm of the likelihood is concave in 1 / σ and -μ / σ."""
-    middle, unit = trials.levels.mean(), np.ptp(trials.levels)
-    x = (trials.levels - middle) / unit
-    signs = np.where(trials.successes, 1.0, -1.0)
+    middle, unit = runs.levels.mean(), np.ptp(runs.levels)
+    x = (runs.levels - middle) / unit
+    signs = np.where(runs.successes, 1.0, -1.0)
     intercept, slope = 0.0, 1.0
     value = log_ndtr(signs * (intercept + slope * x)).sum()
     for _ in range(_ITERATIONS):
@@ -119,19 +119,19 @@ def _likeliest(trials: Trials) -> SuccessCurve:
     return SuccessCurve(middle - intercept / slope * unit, unit / slope)
 
 
-def log_likelihood(trials: Trials, normal: SuccessCurve) -> float:
-    """Logarithm of the probability of what trials came to."""
+def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
+    """Logarithm of the probability of what runs came to."""
     if normal.spread == 0.0:
-        return 0.0 if trials.highest_failure <= normal.median <= trials.lowest_success else -np.inf
-    signs = np.where(trials.successes, 1.0, -1.0)
-    return float(log_ndtr(signs * (trials.levels - normal.median) / normal.spread).sum())
+        return 0.0 if runs.highest_failure <= normal.median <= runs.lowest_success else -np.inf
+    signs = np.where(runs.successes, 1.0, -1.0)
+    return float(log_ndtr(signs * (runs.levels - normal.median) / normal.spread).sum())
 
 
-def profile_likelihood(trials: Trials, place: float, probability: float) -> float:
+def profile_likelihood(runs: LevelOutcomes, place: float, probability: float) -> float:
     """Largest logarithm of the likelihood of all distributions that have this probability of success at a place."""
-    signs = np.where(trials.successes, 1.0, -1.0)
-    offsets, base = trials.levels - place, float(ndtri(probability))
-    unit = max(np.ptp(trials.levels), abs(offsets).max(), 1e-300)
+    signs = np.where(runs.successes, 1.0, -1.0)
+    offsets, base = runs.levels - place, float(ndtri(probability))
+    unit = max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)
 
     def loss(slope: float) -> float:
         return -float(log_ndtr(signs * (base + slope * offsets / unit)).sum())
@@ -144,15 +144,15 @@ def profile_likelihood(trials: Trials, place: float, probability: float) -> floa
     return -min(float(found.fun), loss(0.0), loss(_STEEPEST))
 
 
-def limit(trials: Trials, probability: float, confidence: float, side: int) -> float:
+def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int) -> float:
     """Limit of the place where success has a probability.
 
     Twice the logarithm of the ratio of likelihoods is compared with the F distribution with 1 and n - 2 degrees of
-    freedom instead of χ², its limit for many trials: with few, the design follows the answers, and σ comes out small.
+    freedom instead of χ², its limit for many runs: with few, the design follows the answers, and σ comes out small.
 
     Parameters
     ----------
-    trials : Trials
+    runs : LevelOutcomes
     probability, confidence : float
         Of success there; and with which the limit holds.
     side : int
@@ -161,24 +161,24 @@ def limit(trials: Trials, probability: float, confidence: float, side: int) -> f
     Returns
     -------
     float
-        ± ∞ where the trials set no limit.
+        ± ∞ where the runs set no limit.
     """
-    normal = fitted(trials)
-    if normal is None or len(trials) < 4:
+    normal = fitted(runs)
+    if normal is None or len(runs) < 4:
         return side * np.inf
-    most = log_likelihood(trials, normal)
-    least = most - float(f_distribution.ppf(confidence, 2, len(trials) - 2))
+    most = log_likelihood(runs, normal)
+    least = most - float(f_distribution.ppf(confidence, 2, len(runs) - 2))
 
     def above(place: float) -> float:
-        return profile_likelihood(trials, place, probability) - least
+        return profile_likelihood(runs, place, probability) - least
 
     inside = normal.quantile(probability)
-    step = max(normal.spread, np.ptp(trials.levels) / len(trials), 1e-12)
+    step = max(normal.spread, np.ptp(runs.levels) / len(runs), 1e-12)
     for _ in range(60):
         outside = inside + side * step
         if above(outside) < 0.0:
             return float(brentq(above, inside, outside, xtol=1e-6 * step))
-        if step > 1e3 * max(np.ptp(trials.levels), normal.spread):
+        if step > 1e3 * max(np.ptp(runs.levels), normal.spread):
             break
         step *= 2.0
     return side * np.inf

@@ -1,4 +1,4 @@
-"""How often something happens in independent trials, with the same bits on every processor.
+"""How often something happens in independent runs, with the same bits on every processor.
 
 All limits of this package rest on it: the binomial distribution is the regularised incomplete beta function of whole
 numbers, P(at most k of n) = I_(1-p)(n - k, k + 1).
@@ -51,68 +51,68 @@ _SERIES_TERMS = 9
 """Of a deviance near its mean: 0.1 to the power of 19 is less than what rounding leaves."""
 
 
-def binomial_cdf(happened: ArrayLike, trials: ArrayLike, chance: ArrayLike) -> FloatArray:
-    """Probability that something of a given chance happens at most so often in so many independent trials.
+def binomial_cdf(happened: ArrayLike, runs: ArrayLike, chance: ArrayLike) -> FloatArray:
+    """Probability that something of a given chance happens at most so often in so many independent runs.
 
     Parameters
     ----------
-    happened, trials : whole numbers
-        How often, 0 to `trials`, and how many trials; arrays of one shape, or numbers.
+    happened, runs : whole numbers
+        How often, 0 to `runs`, and how many runs; arrays of one shape, or numbers.
     chance : float
-        Of one trial, 0 to 1.
+        Of one run, 0 to 1.
 
     Returns
     -------
     float or array of float
-        Within 1e-12 of the exact probability for up to a million trials.
+        Within 1e-12 of the exact probability for up to a million runs.
     """
-    happened, trials, chance = np.broadcast_arrays(
-        np.asarray(happened, float), np.asarray(trials, float), np.asarray(chance, float)
+    happened, runs, chance = np.broadcast_arrays(
+        np.asarray(happened, float), np.asarray(runs, float), np.asarray(chance, float)
     )
     # The smaller end of the distribution is summed, in which terms fall from the first on.
-    lower = happened <= trials * chance
-    end = _end_sum(np.where(lower, happened, trials - happened - 1.0), trials, np.where(lower, chance, 1.0 - chance))
+    lower = happened <= runs * chance
+    end = _end_sum(np.where(lower, happened, runs - happened - 1.0), runs, np.where(lower, chance, 1.0 - chance))
     return np.where(lower, end, 1.0 - end)[()]
 
 
-def binomial_cdf_inverse(happened: ArrayLike, trials: ArrayLike, probability: ArrayLike) -> FloatArray:
-    """The chance at which `binomial_cdf` has this probability; 1 where it happened in all trials."""
-    happened, trials, probability = np.broadcast_arrays(
-        np.asarray(happened, float), np.asarray(trials, float), np.asarray(probability, float)
+def binomial_cdf_inverse(happened: ArrayLike, runs: ArrayLike, probability: ArrayLike) -> FloatArray:
+    """The chance at which `binomial_cdf` has this probability; 1 where it happened in all runs."""
+    happened, runs, probability = np.broadcast_arrays(
+        np.asarray(happened, float), np.asarray(runs, float), np.asarray(probability, float)
     )
     lowest, highest = np.zeros(happened.shape), np.ones(happened.shape)
     for _ in range(_HALVINGS):
         middle = (lowest + highest) / 2.0
-        likely = binomial_cdf(happened, trials, middle) > probability
+        likely = binomial_cdf(happened, runs, middle) > probability
         lowest, highest = np.where(likely, middle, lowest), np.where(likely, highest, middle)
     return highest[()]
 
 
-def _end_sum(happened: FloatArray, trials: FloatArray, chance: FloatArray) -> FloatArray:
+def _end_sum(happened: FloatArray, runs: FloatArray, chance: FloatArray) -> FloatArray:
     """Probability of 0 to `happened`, where that is not above the mean; 0 below 0."""
     there = happened >= 0.0
     last = np.where(there, happened, 0.0)
-    term = np.where(there, _probability_of(last, trials, chance), 0.0)
+    term = np.where(there, _probability_of(last, runs, chance), 0.0)
     odds = np.divide(1.0 - chance, chance, out=np.zeros(chance.shape), where=chance > 0.0)
     total = term
     while (term > np.finfo(float).eps / 16.0 * total).any():
         # From k to k - 1; where k is 0 nothing follows.
-        term = term * (last / (trials - last + 1.0) * odds)
+        term = term * (last / (runs - last + 1.0) * odds)
         total = total + term
         last = np.maximum(last - 1.0, 0.0)
     return total
 
 
-def _probability_of(happened: FloatArray, trials: FloatArray, chance: FloatArray) -> FloatArray:
+def _probability_of(happened: FloatArray, runs: FloatArray, chance: FloatArray) -> FloatArray:
     """Probability of exactly so many."""
-    missed, rest = trials - happened, 1.0 - chance
+    missed, rest = runs - happened, 1.0 - chance
     inside = (happened > 0.0) & (missed > 0.0) & (chance > 0.0) & (rest > 0.0)
-    k, m, n = np.where(inside, happened, 1.0), np.where(inside, missed, 1.0), np.where(inside, trials, 2.0)
+    k, m, n = np.where(inside, happened, 1.0), np.where(inside, missed, 1.0), np.where(inside, runs, 2.0)
     p, q = np.where(inside, chance, 0.5), np.where(inside, rest, 0.5)
     corrections = _stirling_error(n) - _stirling_error(k) - _stirling_error(m)
     deviances = _deviance(k, n * p) + _deviance(m, n * q)
     between = exponential(corrections - deviances) * np.sqrt(n / (2.0 * math.pi * k * m))
-    at_ends = np.where(happened == 0.0, power(rest, trials), np.where(missed == 0.0, power(chance, trials), 0.0))
+    at_ends = np.where(happened == 0.0, power(rest, runs), np.where(missed == 0.0, power(chance, runs), 0.0))
     return np.where(inside, between, at_ends)
 
 

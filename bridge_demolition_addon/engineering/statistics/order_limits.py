@@ -115,4 +115,4 @@ def limits_by_runs(values: FloatArray, quantile: float, confidence: float, rank:
 
 
 _MOST_POINTS = 400
-"""More would not be told apart in a chart."""
+"""More could not be seen apart in a chart."""

@@ -1,7 +1,7 @@
 """Map of a study: how likely debris is at a place.
 
-The limit of each cell holds for this cell by itself. That somewhere one of many cells is hit oftener than its own limit
-says is to be expected: the whole plan at once is what the limit of the reach is for.
+The limit of each cell holds for this cell by itself. That one of many cells is hit more often than its limit says is
+to be expected: the limit of the debris distance is for the whole plan at once.
 """
 
 from __future__ import annotations

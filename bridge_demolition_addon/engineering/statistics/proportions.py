@@ -15,21 +15,21 @@ from ..arrays import FloatArray
 from .binomial import binomial_cdf_inverse
 
 
-def upper_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArray:
-    """Largest probability that so many of the trials leave possible, with a one-sided confidence.
+def upper_limit(happened: ArrayLike, runs: int, confidence: float) -> FloatArray:
+    """Largest probability that so many of the runs leave possible, with a one-sided confidence.
 
     Parameters
     ----------
     happened : int or array of int
-        In how many trials it happened, 0 to `trials`.
-    trials
-        How many trials there were, at least 1, independent of each other.
+        In how many runs it happened, 0 to `runs`.
+    runs
+        How many runs there were, at least 1, independent of each other.
     confidence
         Above 0 and below 1.
     """
-    return binomial_cdf_inverse(happened, trials, 1.0 - confidence)
+    return binomial_cdf_inverse(happened, runs, 1.0 - confidence)
 
 
-def lower_limit(happened: ArrayLike, trials: int, confidence: float) -> FloatArray:
-    """Smallest probability that so many of the trials leave possible; see `upper_limit`."""
-    return 1.0 - upper_limit(trials - np.asarray(happened), trials, confidence)
+def lower_limit(happened: ArrayLike, runs: int, confidence: float) -> FloatArray:
+    """Smallest probability that so many of the runs leave possible; see `upper_limit`."""
+    return 1.0 - upper_limit(runs - np.asarray(happened), runs, confidence)

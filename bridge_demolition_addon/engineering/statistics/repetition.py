@@ -1,4 +1,4 @@
-"""How much a limit by rank scatters: where it would lie if all runs were made once more, with other draws.
+"""How much a limit by rank scatters: where it would lie if all runs were made again, with other inputs.
 
 Two sets of independent runs of one distribution mix evenly. How many of the second lie below a run of the first
 depends on its rank alone, whatever the distribution is.
@@ -34,7 +34,7 @@ def chances_above(rank: int, runs: int) -> FloatArray:
     # From the largest down, the new value of that rank comes after `rank` - 1 new ones and so many known ones.
     before = np.arange(1.0, runs)
     none_before = (runs - np.arange(rank)) / (2.0 * runs - np.arange(rank))
-    # Every order of known and new values is as likely as any other; so much rarer or oftener is one more before it.
+    # Every order of known and new values is as likely as any other; so much rarer or commoner is one more before it.
     ratios = (rank - 1.0 + before) / before * (runs + 1.0 - before) / (2.0 * runs + 1.0 - rank - before)
     # By logarithms: of a thousandth rank no known value before it is too rare for a number.
     sizes = logarithm(none_before).sum() + np.concatenate([[0.0], np.cumsum(logarithm(ratios))])

@@ -45,7 +45,7 @@ def levelled(
 ) -> tuple[Grid, BoolArray, tuple[Levelled, ...]]:
     """Return a grid whose ground is level under feet and reaches into no member.
 
-    A member stands on the ground where that reaches up to the middle of its lowest face. There the ground is filled up
+    A member stands on the ground where that comes up to the middle of its lowest face. There the ground is filled up
     or dug away to the face. Wherever else the ground would reach into a member, up to a cell beside it, it is dug away.
 
     Parameters

@@ -55,7 +55,7 @@ def speeds_to_come(
     """Return how fast the fastest body probably is at some times to come.
 
     What moves flies on until it is as low as the lowest body, and slows down there. What rests is taken to stay at
-    rest: nobody knows what will fall.
+    rest: what will fall is not known.
 
     Parameters
     ----------
@@ -96,5 +96,5 @@ def clock(seconds: float) -> str:
 
 
 def in_words(seconds: float) -> str:
-    """Return a time left in words, such as ``about 1:05 min left``."""
+    """Return a time left as text, such as ``about 1:05 min left``."""
     return f"about {clock(seconds)} min left"

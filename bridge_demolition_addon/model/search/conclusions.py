@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.search.bisection import median_interval
-from ...engineering.search.probit import Trials, fitted, limit
+from ...engineering.search.probit import LevelOutcomes, fitted, limit
 from ...system.disk import whole_file
 from ..study.outcome import SUCCESS
 from ..study.runs_table import RunsTable
@@ -76,7 +76,7 @@ class Answer:
 
     search: Search
     values: np.ndarray
-    trials: Trials
+    trials: LevelOutcomes
     median: float | None
     spread: float | None
     value: float | None
@@ -141,7 +141,7 @@ def answer_of(search: Search, table: RunsTable) -> Answer:
     """Return the answer of a search from the table of its runs."""
     scale, settings = search.scale, search.settings
     values = np.array([float(row.inputs[settings.key]) for row in table.rows])
-    trials = Trials(np.array([scale.level(float(value)) for value in values]), table.met(SUCCESS))
+    trials = LevelOutcomes(np.array([scale.level(float(value)) for value in values]), table.met(SUCCESS))
     normal = fitted(trials)
     ends = [scale.value(limit(trials, 0.5, settings.confidence, side)) for side in (-1, 1)]
     middle, *interval = (scale.value(level) for level in median_interval(trials, *scale.ends, settings.confidence))
@@ -159,7 +159,7 @@ def answer_of(search: Search, table: RunsTable) -> Answer:
     )
 
 
-def reason_to_stop(search: Search, trials: Trials) -> str | None:
+def reason_to_stop(search: Search, trials: LevelOutcomes) -> str | None:
     """Return why a search ends after runs whose outcomes are all known; None as long as it goes on."""
     settings, scale = search.settings, search.scale
     if len(trials) >= OPENING and not trials.successes.any():

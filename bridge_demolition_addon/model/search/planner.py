@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...engineering.search.neyer import NeyerTest
-from ...engineering.search.probit import Trials
+from ...engineering.search.probit import LevelOutcomes
 from ..study.outcome import SUCCESS
 from ..study.planner import Planner
 from ..study.runs_table import RunOutcome, RunRow
@@ -59,7 +59,7 @@ class SearchPlanner(Planner[Search, Answer]):
         self._ended[run.number] = RunRow(run.number, outcome.status, run.inputs, outcome.outputs, outcome.reason)
         while not self.is_finished and self.done + 1 in self._ended:
             self._successes.append(bool(self._ended[self.done + 1].outputs.get(SUCCESS)))
-            trials = Trials(np.array(self._levels[: self.done]), np.array(self._successes, bool))
+            trials = LevelOutcomes(np.array(self._levels[: self.done]), np.array(self._successes, bool))
             self.ended_as = reason_to_stop(self.ensemble, trials)
 
     def rows(self) -> list[RunRow]:

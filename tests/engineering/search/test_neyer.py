@@ -6,7 +6,7 @@ from scipy.special import ndtr, ndtri
 
 from bridge_demolition_addon.engineering.search.bisection import median_interval
 from bridge_demolition_addon.engineering.search.neyer import NeyerTest, most_informative
-from bridge_demolition_addon.engineering.search.probit import SuccessCurve, Trials, fitted, limit
+from bridge_demolition_addon.engineering.search.probit import LevelOutcomes, SuccessCurve, fitted, limit
 
 SEARCHES = 60
 """Repetitions. `scripts/experiments/search_coverage.py` makes 500 of each kind, for docs/search.md."""
@@ -18,7 +18,7 @@ def test_levels_are_those_of_the_published_example():
     outcomes = np.array([bool(int(each)) for each in "00000100000010101111"])
     levels = NeyerTest(0.6, 1.4, 0.1, lambda level: round(level, 2)).levels(outcomes, 20)
     assert levels[:10] == pytest.approx([1.0, 1.2, 1.4, 1.8, 2.6, 4.2, 3.4, 3.8, 4.0, 4.1])
-    found = fitted(Trials(levels, outcomes))
+    found = fitted(LevelOutcomes(levels, outcomes))
     assert (found.median, found.spread) == (pytest.approx(5.3922, abs=1e-4), pytest.approx(1.0412, abs=1e-4))
 
 
@@ -29,7 +29,7 @@ def test_the_best_place_for_a_trial_of_many_is_where_one_in_eight_or_seven_of_ei
 
 
 def search(median, spread, rng, trials, pending=0):
-    """Trials of a search from 0 to 1 whose outcomes follow a known curve."""
+    """Runs of a search from 0 to 1 whose outcomes follow a known curve."""
     levels, outcomes = [], []
 
     def outcome(number):
@@ -41,7 +41,7 @@ def search(median, spread, rng, trials, pending=0):
     for _ in range(trials):
         levels.append(next(chosen))
     outcome(trials - 1)
-    return Trials(np.array(levels), np.array(outcomes))
+    return LevelOutcomes(np.array(levels), np.array(outcomes))
 
 
 @pytest.mark.parametrize("pending", [0, 3])
@@ -91,11 +91,11 @@ def test_the_next_level_depends_on_outcomes_that_are_there():
 
 
 def test_trials_that_do_not_overlap_have_a_median_and_no_spread():
-    trials = Trials(np.array([1.0, 2.0, 3.0, 4.0]), np.array([False, False, True, True]))
+    trials = LevelOutcomes(np.array([1.0, 2.0, 3.0, 4.0]), np.array([False, False, True, True]))
     assert fitted(trials) == SuccessCurve(2.5, 0.0)
     assert limit(trials, 0.9, 0.95, 1) >= 3.0
-    assert fitted(Trials(np.array([1.0, 2.0]), np.array([True, True]))) is None
-    assert fitted(Trials(np.array([1.0, 2.0, 3.0]), np.array([True, True, False]))) is None
+    assert fitted(LevelOutcomes(np.array([1.0, 2.0]), np.array([True, True]))) is None
+    assert fitted(LevelOutcomes(np.array([1.0, 2.0, 3.0]), np.array([True, True, False]))) is None
 
 
 def test_the_likeliest_curve_is_that_of_a_library():
@@ -104,7 +104,7 @@ def test_the_likeliest_curve_is_that_of_a_library():
 
     rng = np.random.default_rng(3)
     levels = rng.normal(5.0, 2.0, 80)
-    trials = Trials(levels, rng.random(80) < ndtr((levels - 5.5) / 1.5))
+    trials = LevelOutcomes(levels, rng.random(80) < ndtr((levels - 5.5) / 1.5))
     signs = np.where(trials.successes, 1.0, -1.0)
     found = fitted(trials)
     library = minimize(lambda at: -log_ndtr(signs * (levels - at[0]) / np.exp(at[1])).sum(), [5.0, 0.0], tol=1e-10)
