@@ -74,6 +74,14 @@ def test_rooms_are_drawn_in_the_order_of_their_contract(layer):
     assert rows_of(rooms_by_layer()[layer]) == contract_of(f"{PACKAGE}.{layer}")
 
 
+def test_types_of_all_layers_but_the_interface_are_checked():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["mypy"]
+    layers = set(chain.from_iterable(contract_of(PACKAGE))) - {"ui"}
+    assert {name.removeprefix(f"{PACKAGE}.") for name in settings["packages"]} == layers
+    options = chain.from_iterable([settings, *settings["overrides"]])
+    assert "ignore_errors" not in options
+
+
 def test_rooms_of_other_layers_are_their_folders():
     for layer, rooms in rooms_by_layer().items():
         if layer not in ORDERED:

@@ -49,7 +49,7 @@ class RunService:
     The process ends when its input does: then the process that asked has ended.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         sys.stdout.flush()
         self._answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
         nowhere = os.open(os.devnull, os.O_WRONLY)

@@ -19,7 +19,7 @@ class BackgroundWork:
     A job must touch neither Blender's data nor Bullet's memory, but only what nobody else changes until it is done.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix=THREAD_NAME)
         self._job: Future[None] | None = None
 
