@@ -40,8 +40,6 @@ class BodyTable:
 
     Attributes
     ----------
-    addresses, contacts
-        As given.
     removed
         (n,) bodies that `remove` took out of the simulation.
     """

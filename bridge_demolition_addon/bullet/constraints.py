@@ -32,8 +32,6 @@ class ConstraintTable:
 
     Attributes
     ----------
-    addresses, feedback
-        As given.
     exists
         (m,) whether each exists; kept up to date.
     """

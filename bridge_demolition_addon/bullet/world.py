@@ -83,11 +83,6 @@ class BulletWorld:
         Objects with a rigid body, and objects with a rigid-body constraint. All arrays are in their order.
     layout
         Byte offsets; those of this platform unless given.
-
-    Attributes
-    ----------
-    scene, body_objects, connection_objects
-        As given.
     """
 
     def __init__(

@@ -61,11 +61,6 @@ class ContourSeries:
         coloured and does not count, as the force on it is larger than that on any shard.
     recorded : sequence of Frame
         Its frames, each of which is looked up when it is needed; there may be more of them later.
-
-    Attributes
-    ----------
-    recorded
-        As given.
     """
 
     def __init__(self, inventory: Inventory, recorded: FrameLookup):

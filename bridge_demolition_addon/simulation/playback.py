@@ -29,8 +29,6 @@ class Playing:
 
     Attributes
     ----------
-    recording
-        As given.
     total
         Frames to play, without the start frame.
     done

@@ -46,11 +46,6 @@ class FolderLock:
         Existing folder.
     is_new
         Whether it was made for this holder.
-
-    Attributes
-    ----------
-    folder, is_new
-        As given.
     """
 
     def __init__(self, folder: Path, *, is_new: bool = False) -> None:

@@ -257,11 +257,6 @@ class CrackStep:
     solved : SolvedTangents
         For which equations were made last.
     substep_s : float
-
-    Attributes
-    ----------
-    rows : (c,) int
-        As given.
     """
 
     def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):

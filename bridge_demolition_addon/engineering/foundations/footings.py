@@ -192,11 +192,6 @@ class FootingStep:
     solved : SolvedTangents
         For which equations were made last.
     substep_s : float
-
-    Attributes
-    ----------
-    rows : (c,) int
-        As given.
     """
 
     def __init__(

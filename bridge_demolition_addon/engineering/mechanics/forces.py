@@ -45,8 +45,6 @@ class PairSums:
 
     Attributes
     ----------
-    shape
-        As given.
     first, second : (s k,) or (k,) int
         Rows of the bodies of the pairs among those (s n,) of all sub-steps.
     """

@@ -62,8 +62,6 @@ class Recording(RecordedFrames):
 
     Attributes
     ----------
-    scene, folder
-        As given.
     scene_uid : int
         Number of the scene as long as Blender runs, also when the scene is gone.
     changed_bodies : list of str

@@ -36,11 +36,6 @@ class GrowingTable:
         File to write; one that is there is replaced.
     row_type : np.dtype
         Names, types and shapes of the columns.
-
-    Attributes
-    ----------
-    path, row_type
-        As given.
     """
 
     def __init__(self, path: Path, row_type: np.dtype):
