@@ -163,7 +163,7 @@ def test_a_simulation_that_begins_elsewhere_than_its_scene_is_refused(blender, f
     falling.world.solver_iterations += 1
     contours_of(falling.scene).refresh()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(ShownResults, "_put_back", lambda _: None)
+        patch.setattr(ShownResults, "put_bodies_back", lambda _: None)
         with pytest.raises(SimulationError, match=r"begins with 1 of 1 shards elsewhere .* by 4 m: go to the start"):
             falling.play(tmp_path, FRAMES)
 

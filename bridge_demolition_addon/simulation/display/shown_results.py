@@ -128,15 +128,16 @@ class ShownResults:
         if not (self._has_placed and world and world.collection):
             return
         if self.are_placed and self.scene.frame_current <= world.point_cache.frame_start + 1:
-            self._put_back()
+            self.put_bodies_back()
 
-    def _put_back(self) -> None:
+    def put_bodies_back(self) -> None:
+        """Put bodies back where they were before they were shown elsewhere."""
         if self._has_placed:
             put_back(self.scene)
             self._has_placed = False
 
     def _drop(self) -> None:
-        self._put_back()
+        self.put_bodies_back()
         self._results = self._loaded = None
         self.missing = ""
         self.number += 1

@@ -1,7 +1,7 @@
 """What all sub-steps of a frame come to: loads, work, breaking, and the hits of the balls.
 
 While Bullet waits, nothing is done but copying what it holds. The loads of many sub-steps are then worked out at once,
-which takes a fraction of the time: all those of a frame, or as many as fit into `_BATCH_BYTES`. In larger models that
+which takes a fraction of the time: all those of a frame, or as many as fit into `BATCH_BYTES`. In larger models that
 is done beside Bullet, in a thread of its own.
 """
 
@@ -23,11 +23,11 @@ from .background import BackgroundWork
 from .breaking import Breaks
 from .meter import Meter, Reading
 
-_BATCH_BYTES = 1_000_000
+BATCH_BYTES = 1_000_000
 """Copies of sub-steps that are kept until they are worked out; fewer take longer each, more leave more to wait for at
 the end of a frame."""
 
-_WORTH_HANDING_OVER_BYTES = 200_000
+WORTH_HANDING_OVER_BYTES = 200_000
 """Copies of fewer bytes are worked out sooner than they are handed over."""
 
 
@@ -149,7 +149,7 @@ class FrameSums:
         """Whether enough sub-steps wait, or as many as the frame probably has: Blender now moves its objects."""
         size = sum(substep.reading.snapshot.size for substep in self._waiting)
         ends_frame = self._substeps == self._substeps_before
-        return self._every_substep and size > (_WORTH_HANDING_OVER_BYTES if ends_frame else _BATCH_BYTES)
+        return self._every_substep and size > (WORTH_HANDING_OVER_BYTES if ends_frame else BATCH_BYTES)
 
     def _hand_over(self) -> None:
         """Have the sub-steps that wait worked out beside what Blender does next."""

@@ -15,6 +15,7 @@ from bridge_demolition_addon.simulation.recording.background import THREAD_NAME,
 from bridge_demolition_addon.simulation.recording.frame_sums import FrameSums
 from bridge_demolition_addon.simulation.recording.meter import Meter
 from bridge_demolition_addon.simulation.recording.recorder import Recording
+from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder
 
 FRAMES = 12
 
@@ -43,8 +44,8 @@ def threads():
 
 def hand_over(monkeypatch, size):
     """Have every sub-step handed over that takes more than so many bytes; return the threads of the jobs."""
-    monkeypatch.setattr(frame_sums, "_BATCH_BYTES", size)
-    monkeypatch.setattr(frame_sums, "_WORTH_HANDING_OVER_BYTES", size)
+    monkeypatch.setattr(frame_sums, "BATCH_BYTES", size)
+    monkeypatch.setattr(frame_sums, "WORTH_HANDING_OVER_BYTES", size)
     used, work_out = set(), FrameSums.work_out
 
     def noted(sums, substeps, *, work_counts):
@@ -54,6 +55,18 @@ def hand_over(monkeypatch, size):
 
     monkeypatch.setattr(FrameSums, "work_out", noted)
     return used
+
+
+def users_of(monkeypatch, class_, name):
+    """Objects of a class on which a method is called from now on."""
+    original, users = getattr(class_, name), []
+
+    def noted(user, *arguments):
+        users.append(user)
+        return original(user, *arguments)
+
+    monkeypatch.setattr(class_, name, noted)
+    return users
 
 
 def test_same_results_to_the_bit_beside_bullet_and_not(blender, tmp_path, monkeypatch):
@@ -95,26 +108,27 @@ def test_error_beside_bullet_ends_the_recording_with_its_message(row, tmp_path, 
 def test_recording_closed_within_a_frame_leaves_no_thread(row, tmp_path, monkeypatch):
     """Closed while a job runs, which ends first; nothing reaches the frame that was never finished."""
     hand_over(monkeypatch, 0)
+    recorders = users_of(monkeypatch, SubstepRecorder, "after_substep")
+    backgrounds = users_of(monkeypatch, BackgroundWork, "begin")
     recording = Recording(row.scene, tmp_path)
     start_recording(recording)
     for frame in range(1, 6):
         row.scene.frame_set(frame)
     assert len(threads()) == 1
-    recorder = recording._reader._substeps
     goes_on, ended = threading.Event(), []
 
     def job():
         goes_on.wait(10.0)
         ended.append(True)
 
-    recording._reader._sums._background.begin(job)
+    backgrounds[-1].begin(job)
     threading.Timer(0.1, goes_on.set).start()
     stop_recording()
     assert ended == [True]
     assert threads() == []
     assert recording.recorded_frames == 4
-    recorder.after_substep(0.01)  # as from a world that could not be reached any more
-    assert recorder.error is not None
+    recorders[-1].after_substep(0.01)  # as from a world that could not be reached any more
+    assert recorders[-1].error is not None
 
 
 def test_jobs_come_one_after_the_other_and_errors_at_the_next():
