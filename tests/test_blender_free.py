@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Engineering, model and system work where Blender is not installed."""
 
 from support.checkout import ROOT

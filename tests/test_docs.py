@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every link in the documents leads somewhere, and every file and name of code in them is there."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What ``docs/from_2019.md`` says of the report of 2019 is complete, and what it says of the present is there."""
 
 import csv

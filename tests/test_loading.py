@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What loading the command line and the extension brings along, and what has to wait until it is needed."""
 
 import pytest

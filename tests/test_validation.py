@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The validation: its page has every case, and what it says of a case is what the case says."""
 
 import pytest

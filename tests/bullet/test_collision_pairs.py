@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What becomes of the bodies of a connection that breaks."""
 
 import pytest

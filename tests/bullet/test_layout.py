@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A wrong byte offset ends in a clear error: never in a crash, and never in a wrong force."""
 
 from dataclasses import fields, replace

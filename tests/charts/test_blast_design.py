@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The charts on blast: what their lines say, in the units on their axes, and that every picture is one."""
 
 import warnings

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The force chart, read back: from a vector picture its numbers and words, from pixels its size."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The ground in maps and in the report of a run: contour lines where they belong, and what became of the file."""
 
 from dataclasses import asdict, replace

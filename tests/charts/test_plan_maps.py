@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Names on the maps of a report: none over another, none beside the map."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda charge``: what it prints is what the wave gives, and wrong input is refused in one line."""
 
 import re

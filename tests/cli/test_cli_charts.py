@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda charts``: pictures in the folder asked for, and wrong input refused in one line."""
 
 from contextlib import chdir, redirect_stdout

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda check`` says what follows from a scenario, and needs no Blender for it."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whatever happens to a run, what it had is kept, and its status and its folder say so."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Progress is a bar on a terminal, lines elsewhere, and nothing when quiet."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda report``, and the report at the end of ``bda run``."""
 
 from dataclasses import replace

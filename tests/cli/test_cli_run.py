@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda run`` runs a scenario, says how far it is, and ends with a status that tells what happened."""
 
 import signal

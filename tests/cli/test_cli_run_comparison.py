@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda run`` with several scenarios: a comparison, whose runs are kept beside each other."""
 
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line where its streams are closed or full, where it is interrupted early, and with odd paths."""
 
 import os

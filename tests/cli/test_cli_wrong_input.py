@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Wrong input ends with status 2 and one line that names the file, the key and what was expected."""
 
 import sys

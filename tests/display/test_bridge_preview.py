@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Outlines of bridge and ball: edges counted and measured by hand, heights from the sizes in the scenario."""
 
 import math

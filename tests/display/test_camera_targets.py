@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What pictures show: the bridge, what works on it, and where pieces fall."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Colour maps against what is published of them."""
 
 import matplotlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Values and ranges of contours, on the chain whose forces are known by hand; arrows and films."""
 
 from dataclasses import replace

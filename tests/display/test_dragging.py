@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Places under a mouse, found by hand."""
 
 import numpy as np

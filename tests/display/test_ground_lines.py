@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Lines on the ground, by lengths, areas and distances known from geometry; and when a flash is seen."""
 
 import math

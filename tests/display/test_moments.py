@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Moments of the chain whose every number is known by hand."""
 
 from support.sample_results import FRAME_S, GRAVITY, hanging_chain

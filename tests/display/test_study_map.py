@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Map and limit of a study on the ground of a view."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A model has the same bits on every processor: what numpy and OpenBLAS choose by processor is not used for it."""
 
 import ast

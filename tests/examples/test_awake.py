@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The bridge of 2019 that does not start deactivated breaks under its own weight; one that does stands."""
 
 from dataclasses import replace

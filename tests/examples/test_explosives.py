@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The examples by explosives: stand without their charges, come down with them."""
 
 import json

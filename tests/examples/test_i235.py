@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The examples of the I-235 bridge: what the 2019 report shows of each, and what their headers say.
 
 They are run for 3 s instead of 5 or 8 s: the ball hits at 1.51 s, and a deck takes about a second to fall.

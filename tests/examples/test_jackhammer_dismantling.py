@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A jackhammer takes the slab between two girders out along its path, and the rest of the bridge stays."""
 
 import pytest

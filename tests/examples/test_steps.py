@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The example that takes a span down in steps: all of them happen, in order, and the run ends once all rests."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The box girder of three spans stands by itself, and the ball breaks into the middle span."""
 
 from support.example_claims import assert_claims

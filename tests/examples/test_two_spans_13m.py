@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Two spans of 13 m and 196 t: the ball takes one span down and leaves the other, charges take down both."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A short part of what `scripts/fuzz` does: a few seeds of each player, none of which may go wrong."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's Bullet, as recorded here, against Bullet built and driven by somebody else.
 
 The two share the mathematics of their solver; what is compared is everything around it: how bodies, time, gravity and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Print in a line of JSON what this process calculates with, and go on as the command line.
 
 Arguments: how many cores to use at most, and those of `bda`.

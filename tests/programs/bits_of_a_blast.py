@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Print a digest of every bit of the loads of charges on blocks that turn, by each model and with shielding."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Print a digest of every bit of a scenario's model: shards, connections, and what makes these break."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Print a digest of the logs of a scenario that is run in a new folder."""
 
 import hashlib

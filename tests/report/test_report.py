@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reports from the folders of runs: complete in themselves, whole or cut short, one or several."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pages of the PDF, measured: nothing outside the margins, nothing over anything else, nothing cut off."""
 
 import itertools

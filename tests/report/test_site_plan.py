@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Site plans: read back, and placed on earth as tables of the ellipsoid say."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reports with a chapter on stages, of stages alone, and of a search."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files of a run that are well-formed and wrong are said in the report, and left out of it."""
 
 import json

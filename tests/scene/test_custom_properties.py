@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What Blender data keeps in custom properties can be edited by hand: what reads it then says so in a sentence."""
 
 import pytest

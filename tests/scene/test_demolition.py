@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A demolition as Blender data, read back through Blender's own interface."""
 
 from dataclasses import replace

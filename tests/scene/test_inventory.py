@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a run knows of a scene before it begins, read from scenes built by the add-on and by hand."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Names of objects that are made by the thousand."""
 
 import pytest

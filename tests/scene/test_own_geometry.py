@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A demolition of a member from a file, without a bridge."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Removing a demolition leaves nothing of it behind; supports hold."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ground that is not flat in Blender: what falls on it comes to rest on it, at the height that geometry gives."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Objects of a scene as solids, where they are seen, and the paint on them."""
 
 import math

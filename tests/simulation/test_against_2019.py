@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where the listing of 2019 departs from its own equations in Blender: forces, handlers, logs and fields.
 
 Its differences 1 to 6 concern formulas alone; ``tests/model/blast/test_blast_against_2019.py`` has them.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Elastic connections in Blender, held against statics and the theory of beams."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is done to a bridge with elastic connections: after each step the rest bears what statics says of it.
 
 A beam of 20 t is held by posts of different stiffness, so that it does not bend but sinks and turns on springs: what

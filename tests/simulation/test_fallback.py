@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where Bullet's memory is not as expected, motion is recorded and said to be all there is."""
 
 from dataclasses import replace

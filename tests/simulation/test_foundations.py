@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A pier on soil, in Blender's own simulation: it settles, lifts its heel and sinks as statics says."""
 
 import numpy as np

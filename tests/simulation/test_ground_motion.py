@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ground that moves, in Blender's own simulation: what stands on it follows, rocks and tips as theory says."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bridges of every kind, awake in Blender: they stand as they were built, and nothing is thrown apart."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Layers of bars in Blender: a cracked beam stands as long as design formulas say, and comes down beyond that."""
 
 import sys

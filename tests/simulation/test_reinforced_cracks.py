@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reinforcement across the cracks of elastic connections in Blender, held against statics and plastic theory."""
 
 from __future__ import annotations

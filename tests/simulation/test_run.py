@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whole runs: the span of the example falls as it should, and what is written down is what happened."""
 
 import csv

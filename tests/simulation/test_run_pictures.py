@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of a run, by each camera, and the same from the window as without one."""
 
 from dataclasses import replace

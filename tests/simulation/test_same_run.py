@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The same scenario gives the same run, whatever numpy, OpenBLAS and the C library choose by processor and cores."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Warm-up: nothing breaks while a structure settles, and with damping it is at rest afterwards."""
 
 from dataclasses import replace

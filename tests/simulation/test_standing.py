@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Intact bridges of every kind stand under their own weight by the strength of their material, awake all the time."""
 
 import numpy as np

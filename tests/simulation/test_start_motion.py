@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Members that begin tilted, with a velocity or a spin, in Blender's own simulation, against ballistics."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Forces of connections at rest, against statics."""
 
 from itertools import pairwise

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A run ends once everything rests, if it is asked to."""
 
 from dataclasses import replace

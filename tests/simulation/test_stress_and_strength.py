@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Stress in shards and breaking by strength, against what a continuum of the same shape would do."""
 
 import csv

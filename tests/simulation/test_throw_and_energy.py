@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Throw and energy of bodies in Blender's own simulation, against ballistics and the conservation of energy."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """``bda optimise`` in Blender: a block that hangs, and the charge beside it that tears it off."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Searches in Blender whose answer is known: the mass at which a block tears off what it hangs on."""
 
 import json

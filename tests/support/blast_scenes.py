@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blocks and charges, whose loads are known from tables and integrals."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small scenes of blocks and connections, whose forces statics gives by hand."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where the files of the checkout are."""
 
 from pathlib import Path

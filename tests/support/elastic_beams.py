@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Beams of blocks with elastic connections, as arrays, whose loads and deflections beam theory gives by hand."""
 
 from __future__ import annotations

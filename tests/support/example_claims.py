@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is claimed of outcomes that differ from draw to draw: limits that every run of an example keeps to.
 
 Each limit lies beyond what all runs in `docs/data/seeds` gave. What holds by mechanics alone, whatever the draw, stands

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Quantities of an example's run that differ from one draw of its shards to the next.
 
 `scripts/seeds` prints their ranges over many draws, and the tests of the examples have their limits beyond those. A new

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of the examples, whole or cut short, and what the tests of them measure."""
 
 from dataclasses import dataclass, replace

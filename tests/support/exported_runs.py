@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A run of turning bodies, in single precision as runs are recorded, and where its corners are by plain sums."""
 
 from dataclasses import replace

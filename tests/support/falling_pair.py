@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Two blocks that fall while they are recorded, and what has to hold once their recording has ended."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes for tests: from and to trimesh, turned and put together."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Recordings of boxes whose motion is given, for what is worked out from motion alone."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Random scenarios, from what their tables say of the values that they take."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What reports say, without writing them."""
 
 from bridge_demolition_addon.report.comparison import comparison

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Folders of runs as `bda run` leaves them, made from given results in no time."""
 
 import json

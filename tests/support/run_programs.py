@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Programs of draws that need no Blender, and what they are asked."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A small recording whose every number can be checked by hand."""
 
 from dataclasses import replace

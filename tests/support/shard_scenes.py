@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solids in shards that are held together by area, for tests of stress and strength."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Beams of concrete in irregular shards, as files of scenarios, and the stages of these."""
 
 import numpy as np

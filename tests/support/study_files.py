@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small studies in files, and the tables they leave."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files of terrain that tests write, in every format that is read, of one and the same ground."""
 
 import numpy as np

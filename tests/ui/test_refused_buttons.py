@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Buttons that cannot work are greyed with the reason: outside object mode, and in a scene of another file."""
 
 from dataclasses import replace

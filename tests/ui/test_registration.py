@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Switching the extension on and off leaves nothing behind."""
 
 import bridge_demolition_addon

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where the listing of 2019 departs from its own equations, the code here follows the equations."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shock fronts against the limits of the Rankine-Hugoniot relations and against tests with TNT."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The Friedlander pulse against numerical integration and against its own limits."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls and projected areas against shapes whose shadows are known."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pulses of several charges on several bodies: who is loaded when, and by how much."""
 
 from itertools import pairwise

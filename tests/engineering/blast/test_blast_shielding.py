@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shielding: walls, gaps and rows of boxes, and rays walked point by point."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ground vibration against the published formula, in its own units and the other way round."""
 
 import numpy as np

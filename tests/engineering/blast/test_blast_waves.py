@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blast waves against published values, the tables they come from, and the laws of scaling."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Beams at rest, held against the theory of Timoshenko's beam."""
 
 from dataclasses import fields

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bars that are stretched: the bilinear law of EN 1992-1-1:2004, figure 3.8, by hand, and what they are refused."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Options of the fracture: volumes stay exact, and each does what it says."""
 
 import numpy as np

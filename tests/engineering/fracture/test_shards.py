@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Voronoi fracture against volumes, areas and centres that are known without it."""
 
 from functools import cache

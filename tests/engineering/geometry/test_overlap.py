@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solids that overlap by volumes known by hand."""
 
 import numpy as np

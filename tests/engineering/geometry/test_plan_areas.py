@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Areas in plan, against areas and distances of squares."""
 
 import numpy as np

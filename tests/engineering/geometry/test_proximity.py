@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Neighbours found in the cells of a grid are those that comparing all with all finds."""
 
 import numpy as np

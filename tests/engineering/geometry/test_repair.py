@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Broken meshes whose right shape is known: repaired to its volume, or refused with the reason."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solids against shapes whose volume, centre and inside are known by heart."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Vectors and small matrices against numpy's own, and by hand where there is nothing to divide by."""
 
 import numpy as np

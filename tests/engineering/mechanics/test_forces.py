@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Forces on bodies against statics and Newton's third law."""
 
 import numpy as np

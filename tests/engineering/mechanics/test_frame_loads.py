@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Means, peaks and impulses of frames against bodies that hang, are squeezed and are hit, worked out by hand."""
 
 from dataclasses import fields, replace

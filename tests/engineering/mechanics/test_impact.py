@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Hits against known impulses, and Hertz's contact against published results and its own equation of motion."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sections across a slab in irregular shards that is fixed at one end, held against statics."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ductile bars: directions and masses by hand, and how they hold, give way and let go of a mass on a line."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A cut through a member carries what all its faces carry, however the load is shared among them."""
 
 import numpy as np

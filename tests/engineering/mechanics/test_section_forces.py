@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Section forces against beams and columns cut by hand."""
 
 import numpy as np

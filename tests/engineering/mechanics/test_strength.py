@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Utilisation and breaking against sections worked out by hand."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Average stress against cubes, columns and beams worked out by hand."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Work of gravity, loads, tools and the solver, held against the energies of motions that can be written down."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Neyer's test of sensitivity: its published example, and searches whose truth is known."""
 
 import numpy as np

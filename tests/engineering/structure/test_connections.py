@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Connections between unit cubes on a grid, whose neighbours, faces and distances can be counted by hand."""
 
 from itertools import product

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Second moments of shared faces, against the formulas for rectangles."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Few triangles for many heights: they cover the site without gaps, and stay within the tolerance."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frames, sub-steps and impulses against rates that are known and sums done by hand."""
 
 import pytest

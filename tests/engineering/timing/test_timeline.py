@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frames of a run: even ones, and shorter ones around detonations."""
 
 import numpy as np

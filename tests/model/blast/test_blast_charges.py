@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Charges: what they are worth in TNT, and which are refused."""
 
 import numpy as np

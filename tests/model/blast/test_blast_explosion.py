@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Loads of an explosion step by step: each adds up to the whole, and follows the bodies."""
 
 from itertools import pairwise

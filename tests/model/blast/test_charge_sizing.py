@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blast the other way round: every answer is put back into the wave it came from."""
 
 import numpy as np

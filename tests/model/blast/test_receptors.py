@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What charges do to places near them, against the waves of single charges."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Members of bridges whose sizes and places are worked out by hand."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bridges of every kind: volumes and masses by hand, no overlap, one body, and what contradicts itself."""
 
 import math

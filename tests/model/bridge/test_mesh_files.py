@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Members from mesh files: formats, places, repair, overlap, and the model that is made of them."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Debris on slopes and surfaces: heights above the ground below, who lies on the water, who went through the ground."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The exclusion zone around boxes: areas that a buffer has by formula."""
 
 import math

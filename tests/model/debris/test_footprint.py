@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Footprints of shapes whose areas are known, and distances from them."""
 
 import numpy as np

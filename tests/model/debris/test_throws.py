@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Debris of boxes that were moved by hand: throws, reaches, and piles whose heights and volumes are known."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Touchdown: what lands together and how it shakes the ground, against free fall and tabulated values."""
 
 import numpy as np

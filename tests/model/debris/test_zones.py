@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A zone is entered exactly when a hull reaches into it, between frames too."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A block on a bed of springs, stepped in time without Blender: it settles, yields, lifts off and slides as by hand."""
 
 import numpy as np

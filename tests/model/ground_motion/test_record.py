@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Motion of the ground by accelerations that are known: integrals by hand, and what a baseline leaves."""
 
 import itertools

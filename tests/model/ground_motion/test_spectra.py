@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Response spectra against oscillators that are known, and records made from the spectrum of EN 1998-1."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Plastic moments of sections with bars, held against the design formulas of EN 1992-1-1 worked by hand."""
 
 import pytest

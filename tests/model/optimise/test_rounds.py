@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Optimisation of functions whose optimum is known, without Blender: better than chance, and honest about itself."""
 
 from collections.abc import Mapping

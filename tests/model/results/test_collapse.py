@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Spans, progress and rest of boxes that come down as told."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Digests are the same for the same bits, and differ for any other."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Loads of the hanging chain, whose forces statics gives by hand."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The moment of which a run has a picture."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Motion against free fall and right triangles."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shards that were removed count for nothing."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Recorded arrays: forces per body by statics, and files that come back as they were written."""
 
 from dataclasses import fields

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Throws that the energy of a fall does not explain, and what a summary says of the solver's energy."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frames that go to the disk as they come: what is in memory is what is in the files, whatever becomes of the run."""
 
 import sys

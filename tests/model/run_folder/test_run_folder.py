@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The folder of a run: what is made, what is cleared away and what is left alone."""
 
 import json

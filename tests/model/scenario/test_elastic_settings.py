@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a scenario with elastic connections needs, and is told where it lacks that."""
 
 from dataclasses import replace

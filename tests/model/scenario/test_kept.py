@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tables as Blender data keeps them: those saved before are read, and what is written reads as it was."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Materials of the user's own: the same mechanics as those that come with the add-on, from the user's numbers."""
 
 from dataclasses import fields, replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scenarios made in Python: limits of each value, values that contradict each other, and what follows from them."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The reference of a scenario's keys says what the code does."""
 
 from support.checkout import ROOT

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of the site: taken as they are meant, and refused with a sentence where they cannot be."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Variants of a scenario file: what they take over, change and leave out, and what is refused."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Changes find the shards and connections that they mean, and are refused where they mean nothing."""
 
 from dataclasses import replace

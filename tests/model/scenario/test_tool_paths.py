@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Paths of a jackhammer's chisel and of a lifted ball, and which jackhammers are refused."""
 
 from dataclasses import replace

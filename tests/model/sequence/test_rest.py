@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """When everything has come to rest."""
 
 from dataclasses import replace

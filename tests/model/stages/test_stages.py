@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Stages of beams in irregular shards, held against statics, and against the same beams in Blender."""
 
 import csv

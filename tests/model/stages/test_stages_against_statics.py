@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Stages against statics: a hanging chain, a simple and a continuous beam; and after each cut against Blender."""
 
 from dataclasses import replace

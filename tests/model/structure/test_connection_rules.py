@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Connections between certain members: which rule counts, and what a model makes of it."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bars across faces of shards: however a member is cut, each section has all of its steel, at its depth."""
 
 from dataclasses import replace

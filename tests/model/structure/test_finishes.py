@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the faces of shards look like, by areas that are known from the size of the member."""
 
 import numpy as np

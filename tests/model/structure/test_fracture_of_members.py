@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shards of each member of the I-235 example, cut in ways of their own."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Models of the I-235 example: masses, places and connections against hand calculations."""
 
 from dataclasses import fields, replace

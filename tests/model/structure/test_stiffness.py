@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Slabs in irregular shards that stand on the ground and are pulled sideways, held against beam theory."""
 
 from dataclasses import replace

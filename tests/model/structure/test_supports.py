@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is held of a bridge, and which connections lie between which members."""
 
 from dataclasses import replace

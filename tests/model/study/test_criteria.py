@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Criteria: judged from outputs, and refused where they ask about nothing."""
 
 from dataclasses import replace

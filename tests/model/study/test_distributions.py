@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Distributions that inputs are drawn from, against scipy's."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Keys of a scenario by their dotted names."""
 
 from dataclasses import replace

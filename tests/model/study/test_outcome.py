@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Outcomes of runs whose geometry is known exactly."""
 
 from dataclasses import replace

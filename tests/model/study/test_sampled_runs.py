@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Draws of a study: each by itself, the same everywhere, and from the distributions that were asked for."""
 
 import itertools

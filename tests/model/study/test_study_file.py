@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Study files: read strictly, and refused with what to do."""
 
 import pytest

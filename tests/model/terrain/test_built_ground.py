@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bridges on ground that is not flat: columns reach down to it, it is level under them, and what is wrong is said."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Terrain in every format that is read: one plane, whose heights are known everywhere."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Connections hold and break at the force they are given, whatever the time step."""
 
 import numpy as np

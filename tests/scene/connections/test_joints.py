@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Connections with free motions and with strengths of their own, against statics."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contours in a scene: colours in renders and after scrubbing, and everything as it was afterwards."""
 
 from dataclasses import replace

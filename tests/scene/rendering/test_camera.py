@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: what the camera sees, and that something is drawn."""
 
 from dataclasses import replace

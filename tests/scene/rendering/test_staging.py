@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A demolition that was built is framed on ground, under sky and sun; nothing of the user's is lost by it."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Several hits of a ball in a row: each falls freely on its own target, and nothing is flung when it is lifted."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A ball swings on its cable as a pendulum does, and hits what stands in its way."""
 
 from contextlib import nullcontext

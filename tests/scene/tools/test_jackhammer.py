@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A jackhammer goes where it is led, and takes out of a slab what is under it and nothing else."""
 
 from dataclasses import replace

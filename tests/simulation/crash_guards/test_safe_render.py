@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Renders of a demolition: of what was not played, of what was, and while a recording runs.
 
 Without the extension the first of these ends the process with a segmentation fault, in Blender's own code.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sub-steps worked out beside Bullet: the same to the bit, errors are told, and no thread stays behind."""
 
 import itertools

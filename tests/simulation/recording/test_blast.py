@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blast loads in Blender: the impulse that bodies really get, measured by their velocities."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contacts that a run keeps, against statics: what bodies at rest press on the ground with, and where."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What goes wrong while a recording runs, or before: it is named, what was recorded stays, and nothing of ours is left.
 
 Deleting a body, undoing a step or removing the world frees what Blender's simulation still points at. Without any

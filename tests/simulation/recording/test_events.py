@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Removals, saw cuts and weakenings happen when and where they are wanted, with what mechanics says of the rest."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Newton's second law for every body, in every sub-step: nothing that acts on it is missed."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A recording keeps its frames on the disk: memory does not grow, and what is in memory is what is in the files."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frames with as many sub-steps as their bodies are fast: a block that falls, in Blender's own simulation."""
 
 import bpy

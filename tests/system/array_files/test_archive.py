@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Archives of arrays: as numpy's, with large arrays that are mapped, and checked for damage."""
 
 import struct

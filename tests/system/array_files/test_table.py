@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tables that grow on the disk: numpy reads them at any time, and a kill takes no whole row."""
 
 import gc

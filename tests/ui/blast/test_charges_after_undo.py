@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where charges are after undo, which takes away what Blender has worked out of places."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The panel Explosion: charges in the scene, force objects, total mass, and what is ticked."""
 
 import pytest

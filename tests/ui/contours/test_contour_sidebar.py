@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar's contours: settings, buttons and what is drawn over the view, as far as it needs no window."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The panel Search: a search that runs beside Blender, is stopped and gone on with, and tells what it found."""
 
 import json

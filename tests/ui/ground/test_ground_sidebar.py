@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is drawn on the ground and in the air, zones that are added, a site plan, and dust that renders."""
 
 import json

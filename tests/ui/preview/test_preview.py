@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the panels would build, as it is drawn, and the values that dragging sets."""
 
 import pytest

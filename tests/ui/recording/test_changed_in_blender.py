@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is written is what ran, whatever was changed in Blender after the scenario was built."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A bridge that falls before anything is done to it is told of in the window, on the console and in the report."""
 
 import json

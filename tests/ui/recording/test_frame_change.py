@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Recording by the buttons: handlers, log files, results."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A file that was saved after a run and is opened again: at its start frame, with the motion that was recorded."""
 
 import json

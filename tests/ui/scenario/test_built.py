@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Values that change after Build: the panels say so, and no run is of anything else than they show."""
 
 import json

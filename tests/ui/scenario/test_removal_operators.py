@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Remove Demolition and Remove Loose Connections, and what can be done after them."""
 
 from pathlib import Path

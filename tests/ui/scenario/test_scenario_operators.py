@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Load, save, new, presets and build, as they are called from Python."""
 
 import pytest

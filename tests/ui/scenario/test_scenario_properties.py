@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every key of a scenario has a property, with the unit, the limits and the meaning of the key."""
 
 from typing import get_args, get_origin

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From a scenario to the sidebar's properties and back: nothing is lost, and nothing wrong is taken."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Terrain in the sidebar: its file is chosen as a file, and a place on a map keeps all its digits."""
 
 from support.scenarios import I235

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Selected meshes become members of the scenario, and paint says where they are cut finer."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The panel Stages: checked without a simulation, told in a table, and shown as contours before anything is run."""
 
 import csv
