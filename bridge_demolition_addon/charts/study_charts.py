@@ -45,7 +45,7 @@ def reach_distribution(
     reaches_m : (n,) float
         Of all runs, of which at least one finished; infinity where one did not, which is beyond the right edge.
     limit
-        The limit in metres and in words, if there is one.
+        The limit in metres and as text, if there is one.
     quantile
         Share of all runs that it is for.
     """
@@ -71,7 +71,7 @@ def reach_distribution(
 
 
 def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray, limits_m: np.ndarray) -> None:
-    """Draw how the limit (m,) after so many of the runs (m,) settles, with their largest reach and their median."""
+    """Draw how the limit (m,) after so many of the runs (m,) settles, with their largest distance and their median."""
     axes = figure.add_subplot()
     counts = np.arange(1, len(reaches_m) + 1)
     shown = np.unique(np.rint(np.linspace(1, len(reaches_m), min(len(reaches_m), _MOST_POINTS))).astype(int))

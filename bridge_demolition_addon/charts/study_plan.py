@@ -63,7 +63,7 @@ def study_plan(
 
 
 def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest and the highest x and y of all that is drawn besides neighbours."""
+    """Return the lowest and the highest x and y of all that is drawn, neighbours apart."""
     corners = [ring for area in areas for ring in outlines(area)] + [np.array(zone.corners_m) for zone in zones]
     together = np.concatenate(corners)
     return together.min(axis=0), together.max(axis=0)

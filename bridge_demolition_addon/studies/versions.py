@@ -1,4 +1,4 @@
-"""What a draw's result depends on besides its inputs: the versions that calculate it."""
+"""What a run's result depends on, its inputs apart: the versions that calculate it."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ class ChosenOrder(Table):
     table: ClassVar[str] = "orders"
 
     keys: tuple[str, ...] = schema.key(
-        'Whose numbers are dealt out anew: `["removals.1.time_s", "removals.2.time_s", "removals.3.time_s"]`.'
+        'Whose numbers are dealt out differently: `["removals.1.time_s", "removals.2.time_s", "removals.3.time_s"]`.'
     )
 
     def _check_together(self) -> None:

@@ -90,7 +90,7 @@ class Criterion(Table):
     )
     share: float | None = key(
         "Least share of the height that `collapsed` and `span down` ask for, 0.5 where it is left out; the largest "
-        "that `span stands` bears, 0.1.",
+        "that `span stands` allows, 0.1.",
         default=None,
         above=0,
         at_most=1,

@@ -1,6 +1,6 @@
-"""Distributions that inputs are drawn from, each by the inverse of its cumulative distribution.
+"""Distributions that inputs are sampled from, each by the inverse of its cumulative distribution.
 
-A draw begins as a probability, a multiple of 2⁻⁵³ above 0 and below 1. So the draws of each distribution have ends,
+A value begins as a probability, a multiple of 2⁻⁵³ above 0 and below 1. So the values of each distribution have ends,
 also of a normal one: none lies further from its mean than `FARTHEST_DEVIATION` deviations. What comes out has the same
 bits on every processor.
 """
@@ -17,75 +17,45 @@ from ...engineering.arithmetic import exponential, logarithm
 from ...errors import ScenarioError
 
 LEAST_PROBABILITY = 1.0 / 2**53
-"""The smallest probability that is drawn; the largest is as far from 1."""
+"""The smallest probability; the largest is as far from 1."""
 
 LEAST_KEPT = 1e-6
 """Smallest part of a distribution that its `lowest` and `highest` may leave."""
 
+
+def _coefficients(text: str) -> tuple[float, ...]:
+    """Coefficients of a polynomial, from the constant upwards."""
+    return tuple(map(float, text.split()))
+
+
 _CENTRE = (
-    (
-        3.3871328727963666080,
-        1.3314166789178437745e2,
-        1.9715909503065514427e3,
-        1.3731693765509461125e4,
-        4.5921953931549871457e4,
-        6.7265770927008700853e4,
-        3.3430575583588128105e4,
-        2.5090809287301226727e3,
+    _coefficients(
+        "3.3871328727963666080 1.3314166789178437745e2 1.9715909503065514427e3 1.3731693765509461125e4 "
+        "4.5921953931549871457e4 6.7265770927008700853e4 3.3430575583588128105e4 2.5090809287301226727e3"
     ),
-    (
-        1.0,
-        4.2313330701600911252e1,
-        6.8718700749205790830e2,
-        5.3941960214247511077e3,
-        2.1213794301586595867e4,
-        3.9307895800092710610e4,
-        2.8729085735721942674e4,
-        5.2264952788528545610e3,
+    _coefficients(
+        "1.0 4.2313330701600911252e1 6.8718700749205790830e2 5.3941960214247511077e3 "
+        "2.1213794301586595867e4 3.9307895800092710610e4 2.8729085735721942674e4 5.2264952788528545610e3"
     ),
 )
 _SHOULDER = (
-    (
-        1.42343711074968357734,
-        4.63033784615654529590,
-        5.76949722146069140550,
-        3.64784832476320460504,
-        1.27045825245236838258,
-        2.41780725177450611770e-1,
-        2.27238449892691845833e-2,
-        7.74545014278341407640e-4,
+    _coefficients(
+        "1.42343711074968357734 4.63033784615654529590 5.76949722146069140550 3.64784832476320460504 "
+        "1.27045825245236838258 2.41780725177450611770e-1 2.27238449892691845833e-2 7.74545014278341407640e-4"
     ),
-    (
-        1.0,
-        2.05319162663775882187,
-        1.67638483018380384940,
-        6.89767334985100004550e-1,
-        1.48103976427480074590e-1,
-        1.51986665636164571966e-2,
-        5.47593808499534494600e-4,
-        1.05075007164441684324e-9,
+    _coefficients(
+        "1.0 2.05319162663775882187 1.67638483018380384940 6.89767334985100004550e-1 "
+        "1.48103976427480074590e-1 1.51986665636164571966e-2 5.47593808499534494600e-4 1.05075007164441684324e-9"
     ),
 )
 _TAIL = (
-    (
-        6.65790464350110377720,
-        5.46378491116411436990,
-        1.78482653991729133580,
-        2.96560571828504891230e-1,
-        2.65321895265761230930e-2,
-        1.24266094738807843860e-3,
-        2.71155556874348757815e-5,
-        2.01033439929228813265e-7,
+    _coefficients(
+        "6.65790464350110377720 5.46378491116411436990 1.78482653991729133580 2.96560571828504891230e-1 "
+        "2.65321895265761230930e-2 1.24266094738807843860e-3 2.71155556874348757815e-5 2.01033439929228813265e-7"
     ),
-    (
-        1.0,
-        5.99832206555887937690e-1,
-        1.36929880922735805310e-1,
-        1.48753612908506148525e-2,
-        7.86869131145613259100e-4,
-        1.84631831751005468180e-5,
-        1.42151175831644588870e-7,
-        2.04426310338993978564e-15,
+    _coefficients(
+        "1.0 5.99832206555887937690e-1 1.36929880922735805310e-1 1.48753612908506148525e-2 "
+        "7.86869131145613259100e-4 1.84631831751005468180e-5 1.42151175831644588870e-7 2.04426310338993978564e-15"
     ),
 )
 
@@ -135,7 +105,7 @@ def _polynomial(coefficients: Sequence[float], x: float) -> float:
 
 
 FARTHEST_DEVIATION = -normal_quantile(LEAST_PROBABILITY)
-"""How far from its mean a draw of a normal distribution may lie, in deviations: 8.2."""
+"""How far from its mean a value of a normal distribution may lie, in deviations: 8.2."""
 
 
 class Distribution(Protocol):
@@ -145,10 +115,10 @@ class Distribution(Protocol):
 
     @property
     def tried(self) -> tuple[Any, ...]:
-        """The lowest and the highest value that a draw can have, or all values of a choice."""
+        """The lowest and the highest value, or all values of a choice."""
 
     def quantile(self, probability: float) -> Any:
-        """Return the value that a draw stays below, or is, with a probability above 0 and below 1."""
+        """Return the value that a sample stays below, or is, with a probability above 0 and below 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,11 +130,9 @@ class Uniform:
 
     @property
     def tried(self) -> tuple[float, ...]:
-        """Both ends."""
         return self.lowest, self.highest
 
     def quantile(self, probability: float) -> float:
-        """Return the value that a draw stays below with a probability."""
         return (1.0 - probability) * self.lowest + probability * self.highest
 
 
@@ -178,11 +146,9 @@ class Triangular:
 
     @property
     def tried(self) -> tuple[float, ...]:
-        """Both ends."""
         return self.lowest, self.highest
 
     def quantile(self, probability: float) -> float:
-        """Return the value that a draw stays below with a probability."""
         width, rise = self.highest - self.lowest, self.most_likely - self.lowest
         if probability * width < rise:
             return self.lowest + math.sqrt(probability * width * rise)
@@ -210,12 +176,10 @@ class Normal:
 
     @property
     def tried(self) -> tuple[float, ...]:
-        """Both ends."""
         lowest = self.lowest if self.lowest > -math.inf else self.quantile(LEAST_PROBABILITY)
         return lowest, self.highest if self.highest < math.inf else self.quantile(1.0 - LEAST_PROBABILITY)
 
     def quantile(self, probability: float) -> float:
-        """Return the value that a draw stays below with a probability."""
         below, above = ((1.0 - probability) * first + probability * last for first, last in (self._below, self._above))
         deviations = normal_quantile(below) if below < above else -normal_quantile(above)
         return min(max(self.mean + self.deviation * deviations, self.lowest), self.highest)
@@ -250,18 +214,16 @@ class Lognormal:
 
     @property
     def tried(self) -> tuple[float, ...]:
-        """Both ends."""
         lowest = self.lowest if self.lowest > 0.0 else self.quantile(LEAST_PROBABILITY)
         return lowest, self.highest if self.highest < math.inf else self.quantile(1.0 - LEAST_PROBABILITY)
 
     def quantile(self, probability: float) -> float:
-        """Return the value that a draw stays below with a probability."""
         value = self.median * float(exponential(self._of_logarithm.quantile(probability)))
         return min(max(value, self.lowest), self.highest)
 
     @cached_property
     def _of_logarithm(self) -> Normal:
-        """Distribution of the logarithm of a draw by the median."""
+        """Distribution of the logarithm of a value by the median."""
         deviation = math.sqrt(float(logarithm(1.0 + self.variation * self.variation)))
         lowest, highest = (float(logarithm(end / self.median)) for end in (self.lowest, self.highest))
         return Normal(0.0, deviation, lowest, highest)
@@ -275,9 +237,7 @@ class Choice:
 
     @property
     def tried(self) -> tuple[Any, ...]:
-        """All values."""
         return self.values
 
     def quantile(self, probability: float) -> Any:
-        """Return the value that belongs to a probability."""
         return self.values[int(probability * len(self.values))]

@@ -61,7 +61,7 @@ class Ensemble:
     scenario : Scenario
         What is run.
     variations : tuple of Variation
-        One for each key that varies by chance besides `SEED`, in the order of the file.
+        One for each key that varies by chance, `SEED` apart, in the order of the file.
     """
 
     kind: ClassVar[str]
@@ -166,6 +166,6 @@ def _check_range(scenario: Scenario, found: list[Variation]) -> None:
         except ScenarioError as error:
             first = f"{found[0].key.name} = {shown(values[found[0].key])}"
             raise ScenarioError(
-                f"draws may come to {first}, which the scenario cannot have: {error}. Set lowest and highest, or take "
-                "another distribution"
+                f"the value may come to {first}, which the scenario cannot have: {error}. Set lowest and highest, or "
+                "take another distribution"
             ) from error

@@ -17,7 +17,7 @@ from ..toml_tables import BARE_KEY
 _LEAF = "the key itself"
 
 _NAMES = ("name", "member")
-"""Keys by which the tables of a list are told apart, where they have one of these."""
+"""Keys by which the tables of a list are named, where they have one of these."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,14 +67,14 @@ def changed(scenario: Scenario, values: Mapping[ScenarioKey, Any]) -> Scenario:
     Raises
     ------
     ScenarioError
-        A value is none that its key may have, or values contradict each other.
+        A key may not have its value, or values contradict each other.
     """
     return _changed(scenario, {found.steps: value for found, value in values.items()})
 
 
 @cache
 def names_to_propose() -> tuple[str, ...]:
-    """Return the names of all keys that a scenario may have and a study may draw: numbers, choices, true or false.
+    """Return the names of all keys that a scenario may have and a study may vary: numbers, choices, true or false.
 
     In lists they are those of all tables. Of several numbers it is the first.
     """

@@ -26,8 +26,8 @@ KEPT = ("outcome", "logs", "all")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Vary(Table):
-    """A key of the scenario whose value is drawn anew for each run, independently of all others. `scenario.seed`, which
-    cuts the shards, is always drawn and needs no such table.
+    """A key of the scenario whose value is sampled for each run, independently of all others. `scenario.seed`, which
+    cuts the shards, always varies and needs no such table.
     """
 
     table: ClassVar[str] = "vary"

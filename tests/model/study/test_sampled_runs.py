@@ -114,7 +114,7 @@ def test_values_that_contradict_each_other_are_reported_with_the_run():
         for name, (lowest, highest) in lift.items()
     ]
     with pytest.raises(
-        ScenarioError, match=r"draws may come to time\.duration_s = 1\.0, which the scenario cannot have"
+        ScenarioError, match=r"the value may come to time\.duration_s = 1\.0, which the scenario cannot have"
     ):
         study(*varied, scenario=replace(I235, ball=replace(I235.ball, release_time_s=2.0)))
     both = study(*varied)

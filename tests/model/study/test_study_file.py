@@ -90,19 +90,19 @@ def test_a_study_is_written_and_read_back_with_the_same_draws(tmp_path):
         (vary("ball.height_m", **NORMAL), "number 1: ball.height_m is unknown: expected one of"),
         (
             vary(**NORMAL | {"deviation": 1.0}),
-            "number 1: draws may come to ball.drop_height_m = -3.2095361516013856, which the scenario cannot have: "
+            "number 1: the value may come to ball.drop_height_m = -3.2095361516013856, which the scenario cannot have: "
             "ball.drop_height_m is -3.2095361516013856: expected a number above 0 and up to 10000.0 (m). Set lowest "
             "and highest, or take another distribution",
         ),
         (
             vary("ball.mass_kg", distribution='"uniform"', lowest=-0.1, highest=1.0, factor="true"),
-            "draws may come to ball.mass_kg = -1000.0, which",
+            "the value may come to ball.mass_kg = -1000.0, which",
         ),
         (
             vary("ball.target_m.1", distribution='"uniform"', lowest=5, highest=50),
-            "draws may come to ball.target_m.1 = 50.0, which the scenario cannot have: ball.target_m[0] is 50.0",
+            "the value may come to ball.target_m.1 = 50.0, which the scenario cannot have: ball.target_m[0] is 50.0",
         ),
-        (vary("connections.type", **NORMAL), "draws may come to connections.type = 2.537"),
+        (vary("connections.type", **NORMAL), "the value may come to connections.type = 2.537"),
         (
             vary("fracture.shards", distribution='"uniform"', lowest=100, highest=200),
             "fracture.shards is 100.0: expected a whole number from 1 to 1000000",
