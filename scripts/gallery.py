@@ -34,9 +34,9 @@ HEADER = """\
 
 Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
-and the end of one run. [One run is one draw](../README.md#one-run-is-one-draw): with another seed single pieces end
-elsewhere. Times are those of a machine with two cores and nothing else to do, pictures included. All examples together
-took {minutes} minutes.
+and the end of one run. [One run is one possible outcome](../README.md#one-run-is-one-possible-outcome): with another
+seed single pieces end elsewhere. Times are those of a machine with two cores and nothing else to do, pictures included.
+All examples together took {minutes} minutes.
 """
 
 STUDY = """\
@@ -125,7 +125,7 @@ def title(path: Path) -> str:
 
 def section(path: Path, seconds: float | None) -> str:
     """Return the section of an example: its title, its pictures, its words and how long it takes."""
-    words = [each for each in paragraphs(path) if not each.startswith(LEFT_OUT)]
+    words = [paragraph for paragraph in paragraphs(path) if not paragraph.startswith(LEFT_OUT)]
     took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
     file = f"[{path.name}](../examples/{path.name})"
     picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"

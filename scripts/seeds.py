@@ -89,7 +89,7 @@ def table(name: str, rows: Sequence[dict[str, float | None]]) -> str:
         values = [row[quantity] for row in rows if row.get(quantity) is not None]
         if values:
             figures = (min(values), statistics.median(values), max(values))
-            lines.append(f"{quantity:36}" + "".join(f"{each:10.4g}" for each in figures) + f"{len(values):6}")
+            lines.append(f"{quantity:36}" + "".join(f"{figure:10.4g}" for figure in figures) + f"{len(values):6}")
         else:
             lines.append(f"{quantity:36}{'':30}{0:6}")
     return "\n".join(lines)

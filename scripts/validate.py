@@ -58,7 +58,7 @@ class Outcome:
     @property
     def is_met(self) -> bool:
         """Whether everything in it is as it should be."""
-        return all(each.is_met for each in self.comparisons)
+        return all(comparison.is_met for comparison in self.comparisons)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -71,7 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         outcomes = [_run(case_named(name), folder, is_kept=is_kept) for name in names]
     if is_kept or options.page:
         DOCUMENT.write_text(page([kept(name) for name in CASES]), encoding="utf-8")
-    return 0 if all(each.is_met for each in outcomes) else 1
+    return 0 if all(outcome.is_met for outcome in outcomes) else 1
 
 
 def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
@@ -94,8 +94,8 @@ def _run(case: Case, folder: Path, *, is_kept: bool) -> Outcome:
     found = case.run(folder / case.name)
     outcome = Outcome(case, found.comparisons, time.perf_counter() - began)
     print(f"{case.title} ({outcome.seconds:.0f} s)")
-    for each in found.comparisons:
-        print("  " + "  ".join(_cells(each)), flush=True)
+    for comparison in found.comparisons:
+        print("  " + "  ".join(_cells(comparison)), flush=True)
     if is_kept:
         _draw(found, PICTURES / f"{case.name}.png")
         _keep(outcome)
@@ -103,7 +103,7 @@ def _run(case: Case, folder: Path, *, is_kept: bool) -> Outcome:
 
 
 def _keep(outcome: Outcome) -> None:
-    rows = [asdict(each) for each in outcome.comparisons]
+    rows = [asdict(comparison) for comparison in outcome.comparisons]
     text = json.dumps({"seconds": round(outcome.seconds, 1), "comparisons": rows}, indent=1, ensure_ascii=False)
     KEPT.mkdir(parents=True, exist_ok=True)
     (KEPT / f"{outcome.case.name}.json").write_text(text + "\n", encoding="utf-8")
@@ -123,17 +123,17 @@ def _expected(value: float | list[float]) -> float | tuple[float, ...]:
 def page(outcomes: Sequence[Outcome]) -> str:
     """Return the document."""
     lines = [_HEAD, "| case | group | held against | within |", "| --- | --- | --- | --- |"]
-    for each in outcomes:
-        met = sum(comparison.is_met for comparison in each.comparisons)
-        title = f"[{each.case.title}](#{_anchor(each.case.title)})"
-        lines.append(f"| {title} | {each.case.group} | {len(each.comparisons)} | {met} |")
-    minutes = sum(each.seconds for each in outcomes) / 60.0
+    for outcome in outcomes:
+        met = sum(comparison.is_met for comparison in outcome.comparisons)
+        title = f"[{outcome.case.title}](#{_anchor(outcome.case.title)})"
+        lines.append(f"| {title} | {outcome.case.group} | {len(outcome.comparisons)} | {met} |")
+    minutes = sum(outcome.seconds for outcome in outcomes) / 60.0
     lines += ["", f"All of them take {minutes:.0f} minutes.", ""]
     for group in GROUPS:
-        members = [each for each in outcomes if each.case.group == group]
+        members = [outcome for outcome in outcomes if outcome.case.group == group]
         lines += [f"## {group}", ""] if members else []
-        for each in members:
-            lines += _section(each)
+        for member in members:
+            lines += _section(member)
     return "\n".join(lines)
 
 
@@ -151,7 +151,7 @@ def _draw(found: Found, path: Path) -> None:
 
 def _section(outcome: Outcome) -> list[str]:
     case, seconds = outcome.case, outcome.seconds
-    rows = [f"| {' | '.join(_cells(each))} |" for each in outcome.comparisons]
+    rows = [f"| {' | '.join(_cells(comparison))} |" for comparison in outcome.comparisons]
     return [
         f"### {case.title}",
         "",

@@ -29,7 +29,7 @@ def contract_of(container):
 def drawn(kind):
     """Names of layers or of rooms in the picture with the middle of each, (x, y)."""
     texts = ElementTree.parse(layers_picture.PICTURE).iter("{http://www.w3.org/2000/svg}text")
-    return [(each.text, float(each.get("x")), float(each.get("y"))) for each in texts if each.get("class") == kind]
+    return [(text.text, float(text.get("x")), float(text.get("y"))) for text in texts if text.get("class") == kind]
 
 
 def rows_of(boxes):
@@ -121,7 +121,10 @@ def size_of(class_):
     """Number of methods of a class, and of parameters of its constructor besides `self`."""
     methods = [node for node in class_.body if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
     constructors = [method.args for method in methods if method.name == "__init__"]
-    parameters = [len(each.posonlyargs) + len(each.args) + len(each.kwonlyargs) - 1 for each in constructors]
+    parameters = [
+        len(constructor.posonlyargs) + len(constructor.args) + len(constructor.kwonlyargs) - 1
+        for constructor in constructors
+    ]
     return len(methods), max(parameters, default=0)
 
 

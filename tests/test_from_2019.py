@@ -119,7 +119,7 @@ def test_every_name_of_the_appendix_is_there():
 def test_every_key_is_one_and_its_link_leads_to_its_table():
     from bridge_demolition_addon.model.schema import checked
 
-    keys, named = scenario_keys(), [each.partition(" = ") for each in named_keys(TEXT)]
+    keys, named = scenario_keys(), [named_key.partition(" = ") for named_key in named_keys(TEXT)]
     assert len(named) > 50
     assert [key for key, _, _ in named if key not in keys] == []
     given = [(key, value_of(value)) for key, _, value in named if value]
@@ -183,15 +183,15 @@ def sidebar_names(extension):
         *extension.types.Panel.__subclasses__(),
         *extension.types.Operator.__subclasses__(),
     ]
-    names = {each.bl_label for each in classes if each.__module__.startswith("bridge_demolition_addon")}
+    names = {cls.bl_label for cls in classes if cls.__module__.startswith("bridge_demolition_addon")}
     groups = [extension.context.scene.bda.bl_rna]
     while groups:
-        for each in groups.pop().properties:
-            names.add(each.name)
-            if each.type == "ENUM":
-                names |= {item.name for item in each.enum_items}
-            if each.type in ("POINTER", "COLLECTION") and each.fixed_type.identifier.startswith("BDA_"):
-                groups.append(each.fixed_type)
+        for prop in groups.pop().properties:
+            names.add(prop.name)
+            if prop.type == "ENUM":
+                names |= {item.name for item in prop.enum_items}
+            if prop.type in ("POINTER", "COLLECTION") and prop.fixed_type.identifier.startswith("BDA_"):
+                groups.append(prop.fixed_type)
     return names
 
 
@@ -283,11 +283,11 @@ def test_a_scene_prepared_by_hand_is_blasted_and_recorded(extension, tmp_path):
     assert bpy.ops.bda.build_force_objects() == {"FINISHED"}
     assert bpy.ops.bda.show_total_mass() == {"FINISHED"}
     assert settings.total_mass == "250 kg"
-    symbols = [each for each in scene.objects if each.type == "EMPTY" and not each.name.startswith("Charge")]
+    symbols = [obj for obj in scene.objects if obj.type == "EMPTY" and not obj.name.startswith("Charge")]
     assert len(symbols) == 2
     for hidden in (True, False, True):  # a hidden connection holds all the same
         assert bpy.ops.bda.toggle_symbols() == {"FINISHED"}
-        assert [each.visible_get() for each in symbols] == [not hidden] * 2
+        assert [symbol.visible_get() for symbol in symbols] == [not hidden] * 2
     settings.output_directory = str(tmp_path / "results")
     assert bpy.ops.bda.run() == {"FINISHED"}
     forces = rows_of(tmp_path / "results" / "force_log.csv")

@@ -41,7 +41,7 @@ def reached_for(tree):
             if not (isinstance(node.value, ast.Name) and node.value.id in ("self", "cls")):
                 yield node.attr
         elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("getattr", "setattr", "patch.object")):
-            texts = (each.value for each in node.args if isinstance(each, ast.Constant) and isinstance(each.value, str))
+            texts = (arg.value for arg in node.args if isinstance(arg, ast.Constant) and isinstance(arg.value, str))
             yield from (name for text in texts for name in text.split(".") if is_private(name))
 
 

@@ -18,12 +18,12 @@ def test_the_page_has_the_case_as_it_is_now(name):
 def test_the_page_is_what_was_kept():
     """`scripts/validate --page` writes it."""
     assert validate.DOCUMENT.read_text(encoding="utf-8") == validate.page(
-        [validate.kept(each) for each in validate.CASES]
+        [validate.kept(case) for case in validate.CASES]
     )
 
 
 def test_all_cases_together_take_half_an_hour_at_most():
-    assert sum(validate.kept(each).seconds for each in validate.CASES) <= 1800.0
+    assert sum(validate.kept(case).seconds for case in validate.CASES) <= 1800.0
 
 
 def test_a_quantity_is_held_against_its_tolerance():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Segmental arches of voussoirs: as meshes, as scenarios, and as a linear program that says what they bear."""
+"""Segmental arches of voussoirs: as meshes, as scenarios, and as a linear program that gives their limit load."""
 
 import math
 from collections.abc import Sequence
@@ -275,13 +275,13 @@ def loaded(
     members = "".join(
         f"""
 [[geometry]]
-name = "{each.replace("_", " ")}"
-kind = "{each.split("_")[0]}"
-file = "{each}.stl"
+name = "{mesh.replace("_", " ")}"
+kind = "{mesh.split("_")[0]}"
+file = "{mesh}.stl"
 place_m = [0.0, 0.0, {base_m}]
 density_kg_m3 = {arch.density_kg_m3}
 """
-        for each in meshes
+        for mesh in meshes
     )
     loads = "".join(
         _load(f"voussoir {row:02d}", place, base_m, ((0.0, weight),)) for row, (place, weight) in enumerate(arch.fill())
@@ -342,7 +342,7 @@ def _springers(arch: Arch) -> dict[str, np.ndarray]:
 
 
 def _load(member: str, place: np.ndarray, base_m: float, course: Sequence[tuple[float, float]]) -> str:
-    times, forces = ([float(each) for each in values] for values in zip(*course, strict=True))
+    times, forces = ([float(value) for value in values] for values in zip(*course, strict=True))
     return f"""
 [[loads]]
 members = ["{member}"]

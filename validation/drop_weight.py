@@ -93,11 +93,11 @@ CASE = Case(
     title="Weight that drops on a reinforced beam",
     group=PUBLISHED,
     asked=f"Weights of 150, 300 and 600 kg drop on the middle of a beam of {BEAM.span_m:g} m ({BEAM.width_m:g} m × "
-    f"{BEAM.height_m:g} m, {BEAM.area_mm2:g} mm² of steel) with 3 to 6 m/s. It has one plastic hinge, and bears P in "
+    f"{BEAM.height_m:g} m, {BEAM.area_mm2:g} mm² of steel) with 3 to 6 m/s. It has one plastic hinge, and carries P in "
     "its middle. How far does it go down?",
-    left_out="What is elastic, and so the rebound, and what bars bear more as they are pulled fast. The crack is there "
-    "before: a connection that is whole takes the blow of the sub-step in which it breaks, and with it seven eighths "
-    "of such a drop were gone.",
+    left_out="What is elastic, and so the rebound, and what bars carry more as they are pulled fast. The crack is "
+    "there before: a connection that is whole takes the blow of the sub-step in which it breaks, and with it seven "
+    "eighths of such a drop were gone.",
     source="Exact: E M / (M + m / 3) = (P - (M + m / 2) g) δ, a plastic impact on two rigid halves; M for P by hand, "
     "A f_y (d - a / 2), a = A f_y / (b f_c), EN 1992-1-1:2004, 3.1.7 (3). Lines through tests: δ = 0.63 E / P at most "
     "and 0.42 E / P in the end (N. Kishi and H. Mikami, *ACI Struct. J.* 109 (2012), 36 beams; the first figure as it "

@@ -65,7 +65,7 @@ def fallen_shares(results: Results) -> list[float]:
     names, masses = results.inventory.body_members, results.inventory.masses_kg
     fallen = results.frames.positions_m[0, :, 2] - results.frames.positions_m[-1, :, 2] >= FALLEN_M
     decks = sorted(set(names[results.inventory.body_member_kinds == "deck"].tolist()))
-    return [float(masses[(names == each) & fallen].sum() / masses[names == each].sum()) for each in decks]
+    return [float(masses[(names == deck) & fallen].sum() / masses[names == deck].sum()) for deck in decks]
 
 
 CASE = Case(
@@ -78,6 +78,6 @@ CASE = Case(
     "examples drop it once from 5 m. And this is no blind test: in the example with two decks the piers are four times "
     "as strong as the report's own input, as the bridge does not stand otherwise, see its comments.",
     source="Photographs in the add-on's report of 2019: figures 60 and 61, 64 and 65. It measured nothing else.",
-    reason="Only yes or no is known, and a run is one draw: at most one seed of 20 may do otherwise.",
+    reason="Only yes or no is known, and a run is one possible outcome: at most one seed of 20 may do otherwise.",
     run=run,
 )

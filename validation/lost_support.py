@@ -41,7 +41,7 @@ def run(folder: Path) -> Found:
 
 
 def area_mm2(moment_nm: float) -> float:
-    """Area of each of two equal layers with which a section bears a moment either way.
+    """Area of each of two equal layers with which a section resists a moment either way.
 
     Both yield, so that M = A f_y (d + d' - a) with a = 2 A f_y / (b f_c), which is solved for A.
     """
@@ -130,11 +130,11 @@ CASE = Case(
     "bars yield beside the lost support and at both ends: they hold it up if w is not more than 2 (M⁺ + M⁻) / L². A "
     "rigid-plastic beam needs no more for a sudden loss than for a slow one.",
     left_out="What is elastic, which asks for up to twice as much where bars must not yield, and the pull of bars as "
-    "ropes once it sags by more than its depth. One end slides along the beam: between ends that do not, rigid halves "
-    "wedge, and the beam stood with 0.85 times the moments, as an arch. The cracks are there before.",
+    "ropes once its deflection is more than its depth. One end slides along the beam: between ends that do not, rigid "
+    "halves wedge, and the beam stood with 0.85 times the moments, as an arch. The cracks are there before.",
     source="Limit analysis: both spans turn by θ, w L² θ = 2 (M⁺ + M⁻) θ. Moments by hand, A f_y (d + d' - a), "
     "a = 2 A f_y / (b f_c), EN 1992-1-1:2004, 3.1.7 (3).",
-    reason="15 %: friction in the cracks, and bars that give way by a part of their force in each step of time. With "
+    reason="15 %: friction in the cracks, and bars that yield by a part of their force in each step of time. With "
     "sub-steps of 1 ms instead of 0.5 ms the beam with 1.15 times the moments sank four times as far before it stood.",
     run=run,
 )

@@ -48,7 +48,7 @@ def run(folder: Path) -> Found:
             axes.annotate("limit analysis", (29.0, limits[name] / 1e3 + 3.0), ha="right", fontsize=8, color="0.4")
         axes.axhline(MEASURED_N / 1e3, color="black", linewidth=1.0, linestyle=":")
         axes.annotate("measured", (29.0, MEASURED_N / 1e3 - 12.0), ha="right", fontsize=8)
-        axes.set(xlabel="loaded voussoir has come down by (mm)", ylabel="load that it bears (kN)")
+        axes.set(xlabel="loaded voussoir has come down by (mm)", ylabel="load that it carries (kN)")
         axes.set(xlim=(0.0, 30.0), ylim=(0.0, 250.0))
         axes.legend(loc="center right", fontsize=8)
 
@@ -67,11 +67,11 @@ CASE = Case(
     "Mortar, spandrel walls, and the distortion that the arch had.",
     source="228 kN, four hinges, ring of 220 mm: J. Page, TRRL Research Report 110 (1987). Span, rise, width and 1800 "
     "kg/m³: Simoncello and others, *Front. Built Environ.* 6 (2020) 7, as a public repository quotes them; their "
-    "model with soil bears 245 kN. Cover of 165 mm and 20 kN/m³ of the fill are assumed. Limit loads: linear program "
+    "model with soil carries 245 kN. Cover of 165 mm and 20 kN/m³ of the fill are assumed. Limit loads: linear program "
     "of R. K. Livesley, *Int. J. Numer. Methods Eng.* 12 (1978) 1853, with friction of 0.6, worked out in "
     "`validation/arches.py` without the add-on.",
     reason="10 % of limit analysis: contacts sink by some millimetres, as if the ring were so much thinner. With "
-    "fill it bears 0.93 of the limit with these sub-steps of 65 µs, and 0.81 with 130 µs as the load grows half as "
+    "fill it carries 0.93 of the limit with these sub-steps of 65 µs, and 0.81 with 130 µs as the load grows half as "
     "fast. Of what was measured 0.35 to 0.6 is expected: limit analysis gives 0.42 to 0.54, by ring and fill of 18 to "
     "20 kN/m³ and a load that spreads or does not.",
     run=run,

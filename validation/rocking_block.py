@@ -33,8 +33,14 @@ def run(folder: Path) -> Found:
         Comparison(
             "quarter of a period", "s", math.acosh(1.0 / (1.0 - tilt / SLENDERNESS)) / FREQUENCY, quarter_s, 0.03
         ),
-        Comparison("spin after the impact over that before", "", 1.0 - 1.5 * math.sin(SLENDERNESS) ** 2, ratio, 0.05),
-        Comparison("least spin that topples, over Housner's", "", (0.97, 1.03), lowest),
+        Comparison(
+            "angular velocity after the impact over that before",
+            "",
+            1.0 - 1.5 * math.sin(SLENDERNESS) ** 2,
+            ratio,
+            0.05,
+        ),
+        Comparison("least angular velocity that topples, over Housner's", "", (0.97, 1.03), lowest),
     ]
 
     def draw(figure: Figure) -> None:
@@ -96,7 +102,7 @@ CASE = Case(
     "let go; another stands, and begins to turn about its edge.",
     left_out="What is elastic: measured blocks lose less or more at each impact, by the evenness of their faces.",
     source="G. W. Housner, *Bull. Seismol. Soc. Am.* 53 (1963) 403-417.",
-    reason="3 % of time and spin to topple, 5 % of the spin after the impact: in Bullet it is spread over some "
+    reason="3 % of time and angular velocity to topple, 5 % of that after the impact: in Bullet it is spread over some "
     "sub-steps and points of contact.",
     run=run,
 )

@@ -18,7 +18,7 @@ FALLEN_M = 1.0
 
 def run(folder: Path) -> Found:
     """Let arches of all thicknesses stand or fall."""
-    courses = {each: _course(folder, each) for each in THICKNESSES}
+    courses = {thickness: _course(folder, thickness) for thickness in THICKNESSES}
     standing = [each for each, (_, sag) in courses.items() if sag[-1] < FALLEN_M]
     falling = [each for each, (_, sag) in courses.items() if sag[-1] >= FALLEN_M]
     comparisons = [
@@ -30,7 +30,7 @@ def run(folder: Path) -> Found:
         axes = figure.subplots()
         for (each, (times, sag)), shade in zip(courses.items(), np.linspace(0.0, 0.7, len(courses)), strict=True):
             axes.plot(times, sag, color=str(shade), label=f"t/R = {each:.3f}")
-        axes.set(xlabel="time (s)", ylabel="sag of the crown (m)", ylim=(-0.1, 3.0))
+        axes.set(xlabel="time (s)", ylabel="deflection of the crown (m)", ylim=(-0.1, 3.0))
         axes.legend(fontsize=8)
 
     return Found(comparisons, draw)

@@ -157,9 +157,9 @@ class ContactReader:
         copies
             Those of s sub-steps.
         """
-        values = np.concatenate([each.values for each in copies], axis=1)
-        bodies = np.concatenate([each.bodies for each in copies], axis=1)
-        substeps = np.repeat(np.arange(len(copies)), [each.values.shape[1] for each in copies])
+        values = np.concatenate([copy.values for copy in copies], axis=1)
+        bodies = np.concatenate([copy.bodies for copy in copies], axis=1)
+        substeps = np.repeat(np.arange(len(copies)), [copy.values.shape[1] for copy in copies])
         _check_directions(values)
         first, second = values[7] * values[9:12], values[8] * values[12:15]
         # Bullet leaves the second direction unset where it solved only one.

@@ -89,9 +89,9 @@ class BodyHistory:
     @classmethod
     def of(cls, snapshots: Sequence[Snapshot]) -> BodyHistory:
         """Return the states in snapshots."""
-        values = np.stack([each.bodies for each in snapshots], axis=1)
+        values = np.stack([snapshot.bodies for snapshot in snapshots], axis=1)
         rotations, *vectors = values[:9], values[9:12], values[12:15], values[15:18]
-        positions, velocities, angular_velocities = (np.moveaxis(each, 0, -1) for each in vectors)
+        positions, velocities, angular_velocities = (np.moveaxis(vector, 0, -1) for vector in vectors)
         rotations = np.moveaxis(rotations.reshape(3, 3, *values.shape[1:]), (0, 1), (-2, -1))
         return cls(positions, rotations, velocities, angular_velocities, values[18] > 0.0)
 
@@ -136,12 +136,12 @@ class SnapshotTaker:
 
     def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
         """Return the contacts in s snapshots."""
-        contacts = self._contacts.contacts([each.contacts for each in snapshots])
-        if all(each.removed is None for each in snapshots):
+        contacts = self._contacts.contacts([snapshot.contacts for snapshot in snapshots])
+        if all(snapshot.removed is None for snapshot in snapshots):
             return contacts
         # Two bodies that rest on each other keep their last contact when both are removed.
         none = np.zeros(len(self._removed), bool)
-        removed = np.stack([none if each.removed is None else each.removed for each in snapshots])
+        removed = np.stack([none if snapshot.removed is None else snapshot.removed for snapshot in snapshots])
         return contacts.without(removed)
 
     def _find_existing(self) -> None:

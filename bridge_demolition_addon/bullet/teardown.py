@@ -162,7 +162,7 @@ def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, know
 def _bodies_in_use(layout: Layout) -> set[int]:
     """Addresses of the btRigidBodies of all objects that there are now."""
     addresses = set()
-    for body in itertools.compress(bpy.data.objects, (each.rigid_body for each in bpy.data.objects)):
+    for body in itertools.compress(bpy.data.objects, (obj.rigid_body for obj in bpy.data.objects)):
         shared = read_pointer(body.rigid_body.as_pointer() + layout.blender.body_shared)
         holder = read_pointer(shared) if shared else 0
         if holder:

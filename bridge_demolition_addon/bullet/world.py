@@ -303,7 +303,9 @@ class BulletWorld:
         for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
                 raise LayoutError("something else has its hand on Blender's Bullet world")
-        forbids = [each.rigid_body_constraint.disable_collisions for each in self.connection_objects]
+        forbids = [
+            connection_object.rigid_body_constraint.disable_collisions for connection_object in self.connection_objects
+        ]
         forbids_collision = np.array(forbids, bool) & (constraints != 0)
         pairs = CollisionPairs(layout, constraints[forbids_collision], bodies) if to_read else None
         contacts = ContactReader(layout, read_pointer(dynamics + world.dispatcher), bodies)

@@ -37,7 +37,11 @@ def overpressure_map(
     ground: RecordedGround = LEVEL_GROUND,
 ) -> None:
     """Largest overpressure of any one charge on the ground, with the rings of damage and the ground's contour lines."""
-    thresholds = [each for each in distinct_thresholds() if each.overpressure_pa >= WIDEST_PA]
+    thresholds = [
+        distinct_threshold
+        for distinct_threshold in distinct_thresholds()
+        if distinct_threshold.overpressure_pa >= WIDEST_PA
+    ]
     radii = ring_radii(charges, 0.0, thresholds, model, pressure_factor)
     places = np.array([charge.place_m[:2] for charge in charges])
     left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground
@@ -53,7 +57,7 @@ def overpressure_map(
     image = axes.imshow(
         peaks_kpa, extent=(*xs[[0, -1]], *ys[[0, -1]]), origin="lower", cmap="Greys", norm=scale, aspect="equal"
     )
-    levels = [each.overpressure_pa / 1e3 for each in thresholds]
+    levels = [threshold.overpressure_pa / 1e3 for threshold in thresholds]
     order = np.argsort(levels)
     styles = [line_style(row)["linestyle"] for row in range(len(levels))]
     lines = axes.contour(

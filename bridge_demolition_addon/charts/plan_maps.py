@@ -231,7 +231,7 @@ def name_zones(axes: Axes, zones: Iterable[Zone]) -> None:
     for zone in zones:
         size = letter_m * np.array([_LETTER_SHARE * len(zone.name), _LINE_SHARE])
         choices = [(*place, *_name_box(zone, *place, size)) for place in _NAME_PLACES]
-        free = (each for each in choices if not any(_overlap(each[3], other) for other in occupied))
+        free = (choice for choice in choices if not any(_overlap(choice[3], other) for other in occupied))
         across, upwards, anchor, box = next(free, choices[0])
         occupied.append(box)
         axes.annotate(plain(zone.name), (anchor[0], anchor[1]), ha=across, va=upwards, **style)
@@ -273,8 +273,8 @@ def fit(axes: Axes, figure: FigureBase) -> None:
     """Show all that was drawn, with a legend below it."""
     corners = [axes.dataLim.get_points()]
     corners += [patch.get_extents().transformed(axes.transData.inverted()).get_points() for patch in axes.patches]
-    low = np.min([each.min(axis=0) for each in corners if np.isfinite(each).all()], axis=0)
-    high = np.max([each.max(axis=0) for each in corners if np.isfinite(each).all()], axis=0)
+    low = np.min([corner.min(axis=0) for corner in corners if np.isfinite(corner).all()], axis=0)
+    high = np.max([corner.max(axis=0) for corner in corners if np.isfinite(corner).all()], axis=0)
     room = _ROOM * float((high - low).max())
     axes.set_xlim(low[0] - room, high[0] + room)
     axes.set_ylim(low[1] - room, high[1] + room)

@@ -52,7 +52,7 @@ def study_plan(
         style = {"linewidth": 1.8, "linestyle": "-"} if not number else {"linewidth": 1.0, "linestyle": (0, (6, 2))}
         draw_area(axes, area, fill=False, edgecolor=LIMIT_COLOUR, label=plain(label), **style)
     low, high = _corners([bridge, *likely.values(), *limits.values()], zones)
-    near = [each for each in neighbours if _is_within(each, low, high)]
+    near = [neighbour for neighbour in neighbours if _is_within(neighbour, low, high)]
     if near:
         places = np.array([each.place_m[:2] for each in near])
         axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")

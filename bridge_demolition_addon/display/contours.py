@@ -166,7 +166,7 @@ class ContourSeries:
             return percentiles(values[row][self._counts], percentile)
         rows, found = self._percentiles.get((quantity, peak, percentile), (0, (0.0, 0.0)))
         if rows < len(values):
-            found = percentiles(np.concatenate([each[self._counts] for each in values]), percentile)
+            found = percentiles(np.concatenate([value[self._counts] for value in values]), percentile)
             self._percentiles[quantity, peak, percentile] = len(values), found
         return found
 

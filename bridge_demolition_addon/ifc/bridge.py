@@ -121,8 +121,8 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
     source = open_source(path, settings)
     elements = elements_of(source, settings)
     _check_kinds(path, elements)
-    members = [each for each in elements if each.is_member and each.kind != "bearing"]
-    bearings = [each for each in elements if each.kind == "bearing"]
+    members = [element for element in elements if element.is_member and element.kind != "bearing"]
+    bearings = [element for element in elements if element.kind == "bearing"]
     made_of = substances(source, members, table, settings)
     repaired, origin = element_solids(source, [*members, *bearings])
     notes = [
@@ -154,7 +154,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
 
 
 def _check_kinds(path: Path, elements: Sequence[Element]) -> None:
-    found = sorted({each.member_kind for each in elements if each.is_member})
+    found = sorted({element.member_kind for element in elements if element.is_member})
     for wanted, what in ((_CARRYING, "carries the road"), (_STANDING, "stands on the ground")):
         if not set(found) & set(wanted):
             raise IfcError(
@@ -218,7 +218,7 @@ def _connected(
 ) -> tuple[dict[int, Outcome], list[ConnectionBetween], list[str]]:
     """Return outcomes with those of the bearings, the connections that these are, and what they disagree in."""
     done, found = dict(outcomes), []
-    parts = [each.part for each in outcomes.values() if each.member]
+    parts = [outcome.part for outcome in outcomes.values() if outcome.member]
     contacts, names = NearbyMembers([member.solid for member, _ in parts]), [member.name for member, _ in parts]
     for element, solid in zip(bearings, solids, strict=True):
         bearing = bearing_of(element, solid, contacts, names, placement)
@@ -246,14 +246,14 @@ def _scenario(
     rules: Sequence[ConnectionBetween],
     site: Site | None,
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
-    kept = [each for each in outcomes.values() if each.member]
+    kept = [outcome for outcome in outcomes.values() if outcome.member]
     if not any(each.became == "member" for each in kept):
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
     members = [each.part[0] for each in kept if each.became == "member"]
-    contacts = NearbyMembers([each.solid for each in members])
+    contacts = NearbyMembers([member.solid for member in members])
     supports, held = supports_of(members, contacts)
     # A member that rests on a bearing touches that, not what the bearing lies on.
-    connected = {each.member for each in supports} | {name for rule in rules for name in rule.members}
+    connected = {support.member for support in supports} | {name for rule in rules for name in rule.members}
     loose = loose_members(members, contacts, connected)
     parts = [each.part[0] for each in kept]
     meshes = {

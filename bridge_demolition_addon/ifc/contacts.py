@@ -51,12 +51,12 @@ class NearbyMembers:
 
     @cached_property
     def _manifolds(self) -> list[Manifold]:
-        return [to_manifold(each) for each in self._solids]
+        return [to_manifold(solid) for solid in self._solids]
 
     @cached_property
     def _lowest(self) -> np.ndarray:
-        return np.array([each.bounds[0] for each in self._solids])
+        return np.array([solid.bounds[0] for solid in self._solids])
 
     @cached_property
     def _highest(self) -> np.ndarray:
-        return np.array([each.bounds[1] for each in self._solids])
+        return np.array([solid.bounds[1] for solid in self._solids])

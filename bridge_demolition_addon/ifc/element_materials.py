@@ -125,7 +125,7 @@ class _Reader:
     def _density_of_file(self, material: Any) -> float | None:
         """Return the density that the file gives a material, kg/m³."""
         psets = library("util.element").get_psets(material)
-        values = [each["MassDensity"] for each in psets.values() if isinstance(each.get("MassDensity"), int | float)]
+        values = [pset["MassDensity"] for pset in psets.values() if isinstance(pset.get("MassDensity"), int | float)]
         if not values and self.source.model.schema == "IFC2X3":
             general = self.source.model.by_type("IfcGeneralMaterialProperties")
             values = [each.MassDensity for each in general if each.Material == material and each.MassDensity]
@@ -139,9 +139,17 @@ def _parts_of(material: Any) -> list[tuple[Any, float | None]]:
     if material.is_a("IfcMaterial"):
         return [(material, 1.0)]
     if material.is_a("IfcMaterialLayerSet"):
-        return [(each.Material, each.LayerThickness) for each in material.MaterialLayers if each.Material]
+        return [
+            (material_layer.Material, material_layer.LayerThickness)
+            for material_layer in material.MaterialLayers
+            if material_layer.Material
+        ]
     if material.is_a("IfcMaterialProfileSet"):
-        return [(each.Material, None) for each in material.MaterialProfiles if each.Material]
+        return [
+            (material_profile.Material, None)
+            for material_profile in material.MaterialProfiles
+            if material_profile.Material
+        ]
     if material.is_a("IfcMaterialConstituentSet"):
         return [(each.Material, each.Fraction) for each in material.MaterialConstituents or () if each.Material]
     return [(each, None) for each in material.Materials]

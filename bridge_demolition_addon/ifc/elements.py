@@ -92,7 +92,7 @@ def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, .
 
 def _without(element: Element, patterns: tuple[str, ...]) -> Element:
     """Return an element as left out where the user says so."""
-    if element.is_member and any(matches(each, element.names) for each in patterns):
+    if element.is_member and any(matches(pattern, element.names) for pattern in patterns):
         return replace(element, kind=LeftOut("it is to be left out"))
     return element
 
@@ -113,7 +113,7 @@ def _elements(model: Any, settings: ImportSettings) -> Iterator[Element]:
 
 def _has_body(entity: Any) -> bool:
     shapes = entity.Representation.Representations if entity.Representation else ()
-    return any(each.RepresentationIdentifier not in _NO_BODIES for each in shapes)
+    return any(shape.RepresentationIdentifier not in _NO_BODIES for shape in shapes)
 
 
 def _facts_of(entity: Any) -> ElementFacts:
@@ -126,7 +126,7 @@ def _facts_of(entity: Any) -> ElementFacts:
         global_id=entity.GlobalId,
         classes=_classes(entity),
         predefined=predefined,
-        words=" ".join(each for each in words if each),
+        words=" ".join(word for word in words if word),
         parts=tuple(_parts(entity)),
     )
 

@@ -57,7 +57,7 @@ def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
 
 
 def _existing(folder: Path) -> Path:
-    return next(each for each in folder.absolute().parents if each.is_dir())
+    return next(parent for parent in folder.absolute().parents if parent.is_dir())
 
 
 def _cut_off(whole: Path) -> tuple[str, ...]:
@@ -70,15 +70,15 @@ def _cut_off(whole: Path) -> tuple[str, ...]:
 
 
 def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
-    members = [each.member for each in bridge.outcomes if each.member]
+    members = [outcome.member for outcome in bridge.outcomes if outcome.member]
     yield bridge.scenario.title
     yield ""
     yield "Members"
-    for kind in sorted({each.kind for each in members}):
-        found = [each for each in members if each.kind == kind]
+    for kind in sorted({member.kind for member in members}):
+        found = [member for member in members if member.kind == kind]
         count = len({each.name for each in found})
         yield _row(f"{count} {kind}", sum(each.volume_m3 for each in found), sum(each.mass_kg for each in found))
-    yield _row("all", sum(each.volume_m3 for each in members), sum(each.mass_kg for each in members))
+    yield _row("all", sum(member.volume_m3 for member in members), sum(member.mass_kg for member in members))
     yield ""
     yield "Held and connected"
     connections = bridge.scenario.connections
@@ -98,7 +98,7 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
     if notes:
         yield ""
         yield "To know"
-        yield from (f"  {each}" for each in notes)
+        yield from (f"  {note}" for note in notes)
 
 
 def _where(bridge: ImportedBridge) -> str:
@@ -114,7 +114,9 @@ def _row(name: str, volume_m3: float, mass_kg: float) -> str:
 
 
 def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
-    found = Counter((each.element.facts.classes[0], each.why) for each in outcomes if each.became == "left out")
+    found = Counter(
+        (outcome.element.facts.classes[0], outcome.why) for outcome in outcomes if outcome.became == "left out"
+    )
     if found:
         yield ""
         yield "Left out"
@@ -125,10 +127,10 @@ def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
 def _told(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
     """Yield what there is to know of members, those of whom the same is said together."""
     said: dict[str, list[str]] = {}
-    for each in outcomes:
-        what = each.why.rpartition("; ")[2] if each.became == "connection" else each.why
-        if each.became != "left out" and what:
-            said.setdefault(what, []).append(each.element.facts.name)
+    for outcome in outcomes:
+        what = outcome.why.rpartition("; ")[2] if outcome.became == "connection" else outcome.why
+        if outcome.became != "left out" and what:
+            said.setdefault(what, []).append(outcome.element.facts.name)
     for why, names in said.items():
         more = f" and {len(names) - 3} more" if len(names) > 3 else ""
         yield f"{', '.join(names[:3])}{more}: {why}"
@@ -138,14 +140,14 @@ def _table(bridge: ImportedBridge) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_COLUMNS)
-    for each in bridge.outcomes:
-        facts = each.element.facts
-        row = [facts.name, facts.classes[0], facts.global_id, each.became]
-        if each.member is None:
+    for outcome in bridge.outcomes:
+        facts = outcome.element.facts
+        row = [facts.name, facts.classes[0], facts.global_id, outcome.became]
+        if outcome.member is None:
             row += ["", "", "", "", "", ""]
         else:
-            member, substance = each.part
+            member, substance = outcome.part
             row += [member.name, member.kind, substance.name, f"{member.density_kg_m3:.6g}"]
             row += [f"{member.volume_m3:.6g}", f"{member.mass_kg:.6g}"]
-        writer.writerow([*row, each.why])
+        writer.writerow([*row, outcome.why])
     return text.getvalue()

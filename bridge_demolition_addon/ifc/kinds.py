@@ -176,7 +176,7 @@ def _of_class(facts: ElementFacts) -> str | LeftOut:
     for name, kind in _ALWAYS.items():
         if name in facts.classes:
             return kind
-    known = next((each for each in facts.classes if each in _ELSEWHERE), "")
+    known = next((cls for cls in facts.classes if cls in _ELSEWHERE), "")
     by_name = _named_kind(facts.words)
     if by_name and by_name in _NAMED.get(known, _WORDS):
         return LeftOut(_BEARS_NOTHING) if by_name == "left out" else by_name.replace("diaphragm", "girder")

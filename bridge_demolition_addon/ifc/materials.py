@@ -68,7 +68,7 @@ class MaterialTable(Table):
 
     def row(self, name: str) -> MaterialRow | None:
         """Return the row of a material; None where the table has none."""
-        return next((each for each in self.materials if matches(each.name, (name,))), None)
+        return next((material for material in self.materials if matches(material.name, (name,))), None)
 
 
 def material_table(path: Path | None = None) -> MaterialTable:

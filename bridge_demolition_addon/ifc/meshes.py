@@ -55,7 +55,7 @@ def _meshes(source: IfcSource, elements: Sequence[Element]) -> dict[int, Triangl
     settings.set("use-world-coords", True)
     settings.set("weld-vertices", True)
     settings.set("mesher-linear-deflection", CHORD_M)
-    iterator = geometry.iterator(settings, source.model, 1, include=[each.entity for each in elements])
+    iterator = geometry.iterator(settings, source.model, 1, include=[element.entity for element in elements])
     return {number: mesh for number, mesh in _shapes(iterator, source.scale) if len(mesh.triangles)}
 
 

@@ -125,7 +125,7 @@ def check_start(setup: RunSetup, positions_m: np.ndarray) -> None:
 def _free_shards(bodies: BodySettings) -> list[int]:
     """Return the rows of shards that nothing but their own location places."""
     rows = bodies.of_kind(Kind.SHARD)
-    is_held = [bool(each.parent or len(each.constraints)) for each in bodies.objects]
+    is_held = [bool(obj.parent or len(obj.constraints)) for obj in bodies.objects]
     return [row for row in rows if not (bodies.is_animated[row] or is_held[row])]
 
 

@@ -9,7 +9,7 @@ _ROLE = "bda_role"
 
 def find_collection(scene: bpy.types.Scene, role: str) -> bpy.types.Collection | None:
     """Return the scene's collection for a role, None where there is none."""
-    return next((each for each in scene.collection.children if each.get(_ROLE) == role), None)
+    return next((child for child in scene.collection.children if child.get(_ROLE) == role), None)
 
 
 def collection_for(scene: bpy.types.Scene, role: str) -> bpy.types.Collection:

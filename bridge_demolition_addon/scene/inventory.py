@@ -40,7 +40,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         normals=normals,
         second_moments_m4=second_moments,
         triangles=np.concatenate(triangles).astype(int) if has_triangles else None,
-        triangle_counts=np.array([len(each) for each in triangles], int) if has_triangles else None,
+        triangle_counts=np.array([len(triangle) for triangle in triangles], int) if has_triangles else None,
     )
 
 

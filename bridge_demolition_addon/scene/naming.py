@@ -18,7 +18,7 @@ _Made = TypeVar("_Made", bound=bpy.types.ID)
 def numbered_names(prefix: str, count: int, *collections: bpy.types.bpy_prop_collection) -> list[str]:
     """Return a prefix with new numbers, higher than any that it has in some collections."""
     pattern = re.compile(re.escape(prefix) + r" (\d+)(\.\d+)?")
-    names = (name for each in collections for name in each.keys())  # noqa: SIM118  iterating would give the data
+    names = (name for collection in collections for name in collection.keys())  # noqa: SIM118  iterating would give the data
     first = 1 + max((int(match[1]) for name in names if (match := pattern.fullmatch(name))), default=-1)
     return [f"{prefix} {number:06d}" for number in range(first, first + count)]
 

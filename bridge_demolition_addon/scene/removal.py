@@ -33,7 +33,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     ours = set(bodies)
     _remove_in_turn(
         scene,
-        [each for each in _constraints(scene) if ours & ends_of(each)],
+        [constraint for constraint in _constraints(scene) if ours & ends_of(constraint)],
         [field for body, field in force_objects(scene).items() if body in ours],
         bodies,
     )
@@ -108,4 +108,4 @@ def _restart(scene: bpy.types.Scene) -> None:
 
 def _constraints(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     constraints = scene.rigidbody_world.constraints
-    return [each for each in constraints.all_objects if each.rigid_body_constraint] if constraints else []
+    return [obj for obj in constraints.all_objects if obj.rigid_body_constraint] if constraints else []

@@ -37,7 +37,7 @@ def painted_points(body: bpy.types.Object, group: str) -> tuple[np.ndarray, np.n
     _check_is_mesh(body, "choose the object that was painted")
     index = body.vertex_groups.find(group)
     if index < 0:
-        known = ", ".join(each.name for each in body.vertex_groups) or "none"
+        known = ", ".join(vertex_group.name for vertex_group in body.vertex_groups) or "none"
         raise GeometryError(f"{body.name}: has no vertex group {group!r}; paint one, or choose from: {known}.")
     weights = np.array([_weight(vertex, index) for vertex in body.data.vertices])
     return _in_world(body, triangle_mesh(body.data).vertices), weights

@@ -14,7 +14,7 @@ def symbols_are_hidden(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bo
     """Return whether all of these empties are hidden; False where there are none."""
     if not has_symbols(layer, scene):
         return False
-    of_collections = (each.hide_viewport for each in _collections(layer, scene))
+    of_collections = (collection.hide_viewport for collection in _collections(layer, scene))
     return all(of_collections) and all(each.hide_get(view_layer=layer) for each in _loose(layer, scene))
 
 
@@ -25,8 +25,8 @@ def has_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
 
 def hide_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene, hidden: bool) -> None:
     """Hide the connections and force objects from view, or show them; they work all the same."""
-    for each in _collections(layer, scene):
-        each.hide_viewport = hidden
+    for collection in _collections(layer, scene):
+        collection.hide_viewport = hidden
     for each in _loose(layer, scene):
         each.hide_set(hidden, view_layer=layer)
 
@@ -42,7 +42,7 @@ def _loose(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator[bpy.t
     constraints = scene.rigidbody_world and scene.rigidbody_world.constraints
     if not constraints or any(each.collection == constraints for each in _all(layer.layer_collection)):
         return
-    yield from (each for each in constraints.objects if each.type == "EMPTY" and each.name in layer.objects)
+    yield from (obj for obj in constraints.objects if obj.type == "EMPTY" and obj.name in layer.objects)
 
 
 def _all(layer_collection: bpy.types.LayerCollection) -> Iterator[bpy.types.LayerCollection]:

@@ -74,9 +74,9 @@ def start_recording(recording: Recording, *, alone: bool = False) -> None:
 
 def stop_recording() -> Recording | None:
     """End the recording that runs, and return it."""
-    owner = next((each for each in list(_scenes.values()) if each.recording), None)
+    owner = next((scene for scene in list(_scenes.values()) if scene.recording), None)
     recording = owner.stop() if owner else None
-    if not _is_registered and not any(each.is_at_work for each in list(_scenes.values())):
+    if not _is_registered and not any(scene.is_at_work for scene in list(_scenes.values())):
         _let_go()
         _detach()
     return recording
@@ -84,7 +84,7 @@ def stop_recording() -> Recording | None:
 
 def running_recording() -> Recording | None:
     """Return the recording that runs, or ended early and was not stopped yet."""
-    return next((each.recording for each in list(_scenes.values()) if each.recording), None)
+    return next((scene.recording for scene in list(_scenes.values()) if scene.recording), None)
 
 
 def _let_go() -> None:

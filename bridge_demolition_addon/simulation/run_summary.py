@@ -140,13 +140,13 @@ def _on_ground(results: Results) -> dict[str, Any]:
     surfaces = debris_on_surfaces(left, debris) if debris else ()
     return {
         "debris_on_surfaces": {
-            each.name: {
-                "kind": each.kind,
-                "bodies": len(each.bodies),
-                "mass_kg": each.mass_kg,
-                "covered_m2": each.covered_m2,
+            surface.name: {
+                "kind": surface.kind,
+                "bodies": len(surface.bodies),
+                "mass_kg": surface.mass_kg,
+                "covered_m2": surface.covered_m2,
             }
-            for each in surfaces
+            for surface in surfaces
         },
         "under_ground": [str(name) for name in left.inventory.body_names[under]],
     }
@@ -185,7 +185,7 @@ def _of_scenario(
 def _touchdown(scenario: Scenario, results: Results) -> dict[str, Any]:
     """How the fall shakes the ground at each neighbour, by its name; None where nothing fell."""
     landed = landings(results)
-    shaken = ((each.name, shaking_at(each.place_m, landed)) for each in scenario.neighbours)
+    shaken = ((neighbour.name, shaking_at(neighbour.place_m, landed)) for neighbour in scenario.neighbours)
     return {name: shaking and asdict(shaking) for name, shaking in shaken}
 
 

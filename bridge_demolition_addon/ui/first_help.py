@@ -17,7 +17,7 @@ _PAGES = (_PACKAGE / "walkthrough" / "walkthrough.html", _PACKAGE.parent / "docs
 SENTENCES = (
     "A preset fills in all values: change what is different in your bridge below.",
     "Build Scenario cuts the bridge into shards and connects them; charges and the ball can be moved.",
-    "Run simulates it, and leaves forces, debris and a report in a folder.",
+    "Run simulates it, and leaves forces and debris in a folder; Make Report makes a report of it.",
 )
 
 
@@ -37,7 +37,7 @@ CLASSES = (BDA_OT_open_walkthrough,)
 
 def walkthrough() -> Path:
     """Return the page of the walkthrough."""
-    return next((each for each in _PAGES if each.is_file()), _PAGES[0])
+    return next((page for page in _PAGES if page.is_file()), _PAGES[0])
 
 
 def draw_first_help(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:

@@ -47,10 +47,10 @@ _ENSEMBLES = (study, search, optimise)
 def classes() -> tuple[type, ...]:
     """Return all classes; a panel comes after the one that it stands in."""
     return (
-        *(each for module in _OPERATORS for each in module.CLASSES),
+        *(cls for module in _OPERATORS for cls in module.CLASSES),
         *(operator for kind in _ENSEMBLES for operator in kind.OPERATORS),
         *scenario_ui.panels(),
-        *(each for module in _PANELS for each in module.CLASSES),
+        *(cls for module in _PANELS for cls in module.CLASSES),
         *(panel for kind in _ENSEMBLES for panel in kind.PANELS),
         *scenario_ui.inner_panels(),
     )
@@ -58,8 +58,8 @@ def classes() -> tuple[type, ...]:
 
 def register() -> None:
     """Register all classes with Blender."""
-    for each in classes():
-        bpy.utils.register_class(each)
+    for cls in classes():
+        bpy.utils.register_class(cls)
 
 
 def unregister() -> None:
@@ -70,8 +70,8 @@ def unregister() -> None:
     workspace.unregister()
     session.unregister()
     ground_operator.unregister()
-    for each in reversed(classes()):
-        bpy.utils.unregister_class(each)
+    for cls in reversed(classes()):
+        bpy.utils.unregister_class(cls)
     preset_menu.unregister()
     shown_run.forget_shown()
     messages.clear_all()

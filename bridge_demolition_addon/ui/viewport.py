@@ -14,10 +14,10 @@ _MOST_COVERED = 0.8
 
 def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> None:
     """Select these objects and nothing else."""
-    for each in context.selected_objects:
-        each.select_set(False)
-    for each in objects:
-        each.select_set(True)
+    for selected_object in context.selected_objects:
+        selected_object.select_set(False)
+    for obj in objects:
+        obj.select_set(True)
 
 
 def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> None:

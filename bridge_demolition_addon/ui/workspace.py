@@ -59,7 +59,7 @@ CLASSES = (BDA_OT_make_workspace,)
 
 def made_workspace() -> bpy.types.WorkSpace | None:
     """Return the workspace that was made before, None where there is none in this file."""
-    return next((each for each in bpy.data.workspaces if each.get(_MADE)), None)
+    return next((workspace for workspace in bpy.data.workspaces if workspace.get(_MADE)), None)
 
 
 def arrange(screen: bpy.types.Screen) -> None:
@@ -69,7 +69,7 @@ def arrange(screen: bpy.types.Screen) -> None:
     """
     largest, *others = sorted(screen.areas, key=lambda each: each.width * each.height, reverse=True)
     below = max(others, key=lambda each: each.width / each.height)
-    beside = max((each for each in others if each != below), key=lambda each: each.width * each.height)
+    beside = max((other for other in others if other != below), key=lambda each: each.width * each.height)
     for area, kind in ((largest, _LARGEST), (below, _BELOW), (beside, _BESIDE)):
         if area.ui_type != kind:
             area.ui_type = kind
@@ -112,7 +112,7 @@ def chart_of(scene: bpy.types.Scene) -> Path | None:
 
 
 def _region(area: bpy.types.Area, kind: str) -> bpy.types.Region:
-    return next(each for each in area.regions if each.type == kind)
+    return next(region for region in area.regions if region.type == kind)
 
 
 def unregister() -> None:

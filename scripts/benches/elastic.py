@@ -42,7 +42,7 @@ def main(smallest: bool) -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         scene = bpy.context.scene
         build_demolition(scene, scenario, model)
-        made = [each for each in bpy.data.objects if each.rigid_body_constraint]
+        made = [obj for obj in bpy.data.objects if obj.rigid_body_constraint]
         ratio, seconds = damping_ratio_of(scene), {}
         with tempfile.TemporaryDirectory() as folder:
             for _ in range(1 if smallest else ROUNDS):

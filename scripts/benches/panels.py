@@ -33,7 +33,7 @@ def main(smallest: bool) -> None:
     """Print the time of all panels for each number of shards."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bridge_demolition_addon.register()
-    panels = [each for each in classes() if issubclass(each, SidebarPanel)]
+    panels = [cls for cls in classes() if issubclass(cls, SidebarPanel)]
     print(f"{len(panels)} panels, all open, {CHARGES} charges")
     for shards in (10,) if smallest else SIZES:
         scene = bpy.data.scenes.new(str(shards))
@@ -55,7 +55,7 @@ def milliseconds(panels: list[type], scene: bpy.types.Scene) -> float:
         region=SimpleNamespace(width=280),
         preferences=SimpleNamespace(system=system),
     )
-    drawn = [without_blender(each)(Layout(context)) for each in panels]
+    drawn = [without_blender(panel)(Layout(context)) for panel in panels]
     times = []
     for _ in range(ROUNDS):
         began = time.perf_counter()

@@ -25,7 +25,9 @@ LENGTH_M, COUNT, DENSITY_KG_M3, FRAMES = 12.0, 20, 2400.0, 72
 def main(arguments: list[str]) -> int:
     """Measure or draw."""
     if arguments == ["measure"]:
-        rows = [(name, each, *measured(each, name)) for name in ("rigid", "elastic") for each in ITERATIONS]
+        rows = [
+            (name, iteration, *measured(iteration, name)) for name in ("rigid", "elastic") for iteration in ITERATIONS
+        ]
         with DATA.open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows([COLUMNS, *rows])
     elif arguments == ["draw"]:

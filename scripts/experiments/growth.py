@@ -153,7 +153,9 @@ def draw(rows: list[Growth], path: Path) -> None:
     unit = 24.0 * rows[0].blender_frame_s
     for number, (label, seconds) in enumerate(lines.items()):
         style = "s--" if "Blender" in label else "o-"
-        times.loglog(shards, [each / unit for each in seconds], style, label=label, color=f"C{number}", markersize=4)
+        times.loglog(
+            shards, [second / unit for second in seconds], style, label=label, color=f"C{number}", markersize=4
+        )
     times.set_ylabel("time, Blender's second with 1,000 shards = 1")
     figure.legend(*times.get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False, fontsize=8)
     memory.plot(shards, [row.peak_mb / 1000.0 for row in rows], "o-", color="#b5402a", label="most of the whole run")
@@ -166,7 +168,7 @@ def draw(rows: list[Growth], path: Path) -> None:
     for axes in (times, memory):
         axes.set_xlabel("shards")
         ticks = shards if axes is times else range(0, int(max(shards)) + 1, 2000)
-        axes.set_xticks(ticks, [f"{each:,.0f}" for each in ticks])
+        axes.set_xticks(ticks, [f"{tick:,.0f}" for tick in ticks])
         axes.minorticks_off()
         axes.grid(color="0.9")
         axes.spines[["top", "right"]].set_visible(False)

@@ -55,7 +55,10 @@ def played(settings, proposals, seed):
 
 def main():
     """Print the table."""
-    print("| numbers that change | candidates | nearer than chance | above the best | by chance | looked better by |")
+    print(
+        "| numbers that change | candidates | beats random search | excess over optimum "
+        "| excess of random search | bias of the search |"
+    )
     print("| --- | --- | --- | --- | --- | --- |")
     for size in (2, 3, 5, 8):
         for candidates in (40, 80):

@@ -21,7 +21,7 @@ CONFIDENCE, PROBABILITY, GUESS = 0.95, 0.9, 0.1
 def main(arguments: list[str]) -> None:
     """Print the table."""
     searches = int(arguments[0]) if arguments else 500
-    print("| trials | at once | spread | limit of 90 % holds | median, without a model | error of the median |")
+    print("| runs | at once | spread | limit of 90 % holds | median, without a model | error of the median |")
     print("| --- | --- | --- | --- | --- | --- |")
     for trials, at_once in ((20, 1), (40, 1), (40, 4)):
         for spread in (0.02, 0.1, 0.25):

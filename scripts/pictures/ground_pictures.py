@@ -78,7 +78,7 @@ def draw_footing() -> None:
     left.set_ylabel("load (MN)")
     bed = footings(np.inf)
     turns = np.linspace(0.0, 0.02, 60)
-    right.plot(1e3 * turns, [moment(bed, each) / 1e3 for each in turns.tolist()], **line_style(0), label="footing")
+    right.plot(1e3 * turns, [moment(bed, turn) / 1e3 for turn in turns.tolist()], **line_style(0), label="footing")
     pressed_m = np.sqrt(2.0 * LOAD_N / (STIFFNESS_N_M3 * WIDTH_M * turns[1:]))
     theory = np.where(
         pressed_m < WIDTH_M,

@@ -29,7 +29,7 @@ def shown(ground, low=-20.0, high=20.0):
 
 def test_contour_lines_run_where_the_ground_has_their_height():
     axes = shown(SLOPE)
-    (lines,) = (each for each in axes.collections if hasattr(each, "levels"))
+    (lines,) = (collection for collection in axes.collections if hasattr(collection, "levels"))
     # Heights from 0 to 20 m are in the map, in round steps; which of them, matplotlib's locator chooses.
     assert len(lines.levels) >= 4 and set(np.diff(lines.levels).round(9)) <= {1.0, 2.0, 5.0}
     for level, path in zip(lines.levels, lines.get_paths(), strict=True):
@@ -49,7 +49,7 @@ def test_surfaces_are_outlined_and_named():
     axes = shown(replace(SLOPE, surfaces=(river,)))
     (outline,) = axes.patches
     assert outline.get_path().get_extents().extents == pytest.approx([0, 0, 8, 8])
-    assert [each.get_text() for each in axes.texts if "river" in each.get_text()] == [r"river <1> \$2\$"]
+    assert [text.get_text() for text in axes.texts if "river" in text.get_text()] == [r"river <1> \$2\$"]
 
 
 def test_a_summary_describes_the_terrain_again():

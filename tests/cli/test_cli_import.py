@@ -33,11 +33,11 @@ def test_the_files_hold_what_was_told(path, tmp_path):
     assert main(["import", str(path), "--output", str(folder)]) == 0
     scenario = read_scenario(folder / "scenario.toml")
     members = prepared_members(scenario).members
-    assert sum(each.mass_kg for each in members) == pytest.approx(MASS_KG, rel=1e-6)
+    assert sum(member.mass_kg for member in members) == pytest.approx(MASS_KG, rel=1e-6)
     with (folder / "elements.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert sum(float(each["mass_kg"]) for each in rows if each["mass_kg"]) == pytest.approx(MASS_KG, rel=1e-5)
-    assert {each["element"]: each["became"] for each in rows if each["became"] != "member"} == {
+    assert sum(float(row["mass_kg"]) for row in rows if row["mass_kg"]) == pytest.approx(MASS_KG, rel=1e-5)
+    assert {row["element"]: row["became"] for row in rows if row["became"] != "member"} == {
         **{f"Bearing {number} {side}": "connection" for number in (1, 2, 3) for side in ("right", "left")},
         **dict.fromkeys(("Railing", "Tendon", "Bar", "Pile 1", "Pile 2"), "left out"),
     }
@@ -94,7 +94,7 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
 )
 def test_what_is_wrong_is_said_and_nothing_is_written(arguments, message, path, tmp_path, capsys):
     names = {"path": path, "folder": tmp_path / "bridge", "here": tmp_path}
-    assert main(["import", *(each.format(**names) for each in arguments)]) == 2
+    assert main(["import", *(argument.format(**names) for argument in arguments)]) == 2
     assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == [path]
 

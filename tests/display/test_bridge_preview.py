@@ -39,7 +39,7 @@ def test_the_outline_reaches_just_as_far_as_what_is_built(path):
     scenario = read_scenario(path)
     if not scenario.bridge or scenario.geometry:
         return
-    corners = np.concatenate([each.solid.corners.reshape(-1, 3) for each in prepared_members(scenario).members])
+    corners = np.concatenate([member.solid.corners.reshape(-1, 3) for member in prepared_members(scenario).members])
     lines = bridge_edges(scenario.bridge)
     np.testing.assert_allclose(lines.min(axis=0), corners.min(axis=0), atol=1e-9)
     np.testing.assert_allclose(lines.max(axis=0), corners.max(axis=0), atol=1e-9)

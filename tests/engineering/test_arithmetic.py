@@ -32,7 +32,7 @@ def test_exponentials_are_those_of_the_c_library():
 
 
 def test_logarithms_are_those_of_the_c_library():
-    check(logarithm(SIZES), [math.log(each) for each in SIZES])
+    check(logarithm(SIZES), [math.log(size) for size in SIZES])
 
 
 @pytest.mark.parametrize("exponent", [1.0 / 3.0, -0.5, 2.0, 3.0, 6.0, 10.0])
@@ -49,7 +49,7 @@ def test_cube_roots_are_exact_for_cubes():
 
 @pytest.mark.parametrize(("function", "exact"), [(sine, math.sin), (cosine, math.cos)])
 def test_sines_and_cosines_are_those_of_the_c_library(function, exact):
-    check(function(ANGLES), [exact(each) for each in ANGLES])
+    check(function(ANGLES), [exact(angle) for angle in ANGLES])
 
 
 def test_angles_of_which_too_little_is_known_are_refused():
@@ -85,5 +85,5 @@ def test_bits_are_the_same_on_every_machine():
         cosine(ANGLES),
         arctangent(AROUND_ONE, SIZES[:2000]),
     ]
-    digest = hashlib.sha256(b"".join(each.astype("<f8").tobytes() for each in results)).hexdigest()
+    digest = hashlib.sha256(b"".join(result.astype("<f8").tobytes() for result in results)).hexdigest()
     assert digest[:16] == "b46567c632a6c952"

@@ -60,7 +60,7 @@ def is_power(node):
 
 def sorts_or_multiplies(call):
     """Whether a method or function gives an order of equal values, or a product, that is not always the same."""
-    keywords = {each.arg: each.value for each in call.keywords}
+    keywords = {keyword.arg: keyword.value for keyword in call.keywords}
     kind = keywords.get("kind")
     stable = isinstance(kind, ast.Constant) and kind.value == "stable"
     is_of_numpy = isinstance(call.func.value, ast.Name) and call.func.value.id == "np"

@@ -111,7 +111,7 @@ def test_what_does_not_move_has_no_keys_and_what_rests_has_two(tmp_path):
 def test_limits_of_places_and_times_are_stated_as_the_specification_wants(written):
     described, values = read(written[0])
     samplers = described["animations"][0]["samplers"]
-    stated = {each["input"] for each in samplers}
+    stated = {sampler["input"] for sampler in samplers}
     stated |= {mesh["primitives"][0]["attributes"]["POSITION"] for mesh in described["meshes"]}
     for number in stated:
         accessor = described["accessors"][number]

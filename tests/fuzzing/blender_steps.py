@@ -197,7 +197,7 @@ class BlenderPlayer(Player):
         return f"{button} {arguments}: {done}"
 
     def _arguments(self, button: str, random: Random) -> dict[str, Any]:
-        names = [each.name for each in bpy.data.objects] or [""]
+        names = [obj.name for obj in bpy.data.objects] or [""]
         lists = (
             "connections.between",
             "connections.joints",
@@ -303,7 +303,7 @@ class BlenderPlayer(Player):
             return "off"
         group = bpy.context.scene.bda
         while True:
-            shown = [each for each in group.bl_rna.properties if each.identifier != "rna_type" and not each.is_hidden]
+            shown = [prop for prop in group.bl_rna.properties if prop.identifier != "rna_type" and not prop.is_hidden]
             item = random.choice(shown)
             if item.type == "POINTER":
                 group = getattr(group, item.identifier)
@@ -613,8 +613,8 @@ def _drawn(draw: Callable[[], int]) -> str:
 
 
 def _switch_settings(*, on: bool) -> None:
-    for each in SETTINGS:
-        (bpy.utils.register_class if on else bpy.utils.unregister_class)(each)
+    for setting in SETTINGS:
+        (bpy.utils.register_class if on else bpy.utils.unregister_class)(setting)
 
 
 def _play(scene: bpy.types.Scene, count: int) -> None:
@@ -623,19 +623,19 @@ def _play(scene: bpy.types.Scene, count: int) -> None:
 
 
 def _one(random: Random, suits: Callable[[bpy.types.Object], Any] = bool) -> bpy.types.Object:
-    return random.choice([each for each in bpy.data.objects if suits(each)])
+    return random.choice([obj for obj in bpy.data.objects if suits(obj)])
 
 
 def _chosen(random: Random) -> list[bpy.types.Object]:
     """Choose a few objects, mostly of one kind."""
     word = random.choice(("Shard 0", "connection", "Ground", "ball", "Charge", "Force", ""))
-    among = [each for each in bpy.context.view_layer.objects if word in each.name] or list(bpy.data.objects)
+    among = [obj for obj in bpy.context.view_layer.objects if word in obj.name] or list(bpy.data.objects)
     return random.sample(among, min(len(among), random.choice((1, 1, 1, 2, 3, 100))))
 
 
 def _select(chosen: list[bpy.types.Object]) -> None:
-    for each in bpy.context.view_layer.objects:
-        each.select_set(each in chosen)
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj in chosen)
 
 
 def _with(chosen: bpy.types.Object, operator: Callable[[], Any]) -> None:
@@ -659,7 +659,7 @@ def _value(item: bpy.types.Property, random: Random) -> Any:
     if item.type == "STRING":
         return random.choice(TEXTS)
     if item.type == "ENUM":
-        names = [each.identifier for each in item.enum_items]
+        names = [enum_item.identifier for enum_item in item.enum_items]
         return set(random.sample(names, random.randint(0, len(names)))) if item.is_enum_flag else random.choice(names)
     if item.is_array:
         return [_number(item, random) for _ in range(item.array_length)]

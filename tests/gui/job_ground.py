@@ -72,7 +72,7 @@ def draw_zone(person: Person) -> Steps:
     yield from person.press("RET")
     yield 0.5
     zones = person.scene.bda.scenario.zones
-    person.expect("a zone is added", [each.name for each in zones], ["Zone 1"])
+    person.expect("a zone is added", [zone.name for zone in zones], ["Zone 1"])
     person.expect_reports("and reported", "Zone 1: 4 corners")
     yield from person.picture("zone_drawn")
 

@@ -24,7 +24,7 @@ def restart_while_recording(person: Person) -> Steps:
     yield from play_until(person, 15)
     yield from play_or_pause(person)
     yield from go_to_start(person)
-    ball = next(each for each in person.scene.rigidbody_world.collection.objects if each.rigid_body.mass == 5000)
+    ball = next(obj for obj in person.scene.rigidbody_world.collection.objects if obj.rigid_body.mass == 5000)
     ball.rigid_body.mass = 6000
     yield from play_until(person, 8)
     yield from play_or_pause(person)

@@ -24,11 +24,11 @@ def steps(person: Person) -> Steps:
     person.expect("the scene has a camera before the bridge", person.scene.camera.name, "Bridge camera")
     yield from through_the_camera(person)
     yield from looks(person)
-    empties = [each for each in objects if each.rigid_body_constraint]
-    person.expect("connections are hidden", any(seen(person, each.name) for each in empties), False)
+    empties = [obj for obj in objects if obj.rigid_body_constraint]
+    person.expect("connections are hidden", any(seen(person, empty.name) for empty in empties), False)
     yield from person.click("bda.toggle_symbols")
     yield 0.5
-    person.expect("the eye shows them", all(seen(person, each.name) for each in empties))
+    person.expect("the eye shows them", all(seen(person, empty.name) for empty in empties))
     yield from person.click("bda.toggle_symbols")
     yield from by_f12(person)
     yield from remove(person)
@@ -64,7 +64,7 @@ def through_the_camera(person: Person) -> Steps:
 def remove(person: Person) -> Steps:
     yield from person.click("bda.remove_demolition")
     yield 0.5
-    person.expect("nothing of ours is left", [each.name for each in bpy.data.worlds], ["World"])
+    person.expect("nothing of ours is left", [world.name for world in bpy.data.worlds], ["World"])
     person.expect_reports("nothing but the removal is reported", "bodies removed")
 
 

@@ -23,7 +23,7 @@ def steps(person: Person) -> Steps:
     yield from follow(person, "the run", 15)
     yield from follow(person, "the pictures of the run", 1)
     yield from person.picture("run_is_over")
-    kept = [each.text for each in module("ui.messages").messages_of(person.scene)]
+    kept = [message.text for message in module("ui.messages").messages_of(person.scene)]
     person.expect("where its results are stays in the panel", any("Results are in" in each for each in kept))
     yield from stop(person, "bda.make_report", "the report")
     yield from begin(person, "bda.make_report")
@@ -53,7 +53,7 @@ def stop(person: Person, button: str, what: str) -> Steps:
     yield from person.move_to_view()
     yield from person.press("ESC")
     yield from person.wait_for(f"Esc stops {what}", lambda: going_on() is None, 10.0)
-    kept = [each.text for each in module("ui.messages").messages_of(person.scene)]
+    kept = [message.text for message in module("ui.messages").messages_of(person.scene)]
     person.expect(f"and it is said in the panel of {what}", any("stopped" in each for each in kept))
 
 
@@ -87,7 +87,7 @@ def follow(person: Person, what: str, pictured_at: int) -> Steps:
     if not factors:
         person.note(f"{what} takes too short a time to judge")
         return
-    share = sum(each <= FACTOR for each in factors) / len(factors)
+    share = sum(factor <= FACTOR for factor in factors) / len(factors)
     trouble = "" if share >= SHARE else f"only {share:.0%} of {len(factors)} times; at worst {max(factors):.2f}"
     person.note(f"time left of {what} is right within a factor of {FACTOR} in {SHARE:.0%} of looks", trouble)
     person.note(f"{what}: {len(factors)} looks, {share:.0%} within {FACTOR}, at worst {max(factors):.2f}")

@@ -93,10 +93,10 @@ def bake(person: Person) -> Steps:
     graph = person.window.view_layer.depsgraph
     apart = [
         np.linalg.norm(
-            np.array(each.evaluated_get(graph).matrix_world.translation)
-            - [float(last[each.name][f"{axis}_m"]) for axis in "xyz"]
+            np.array(obj.evaluated_get(graph).matrix_world.translation)
+            - [float(last[obj.name][f"{axis}_m"]) for axis in "xyz"]
         )
-        for each in world.collection.objects
+        for obj in world.collection.objects
     ]
     person.expect("the bake leaves bodies where the debris log says", max(apart) < 1e-3)
     yield from person.click("bda.delete_bake")

@@ -37,7 +37,7 @@ def steps(person: Person) -> Steps:
 
 def open_panels(seconds: dict[str, list[float]]) -> set[str]:
     """Have all panels open from the beginning, and take their times; return those that are open without this."""
-    found = [each for each in module("ui.registration").classes() if issubclass(each, bpy.types.Panel)]
+    found = [cls for cls in module("ui.registration").classes() if issubclass(cls, bpy.types.Panel)]
     closed = {each.__name__ for each in found if "DEFAULT_CLOSED" in getattr(each, "bl_options", ())}
     inside = {each.__name__ for each in found if getattr(each, "bl_parent_id", "") in closed}
     for each in reversed(found):

@@ -86,7 +86,7 @@ def play_again(person: Person) -> Steps:
 
 
 def ball_height(person: Person) -> float:
-    ball = next(each for each in person.scene.rigidbody_world.collection.objects if each.rigid_body.mass == 5000)
+    ball = next(obj for obj in person.scene.rigidbody_world.collection.objects if obj.rigid_body.mass == 5000)
     return ball.evaluated_get(person.window.view_layer.depsgraph).matrix_world.translation.z
 
 
@@ -123,9 +123,9 @@ def delete_shard_and_connections(person: Person) -> Steps:
     """Delete a shard while it plays, with all that holds it."""
     body = shard(person, 5)
     links = [
-        each
-        for each in person.scene.rigidbody_world.constraints.objects
-        if body in (each.rigid_body_constraint.object1, each.rigid_body_constraint.object2)
+        obj
+        for obj in person.scene.rigidbody_world.constraints.objects
+        if body in (obj.rigid_body_constraint.object1, obj.rigid_body_constraint.object2)
     ]
     select(person, body, *links)
     yield from delete_selected(person)
@@ -172,8 +172,8 @@ def shard(person: Person, number: int) -> bpy.types.Object:
 
 
 def select(person: Person, *objects: bpy.types.Object) -> None:
-    for each in person.scene.objects:
-        each.select_set(each in objects)
+    for obj in person.scene.objects:
+        obj.select_set(obj in objects)
     person.window.view_layer.objects.active = objects[0]
 
 

@@ -67,7 +67,7 @@ def steps(person: Person) -> Steps:
 def empty_scene(person: Person, panels: Panels) -> Steps:
     """What Blender starts with is of no use here: A and Delete."""
     yield from delete_all(person)
-    person.expect("A and Delete empty the scene", [each.name for each in person.scene.objects], [])
+    person.expect("A and Delete empty the scene", [obj.name for obj in person.scene.objects], [])
     width = person.sidebar.width
     yield from panels.widen(160)
     person.expect("dragging its edge makes the sidebar wider", person.sidebar.width >= width + 120)
@@ -87,8 +87,8 @@ def choose_preset(person: Person, panels: Panels) -> Steps:
     yield 0.5
     loaded = scenario_in(PRESET)
     person.expect("the panels show the preset", person.scene.bda.scenario.title, loaded.title)
-    found = [(each.name, each.mass_kg) for each in charges(person.scene)]
-    expected = [(each.name, each.mass_kg) for each in loaded.charges]
+    found = [(charge.name, charge.mass_kg) for charge in charges(person.scene)]
+    expected = [(charge.name, charge.mass_kg) for charge in loaded.charges]
     person.expect("its charges are in the scene", found, expected)
     yield from person.illustrate("preset", person.sidebar)
 
@@ -137,7 +137,7 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
     person.expect("there are connections", len(world.constraints.objects) > SHARDS)
     person.expect("the timeline is as long as the scenario", person.scene.frame_end, LAST_FRAME)
     person.expect("the view shows all of the bridge beside the sidebar", out_of_sight(person), [])
-    mass = sum(each.rigid_body.mass for each in shards if each.rigid_body.type == "ACTIVE")
+    mass = sum(shard.rigid_body.mass for shard in shards if shard.rigid_body.type == "ACTIVE")
     expected = VOLUME_M3 * DENSITY_KG_M3
     person.expect("they weigh what the bridge does by hand", math.isclose(mass, expected, rel_tol=1e-5))
     person.expect_reports("nothing but the building is reported", f"{SHARDS} shards")
@@ -147,7 +147,7 @@ def out_of_sight(person: Person) -> list[tuple[float, ...]]:
     """Corners of the bridge, by hand, that are not in the view, or behind the sidebar."""
     region = region_of(person.view, "WINDOW")
     corners = product((-0.5, 13.5), (-4.25, 4.25), (0.0, 5.9))
-    seen = {each: location_3d_to_region_2d(region, person.view.spaces.active.region_3d, each) for each in corners}
+    seen = {corner: location_3d_to_region_2d(region, person.view.spaces.active.region_3d, corner) for corner in corners}
     right = person.sidebar.x - region.x
     return [each for each, at in seen.items() if at is None or not (0.0 < at.x < right and 0.0 < at.y < region.height)]
 
@@ -188,12 +188,12 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     yield from person.picture("third")
     person.expect("there is a third", len(charges(scene)), 3)
     yield from person.click("bda.delete_source_point")
-    person.expect("Delete deletes just that", [each.name for each in charges(scene)], [WEST, EAST])
+    person.expect("Delete deletes just that", [charge.name for charge in charges(scene)], [WEST, EAST])
     yield from person.click("bda.add_source_point")
     yield from person.move_to_view()
     yield from person.press("Z", ctrl=True)
     yield 0.5
-    person.expect("Ctrl-Z takes one back", [each.name for each in charges(person.scene)], [WEST, EAST])
+    person.expect("Ctrl-Z takes one back", [charge.name for charge in charges(person.scene)], [WEST, EAST])
 
     yield from panels.widen(WIDER_PX)
     yield from person.picture("wide_list")
@@ -304,12 +304,12 @@ def check_logs(person: Person) -> None:
     person.expect("every frame is in the force log", sorted({int(row["frame"]) for row in forces}), list(FRAMES))
     person.expect("those logs are not in the folder as well", list(folder.glob("*force_log.csv")), [])
     person.expect("all forces are numbers", all(math.isfinite(float(row["force_sum_N"])) for row in forces))
-    bodies = {each.name for each in person.scene.rigidbody_world.collection.objects}
+    bodies = {obj.name for obj in person.scene.rigidbody_world.collection.objects}
     person.expect("every body is in the debris log", {row["body"] for row in debris}, bodies)
 
     breaking = rows(folder / "breaking_log.csv")
     world = person.scene.rigidbody_world
-    names = {each.name for each in world.constraints.objects}
+    names = {obj.name for obj in world.constraints.objects}
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     person.expect("connections break", len(breaking) > 0)
     person.expect(
@@ -327,13 +327,13 @@ def check_logs(person: Person) -> None:
 
 def scrub(person: Person) -> Steps:
     """Drag along the timeline: places and colours are those of each frame."""
-    marked = [(each.name, each.frame) for each in person.scene.timeline_markers]
+    marked = [(timeline_marker.name, timeline_marker.frame) for timeline_marker in person.scene.timeline_markers]
     yield from drag_to_frame(person, 5, LAST_FRAME)
     person.expect("dragging in the timeline goes to the last frame", person.scene.frame_current, LAST_FRAME)
     graph = person.window.view_layer.depsgraph
     places = {
-        each.name: np.array(each.evaluated_get(graph).matrix_world.translation)
-        for each in person.scene.rigidbody_world.collection.objects
+        obj.name: np.array(obj.evaluated_get(graph).matrix_world.translation)
+        for obj in person.scene.rigidbody_world.collection.objects
     }
     last = {row["body"]: row for row in rows(person.folder / "my_debris_log.csv") if int(row["frame"]) == LAST_FRAME}
     apart = [np.linalg.norm(places[name] - [float(row[f"{axis}_m"]) for axis in "xyz"]) for name, row in last.items()]
@@ -342,7 +342,7 @@ def scrub(person: Person) -> Steps:
     yield from person.picture("scrubbed_to_the_end")
     yield from drag_to_frame(person, LAST_FRAME, 14)
     person.expect("and back", person.scene.frame_current, 14)
-    still = [(each.name, each.frame) for each in person.scene.timeline_markers]
+    still = [(timeline_marker.name, timeline_marker.frame) for timeline_marker in person.scene.timeline_markers]
     person.expect("markers, which cover the ruler here, stay where they are", still, marked)
     yield from person.illustrate("scrubbed", person.view, timeline(person))
     person.expect("colours follow", bool((colours(person, shown=True) != late).any()))
@@ -448,8 +448,8 @@ def hide_and_undo(person: Person, panels: Panels) -> Steps:
 
 def hidden_symbols(person: Person) -> set[str]:
     """Names of the connections and force objects that are not seen."""
-    empties = [each for each in person.scene.objects if each.type == "EMPTY" and each.name not in (WEST, EAST)]
-    return {each.name for each in empties if not each.visible_get(view_layer=person.window.view_layer)}
+    empties = [obj for obj in person.scene.objects if obj.type == "EMPTY" and obj.name not in (WEST, EAST)]
+    return {empty.name for empty in empties if not empty.visible_get(view_layer=person.window.view_layer)}
 
 
 def undo(person: Person) -> Steps:

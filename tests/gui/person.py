@@ -333,8 +333,8 @@ class Person:
         yield from self.picture(name)
         pictures = self.folder / PICTURES
         pictures.mkdir(exist_ok=True)
-        left, bottom = min(each.x for each in parts), min(each.y for each in parts)
-        right, top = max(each.x + each.width for each in parts), max(each.y + each.height for each in parts)
+        left, bottom = min(part.x for part in parts), min(part.y for part in parts)
+        right, top = max(part.x + part.width for part in parts), max(part.y + part.height for part in parts)
         crop = ("-crop", f"{right - left}x{top - bottom}+{left}+{self.window.height - top}", "+repage")
         small = ("-dither", "None", "-colors", str(PICTURE_COLOURS), "-strip", "-quality", "90")
         subprocess.run(["import", "-window", "root", *crop, *small, f"png8:{pictures / name}.png"], check=True)

@@ -42,7 +42,7 @@ def colours(person: Person, shown: bool = False) -> np.ndarray:
     """Colours of all bodies, their own or as they are shown."""
     bodies = person.scene.rigidbody_world.collection.all_objects
     graph = person.window.view_layer.depsgraph
-    return np.array([(each.evaluated_get(graph) if shown else each).color for each in bodies])
+    return np.array([(body.evaluated_get(graph) if shown else body).color for body in bodies])
 
 
 def opened() -> list[str]:

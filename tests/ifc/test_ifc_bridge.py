@@ -25,7 +25,7 @@ def read(made, tmp_path, **settings):
 
 
 def members(bridge):
-    return [each.member for each in bridge.outcomes if each.member]
+    return [outcome.member for outcome in bridge.outcomes if outcome.member]
 
 
 def volumes(bridge):
@@ -40,7 +40,7 @@ def mass_kg(bridge):
 
 
 def member(bridge, name):
-    (found,) = (each.member for each in bridge.outcomes if each.element.facts.name == name)
+    (found,) = (outcome.member for outcome in bridge.outcomes if outcome.element.facts.name == name)
     return found
 
 
@@ -66,18 +66,18 @@ def test_places(bridge):
 
 
 def test_footings_are_held_and_nothing_else(bridge):
-    assert [(each.member, each.face) for each in bridge.scenario.supports] == [("footing", "all")]
+    assert [(support.member, support.face) for support in bridge.scenario.supports] == [("footing", "all")]
 
 
 def test_bearings_are_connections_of_what_they_lie_between(bridge):
     rules = [each for each in bridge.scenario.connections.between if each.free]
     lower = {"Abutment 1", "Crosshead", "Abutment 2"}
     expected = {(girder, below) for girder in ("Girder left", "Girder right") for below in lower}
-    assert {each.members for each in rules} == expected
+    assert {rule.members for rule in rules} == expected
     is_newest = bridge.outcomes[0].element.entity.file.schema == "IFC4X3"
-    for each in rules:
-        is_roller = is_newest and each.members[1] != "Crosshead"
-        assert each.free == (("move x", "turn y") if is_roller else ("turn y",))
+    for rule in rules:
+        is_roller = is_newest and rule.members[1] != "Crosshead"
+        assert rule.free == (("move x", "turn y") if is_roller else ("turn y",))
 
 
 def test_strengths_by_material(bridge):
@@ -89,7 +89,7 @@ def test_strengths_by_material(bridge):
 
 
 def test_what_is_left_out(bridge):
-    left = {each.element.facts.name: each.why for each in bridge.outcomes if each.became == "left out"}
+    left = {outcome.element.facts.name: outcome.why for outcome in bridge.outcomes if outcome.became == "left out"}
     assert left.keys() == {"Railing", "Tendon", "Bar", "Pile 1", "Pile 2"}
     assert all(left.values())
 
@@ -107,7 +107,7 @@ def test_metre_in_american_spelling(tmp_path):
     path.write_text(text.replace(".METRE.", ".METER."))
     bridge = read_bridge(path, ImportSettings())
     assert volumes(bridge) == pytest.approx(VOLUMES_M3, rel=EXACT)
-    assert any("METER" in each for each in bridge.notes)
+    assert any("METER" in note for note in bridge.notes)
 
 
 def test_a_unit_that_the_user_tells_counts(tmp_path):
@@ -115,7 +115,7 @@ def test_a_unit_that_the_user_tells_counts(tmp_path):
     made = IfcBridge().substructure().superstructure()
     bridge = read(made, tmp_path, unit="cm")
     assert sum(volumes(bridge).values()) == pytest.approx(1e-6 * (sum(VOLUMES_M3.values()) - 6 * 0.016), rel=1e-4)
-    assert any("cm" in each for each in bridge.notes)
+    assert any("cm" in note for note in bridge.notes)
 
 
 @pytest.mark.parametrize("turn_deg", [35.0, 90.0, -60.0])
@@ -146,21 +146,24 @@ def test_the_ground_cuts_what_is_buried(tmp_path):
     assert volumes(bridge) == pytest.approx(expected, rel=EXACT)
     assert member(bridge, "Column").solid.bounds[0, 2] == pytest.approx(0.0, abs=1e-9)
     assert not bridge.scenario.supports
-    below = [each.element.facts.name for each in bridge.outcomes if each.why == "it lies below the ground"]
+    below = [outcome.element.facts.name for outcome in bridge.outcomes if outcome.why == "it lies below the ground"]
     assert below == ["Footing 1", "Footing 2", "Footing 3"]
 
 
 def test_a_pier_with_nothing_under_it_is_held(tmp_path):
     bridge = read(whole_bridge(), tmp_path, without=("Footing 2",))
-    assert [(each.member, each.face) for each in bridge.scenario.supports] == [("footing", "all"), ("Column", "bottom")]
-    assert any("Column ends 0.50 m above the ground" in each for each in bridge.notes)
+    assert [(support.member, support.face) for support in bridge.scenario.supports] == [
+        ("footing", "all"),
+        ("Column", "bottom"),
+    ]
+    assert any("Column ends 0.50 m above the ground" in note for note in bridge.notes)
 
 
 def test_girders_that_touch_nothing_are_told_of(tmp_path):
     bridge = read(whole_bridge(), tmp_path, without=("bearing", "Carriageway"))
     assert any(
-        "Girder left touches no other member (the nearest is Abutment" in each and "100.0 mm off" in each
-        for each in bridge.notes
+        "Girder left touches no other member (the nearest is Abutment" in note and "100.0 mm off" in note
+        for note in bridge.notes
     )
 
 
@@ -168,7 +171,7 @@ def test_a_bearing_that_bears_nothing_is_left_out(tmp_path):
     made = whole_bridge()
     made.box("IfcBearing", "Spare", (0.4, 0.4, 0.1), (5.0, 0.0, 1.0), "SUPERSTRUCTURE")
     bridge = read(made, tmp_path)
-    (spare,) = (each for each in bridge.outcomes if each.element.facts.name == "Spare")
+    (spare,) = (outcome for outcome in bridge.outcomes if outcome.element.facts.name == "Spare")
     assert spare.became == "left out"
     assert spare.why == "nothing touches it from below"
 
@@ -182,7 +185,7 @@ def test_a_bearing_a_little_above_or_in_what_it_lies_on(gap_m, joined, tmp_path)
     solid.Position.Location.Coordinates = (10.0, 1.0, 3.5 + gap_m)
     solid.Depth = 0.1 - gap_m
     bridge = read(made, tmp_path)
-    (found,) = (each for each in bridge.outcomes if each.element.facts.name == "Bearing 2 left")
+    (found,) = (outcome for outcome in bridge.outcomes if outcome.element.facts.name == "Bearing 2 left")
     assert (found.became == "connection") == joined
     if joined:
         whole = union([member(bridge, "Crosshead").solid, found.mesh])
@@ -203,7 +206,7 @@ def test_motions_that_a_bearing_gives_itself(tmp_path):
     bearing.Representation.Representations[0].Items = [shape]
     truths = {"DisplacementAccommodated": (True, False, False), "RotationAccommodated": (False, True, False)}
     given = [
-        make("IfcPropertyListValue", name, None, [make("IfcBoolean", each) for each in values], None)
+        make("IfcPropertyListValue", name, None, [make("IfcBoolean", value) for value in values], None)
         for name, values in truths.items()
     ]
     pset = made.root("IfcPropertySet", "Pset_BearingCommon", HasProperties=given)
@@ -236,7 +239,7 @@ def test_openings_are_cut_out(tmp_path):
     made.root("IfcRelVoidsElement", None, RelatingBuildingElement=slab, RelatedOpeningElement=hole)
     bridge = read(made, tmp_path)
     assert volumes(bridge)["deck"] == pytest.approx(VOLUMES_M3["deck"] - 2.0 * 1.0 * 0.2, rel=EXACT)
-    assert "Hole" not in {each.element.facts.name for each in bridge.outcomes}
+    assert "Hole" not in {outcome.element.facts.name for outcome in bridge.outcomes}
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
@@ -275,7 +278,7 @@ def test_the_kind_is_told_where_the_file_does_not_say_it(tmp_path):
     )
     made.file.by_type("IfcBuildingElementProxy")[0].ContainedInStructure[0].RelatingStructure = made.bridge
     assert "pier" in {each.kind for each in members(read(made, tmp_path, kinds=(("object*", "pier"),)))}
-    left = [each for each in read(made, tmp_path).outcomes if each.element.facts.name == "Object 7"]
+    left = [outcome for outcome in read(made, tmp_path).outcomes if outcome.element.facts.name == "Object 7"]
     assert "--kind" in left[0].why
 
 

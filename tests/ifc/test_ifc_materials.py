@@ -66,13 +66,13 @@ def test_a_table_of_the_users_own(tmp_path):
     (tmp_path / "own.toml").write_text(OWN)
     bridge = read(whole_bridge(), tmp_path, materials=tmp_path / "own.toml")
     masses = {}
-    for each in bridge.outcomes:
-        if each.member:
-            masses[each.member.kind] = masses.get(each.member.kind, 0.0) + each.member.mass_kg
+    for outcome in bridge.outcomes:
+        if outcome.member:
+            masses[outcome.member.kind] = masses.get(outcome.member.kind, 0.0) + outcome.member.mass_kg
     assert masses["pier"] == pytest.approx(VOLUMES_M3["pier"] * 2300.0, rel=1e-6)
     assert masses["girder"] == pytest.approx(VOLUMES_M3["girder"] * 2000.0, rel=1e-6)
     scenario = bridge.scenario
-    assert [(each.name, each.compression_n_mm2) for each in scenario.materials] == [("C30/", 38.0)]
+    assert [(material.name, material.compression_n_mm2) for material in scenario.materials] == [("C30/", 38.0)]
     assert scenario.connections.material == "C30/"
     assert {(each.members, each.material) for each in scenario.connections.between if each.material} == {
         (("girder", "girder"), "masonry"),
@@ -104,7 +104,7 @@ def test_elements_without_a_material_are_refused_until_the_user_says_which(tmp_p
     with pytest.raises(IfcError, match=r"no material: Footing 1, .* and 5 more\. Say by --material"):
         read(made, tmp_path)
     bridge = read(made, tmp_path, material="concrete")
-    assert {each.member.density_kg_m3 for each in bridge.outcomes if each.member} == {2550.0}
+    assert {outcome.member.density_kg_m3 for outcome in bridge.outcomes if outcome.member} == {2550.0}
 
 
 def test_a_material_that_the_table_does_not_know(tmp_path):
@@ -126,7 +126,7 @@ def test_layers_weigh_by_their_thickness(tmp_path):
     ]
     (slab,) = made.file.by_type("IfcSlab")
     slab.HasAssociations[0].RelatingMaterial = make("IfcMaterialLayerSet", layers)
-    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    (deck,) = (outcome for outcome in read(made, tmp_path).outcomes if outcome.member and outcome.member.kind == "deck")
     assert deck.member.density_kg_m3 == pytest.approx(3875.0)
     assert deck.substance.row.strength == "reinforced concrete slab"
 
@@ -137,7 +137,7 @@ def test_of_materials_without_shares_the_first_that_is_known_counts(tmp_path):
     slab.HasAssociations[0].RelatingMaterial = made.file.create_entity(
         "IfcMaterialList", [made.material(name) for name in ("Paint", "Concrete", "Steel")]
     )
-    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    (deck,) = (outcome for outcome in read(made, tmp_path).outcomes if outcome.member and outcome.member.kind == "deck")
     assert deck.member.density_kg_m3 == 2550.0
     assert "made of 3 materials, of which Concrete counts" in deck.why
 
@@ -153,7 +153,7 @@ def test_a_density_in_another_unit(tmp_path):
     units.Units = [*units.Units, make("IfcDerivedUnit", elements, "MASSDENSITYUNIT", None)]
     (slab,) = made.file.by_type("IfcSlab")
     slab.HasAssociations[0].RelatingMaterial = made.material("Concrete", 2.4)
-    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    (deck,) = (outcome for outcome in read(made, tmp_path).outcomes if outcome.member and outcome.member.kind == "deck")
     assert deck.member.density_kg_m3 == pytest.approx(2400.0)
 
 
@@ -161,6 +161,6 @@ def test_a_density_that_no_material_has_does_not_count(tmp_path):
     made = IfcBridge().substructure().superstructure()
     (slab,) = made.file.by_type("IfcSlab")
     slab.HasAssociations[0].RelatingMaterial = made.material("Concrete", 2.4)
-    (deck,) = (each for each in read(made, tmp_path).outcomes if each.member and each.member.kind == "deck")
+    (deck,) = (outcome for outcome in read(made, tmp_path).outcomes if outcome.member and outcome.member.kind == "deck")
     assert deck.member.density_kg_m3 == 2550.0
     assert "the file gives 2.4 kg/m³ for Concrete" in deck.why

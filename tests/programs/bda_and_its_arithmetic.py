@@ -48,7 +48,7 @@ in_use = {
     "threads": threads,
     "cores": len(cores),
     "numpy": digest(np.concatenate([np.exp(NUMBERS), np.log(NUMBERS), np.sin(NUMBERS), NUMBERS**3])),
-    "c_library": digest([function(each) for function in (math.exp, math.log, math.sin) for each in NUMBERS]),
+    "c_library": digest([function(number) for function in (math.exp, math.log, math.sin) for number in NUMBERS]),
 }
 print(json.dumps(in_use), flush=True)
 sys.argv[1:] = sys.argv[2:]

@@ -241,8 +241,8 @@ class FallingRow:
         bpy.data.objects.remove(self.row[5])
 
     def _delete(self, *objects: bpy.types.Object) -> None:
-        for each in bpy.data.objects:
-            each.select_set(each in objects)
+        for obj in bpy.data.objects:
+            obj.select_set(obj in objects)
         bpy.ops.object.delete()
 
     def remove_demolitions(self) -> None:

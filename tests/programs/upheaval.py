@@ -25,8 +25,8 @@ class Upheaval:
         assert_ended(bpy, self.recording, self.folder, *words)
 
     def delete_body_and_connection(self) -> None:
-        for each in bpy.data.objects:
-            each.select_set(each in (self.pair.far, self.pair.between))
+        for obj in bpy.data.objects:
+            obj.select_set(obj in (self.pair.far, self.pair.between))
         bpy.ops.object.delete()
         self.ended("'Block 2', 'Connection 1' removed", "start frame")
 

@@ -159,7 +159,9 @@ def test_tables_hold_what_the_results_say(whole):
     assert [row["neighbour"] for row in table(folder, "neighbours")] == ["House", "School & yard"]
     landed = landings(results)
     shaken = {row["neighbour"]: float(row["peak_particle_velocity_mm_s"]) for row in table(folder, "touchdown")}
-    expected = {each.name: 1e3 * shaking_at(each.place_m, landed).velocity_m_s for each in TOLD.neighbours}
+    expected = {
+        neighbour.name: 1e3 * shaking_at(neighbour.place_m, landed).velocity_m_s for neighbour in TOLD.neighbours
+    }
     assert shaken == pytest.approx(expected)
     assert max(shaken.values()) > 0.1
     broken = sum(int(row["broken"]) for row in table(folder, "breaking"))
@@ -177,7 +179,7 @@ def test_a_load_is_told_as_large_as_it_was_when_the_bridge_gave_way(tmp_path):
     """All move from the beginning, and the first connections break after ten frames of 1 / 24 s."""
     load = Load(members=("deck",), times_s=(0, 1), forces_n=(0, 24e3))
     section = collapse_section(read_run(keep_run(tmp_path / "run", flying_shards(6), replace(I235, loads=(load,)))))
-    (rows,) = (each.rows for each in section.blocks if getattr(each, "name", "") == "collapse")
+    (rows,) = (block.rows for block in section.blocks if getattr(block, "name", "") == "collapse")
     assert rows[-1] == ("Load 1 on deck", "10 kN at the first break; 0 kN as the first shard moved; 24 kN at the end")
 
 
@@ -381,7 +383,9 @@ def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, s
         changed(flying, places_m=places[:1] + share * (places - places[:1]), velocities_m_s=share * speeds),
     )
     read = read_run(run)
-    (rest,) = (each for each in findings(read, debris_of(read.results)) if each.label == "All shards at rest from")
+    (rest,) = (
+        finding for finding in findings(read, debris_of(read.results)) if finding.label == "All shards at rest from"
+    )
     assert (rest.value, rest.text) == (None, words)
 
 

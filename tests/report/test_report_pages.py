@@ -132,8 +132,8 @@ def test_every_axis_of_a_study_says_what_it_shows_or_has_a_neighbour_that_does(r
             beside, above = axes.get_shared_y_axes(), axes.get_shared_x_axes()
             names = [text.get_text() for text in (*axes.get_xticklabels(), *axes.get_yticklabels())]
             is_named = any(name.startswith("charges") for name in names)  # rows and columns of a map
-            assert is_named or any(each.get_ylabel() for each in beside.get_siblings(axes)), picture.title
-            assert is_named or any(each.get_xlabel() for each in above.get_siblings(axes)), picture.title
+            assert is_named or any(get_sibling.get_ylabel() for get_sibling in beside.get_siblings(axes)), picture.title
+            assert is_named or any(get_sibling.get_xlabel() for get_sibling in above.get_siblings(axes)), picture.title
 
 
 def test_lines_that_differ_differ_without_colour(report):

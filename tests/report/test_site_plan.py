@@ -48,7 +48,7 @@ def test_dxf_has_closed_lines_in_metres(tmp_path):
 def test_layers_have_names_that_release_12_allows(tmp_path):
     names = ["zone Straße <1> $2$", "zone Straße (1) 2", "probability above 5 %", "水", "a" * 40]
     write_dxf(tmp_path / "plan.dxf", dict.fromkeys(names, SQUARE))
-    layers = [each["layer"] for each in polylines(tmp_path / "plan.dxf")]
+    layers = [polyline["layer"] for polyline in polylines(tmp_path / "plan.dxf")]
     assert layers == ["ZONE_STRASSE_1_2", "ZONE_STRASSE_1_2_2", "PROBABILITY_ABOVE_5", "_4", "A" * 31]
 
 

@@ -42,13 +42,13 @@ def test_every_property_may_be_edited(blender, file):
 
     scenario, scene, refused = read_scenario(file), blender.context.scene, 0
     build_demolition(scene, scenario, checked_model(scenario))
-    connection = next(each for each in blender.data.objects if each.rigid_body_constraint)
+    connection = next(obj for obj in blender.data.objects if obj.rigid_body_constraint)
     set_strength(connection, None)
-    shard = next(each for each in blender.data.objects if each.rigid_body)
+    shard = next(obj for obj in blender.data.objects if obj.rigid_body)
     shard["bda_lifts"] = "[[3, [0.0, 1.0], [0.0, 0.0, 1.0]]]"
     scene.view_layers[0].update()
     read_all(scene)
-    for holder in (scene, shard, connection, *(each for each in blender.data.objects if "bda_mass_kg" in each)):
+    for holder in (scene, shard, connection, *(obj for obj in blender.data.objects if "bda_mass_kg" in obj)):
         for name in [name for name in holder.keys() if name.startswith("bda_")]:  # noqa: SIM118
             before = holder[name].to_list() if hasattr(holder[name], "to_list") else holder[name]
             for wrong in WRONG:

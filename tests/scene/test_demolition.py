@@ -180,7 +180,7 @@ def test_without_foundation_nothing_holds_on_to_the_ground(build):
     scene = build(scenario, build_model(scenario))
     (ground,) = bodies(scene, "ground")
     assert connections(scene)
-    assert all(each.rigid_body_constraint.object2 != ground for each in connections(scene))
+    assert all(connection.rigid_body_constraint.object2 != ground for connection in connections(scene))
 
 
 def test_without_connections_and_ball(build):
@@ -345,4 +345,6 @@ def test_names_are_numbered_and_go_on_in_a_second_scene(blender, build):
     assert second != first
     assert [body.name for body in bodies(second, "shard")] == [f"Shard {number:06d}" for number in range(30, 60)]
     assert len(connections(second)) == len(connections(first)) == len(MODEL.connections)
-    assert not {each.name for each in connections(first)} & {each.name for each in connections(second)}
+    assert not {connection.name for connection in connections(first)} & {
+        connection.name for connection in connections(second)
+    }

@@ -36,9 +36,9 @@ def test_shards_ball_and_ground_of_a_member_from_a_file(blender, scenario):
     np.testing.assert_allclose(bodies["ball"][0].location, [20.2, 0.3, 7.5], atol=1e-6)
     assert bodies["ground"][0].dimensions[0] / 2 > 20.5 + 10 * 4
     on_ground = [
-        each
-        for each in scene.rigidbody_world.constraints.objects
-        if each.rigid_body_constraint.object2 == bodies["ground"][0]
+        obj
+        for obj in scene.rigidbody_world.constraints.objects
+        if obj.rigid_body_constraint.object2 == bodies["ground"][0]
     ]
     assert on_ground
 

@@ -126,7 +126,7 @@ def test_loose_connections_are_removed_and_no_other(blender, watched, tmp_path, 
     scene = blender.context.scene
     build_demolition(scene, SPAN, build_model(SPAN))
     shard = shards_of(scene)[3]
-    held = [each for each in connections_of(scene) if shard in ends_of(each)]
+    held = [connection for connection in connections_of(scene) if shard in ends_of(connection)]
     count, loose = len(connections_of(scene)), len(held)
     play(scene, played)
     scene.frame_set(1)
@@ -155,8 +155,8 @@ def test_supports_hold_their_shards(blender):
     assert [body.rigid_body.type == "PASSIVE" for body in shards] == model.fixed.tolist()
     assert model.fixed.any() and not model.fixed.all()
     places = [body.location.copy() for body in shards]
-    for each in connections_of(scene):
-        each.rigid_body_constraint.enabled = False
+    for connection in connections_of(scene):
+        connection.rigid_body_constraint.enabled = False
     for frame in range(1, 20):
         scene.frame_set(frame)
     graph = blender.context.evaluated_depsgraph_get()

@@ -76,8 +76,8 @@ class ElasticBeam:
         """Simulate; return the heights of the blocks (k, 20), and loads of connections in their order."""
         results = self.scene_of_blocks.play(folder, frames)
         names = results.inventory.body_names.tolist()
-        heights = results.frames.positions_m[:, [names.index(each.name) for each in self.blocks], 2] - 10.0
-        rows = [results.inventory.connection_names.tolist().index(each.name) for each in self.connections]
+        heights = results.frames.positions_m[:, [names.index(block.name) for block in self.blocks], 2] - 10.0
+        rows = [results.inventory.connection_names.tolist().index(connection.name) for connection in self.connections]
         loads = results.frames.loads
         return heights, loads.connection_forces_n[:, rows], loads.connection_moments_nm[:, rows]
 
@@ -256,7 +256,7 @@ def test_a_beam_that_lies_on_supports_by_contact_alone_bends_as_theory_says(blen
     names = results.inventory.connection_names.tolist()
     last = slice(-24, None)
     moments = results.frames.loads.connection_moments_nm[last, names.index(joints[count // 2 - 1].name), 1]
-    bodies = [results.inventory.body_names.tolist().index(each.name) for each in parts]
+    bodies = [results.inventory.body_names.tolist().index(part.name) for part in parts]
     heights = results.frames.positions_m[last][:, bodies, 2]
     # A bent beam lies on the inner edges of its supports.
     span_m, beyond_m = LENGTH_M - size - support_m, (size + support_m) / 2

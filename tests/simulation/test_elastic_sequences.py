@@ -73,7 +73,7 @@ class BeamOnPosts:
     def play(self, folder, frames=24):
         """Simulate; return the results, and forces on the beam (k, 5, 3) by the posts."""
         results = self.scene_of_blocks.play(folder, frames)
-        rows = [results.inventory.connection_names.tolist().index(each.name) for each in self.joints]
+        rows = [results.inventory.connection_names.tolist().index(joint.name) for joint in self.joints]
         on_first = results.frames.loads.connection_forces_n[:, rows]
         is_beam = results.inventory.body_names[results.inventory.pairs[rows, 0]] == self.beam.name
         return results, np.where(is_beam[:, None], 1.0, -1.0) * on_first

@@ -143,5 +143,5 @@ def test_twice_the_pressure_throws_a_block_twice_as_fast(blender, tmp_path, appl
             impulses[factor] = summary["blast"]["impulse_Ns"][0], 1000.0 * results.frames.velocities_m_s[-1, shard, 0]
     assert impulses[1.0][0] > 0.0
     # Blender keeps forces and velocities in single precision; the block turns by next to nothing.
-    assert impulses[2.0] == pytest.approx([2.0 * each for each in impulses[1.0]], rel=1e-3)
+    assert impulses[2.0] == pytest.approx([2.0 * impulse for impulse in impulses[1.0]], rel=1e-3)
     assert impulses[1.0][1] == pytest.approx(impulses[1.0][0], rel=1e-3)

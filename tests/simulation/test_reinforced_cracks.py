@@ -49,8 +49,8 @@ def weigh(scene, shares):
         scene.gravity[2] = -share * GRAVITY
         scene.keyframe_insert("gravity", index=2, frame=frame)
     for curve in curves_of(scene.animation_data):
-        for each in curve.keyframe_points:
-            each.interpolation = "LINEAR"
+        for keyframe_point in curve.keyframe_points:
+            keyframe_point.interpolation = "LINEAR"
 
 
 def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):

@@ -154,7 +154,7 @@ def test_files_of_a_run_that_has_ended_are_let_go_of(tmp_path):
     run(SHORT_RUN, tmp_path / "run")
     assert not any((tmp_path / "run" / name).exists() for name in (FRAMES_FILE, BALLS_FILE, INVENTORY_FILE))
     if sys.platform.startswith("linux"):
-        open_files = [os.readlink(each) for each in Path("/proc/self/fd").iterdir() if each.is_symlink()]
+        open_files = [os.readlink(path) for path in Path("/proc/self/fd").iterdir() if path.is_symlink()]
         mapped = Path("/proc/self/maps").read_text(encoding="utf-8")
         assert str(tmp_path) not in "\n".join([*open_files, mapped])
 

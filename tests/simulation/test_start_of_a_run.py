@@ -83,7 +83,7 @@ def bodies_of_kind(scene, kind):
 
 
 def told(scene):
-    return [each.text for each in messages_of(scene)]
+    return [message.text for message in messages_of(scene)]
 
 
 def summary_in(folder):

@@ -105,7 +105,7 @@ def test_a_block_that_lands_and_stays_has_lost_its_height(blender, tmp_path):
 
 def works_of(results):
     """Sum over all frames of each kind of work, J."""
-    return {each.name: float(np.sum(getattr(results.frames.work, each.name))) for each in fields(FrameWork)}
+    return {field.name: float(np.sum(getattr(results.frames.work, field.name))) for field in fields(FrameWork)}
 
 
 def test_works_of_a_toppled_tower_add_up_to_its_kinetic_energy(blender, tmp_path):

@@ -112,7 +112,7 @@ def test_a_study_that_is_ended_goes_on(study, undisturbed, tmp_path, number):
 def wait_for_end_of(processes):
     """Processes of draws end with their study, also where it was killed."""
     deadline = time.monotonic() + 20.0
-    while any(is_alive(each) for each in set(processes)):
+    while any(is_alive(process) for process in set(processes)):
         assert time.monotonic() < deadline, "processes of draws outlive their study"
         time.sleep(0.05)
 

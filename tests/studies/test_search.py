@@ -107,7 +107,7 @@ def test_median_and_spread_of_a_known_strength_are_found(tmp_path, capfd):
         head.index(next(each for each in head if each.startswith(name)))
         for name in ("in.connections.strength_factor", "in.geometry.block.density_kg_m3", "out.success")
     )
-    for row in [each.split(",") for each in trials[1:]]:
+    for row in [trial.split(",") for trial in trials[1:]]:
         used = float(row[density]) / (torn_off_at_kg_m3() * float(row[factor]))
         assert (used > 1.0) == (row[fell] == "true") or used == pytest.approx(1.0, abs=0.01)
 
@@ -119,8 +119,8 @@ def test_a_search_goes_on_where_it_was_stopped_and_does_not_depend_on_how_many_r
     halved = tmp_path / "halved"
     assert main(["search", str(path), "--output", str(halved), "--jobs", "2", "--quiet"]) == 0
     draws = sorted((halved / "draws").iterdir())
-    for each in draws[::2]:
-        (each / "outcome.json").unlink()
+    for draw in draws[::2]:
+        (draw / "outcome.json").unlink()
     assert main(["search", str(path), "--output", str(halved), "--jobs", "2", "--quiet"]) == 0
     for name in ("trials.csv", "search.json", "curve.csv"):
         assert (whole / name).read_bytes() == (halved / name).read_bytes()
@@ -170,6 +170,6 @@ def test_levels_stay_in_the_range_and_on_the_steps(tmp_path):
     search = read_search(search_file(tmp_path, more="step = 250.0"))
     scale = search.scale
     test = NeyerTest(*scale.ends, scale.spread, scale.rounded)
-    values = [scale.tried(each) for each in test.levels([False] * 20, 21)]
+    values = [scale.tried(level) for level in test.levels([False] * 20, 21)]
     assert max(values) == 16000.0 and min(values) >= 800.0
     assert all(value % 250.0 == 0.0 for value in values)

@@ -48,8 +48,8 @@ def bodies(
     stiffness,
 ) -> ElasticBodies:
     """Boxes at positions (n, 3), connected in pairs at points in the axes of the world."""
-    first, second = (np.array([each[side] for each in joints]) for side in (0, 1))
-    points = np.array([each[2] for each in joints], float)
+    first, second = (np.array([joint[side] for joint in joints]) for side in (0, 1))
+    points = np.array([joint[2] for joint in joints], float)
     axes = np.repeat(np.eye(3)[:, :, None], len(joints), axis=2)
     frames = JointFrames(first, second, axes, axes, (points - positions_m[first]).T, (points - positions_m[second]).T)
     squares = np.square(sizes_m)

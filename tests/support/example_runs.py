@@ -90,7 +90,10 @@ def example(name, duration_s=None):
     scenario = read_scenario(EXAMPLES / f"{name}.toml")
     if not duration_s:
         return scenario
-    hammers = [replace(each, end_time_s=min(each.end_time_s, duration_s - FALL_S)) for each in scenario.jackhammers]
+    hammers = [
+        replace(jackhammer, end_time_s=min(jackhammer.end_time_s, duration_s - FALL_S))
+        for jackhammer in scenario.jackhammers
+    ]
     return replace(scenario, jackhammers=hammers, time=replace(scenario.time, duration_s=duration_s))
 
 

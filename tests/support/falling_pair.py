@@ -71,5 +71,5 @@ def assert_whole(recording, folder, frames, bodies=3):
 
 def assert_handlers_gone(blender):
     handlers = (each for every in lists_of_handlers(blender) for each in every)
-    ours = (each for each in handlers if each.__module__ == blender_events.__name__)
+    ours = (handler for handler in handlers if handler.__module__ == blender_events.__name__)
     assert not any(ours) or blender_events.recorded_scene(blender.context.scene).stands_still

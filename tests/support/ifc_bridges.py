@@ -99,7 +99,7 @@ class IfcBridge:
         return self.file.create_entity("IfcCartesianPoint", tuple(each / self.metre for each in place_m))
 
     def direction(self, *ratios):
-        return self.file.create_entity("IfcDirection", tuple(float(each) for each in ratios))
+        return self.file.create_entity("IfcDirection", tuple(float(ratio) for ratio in ratios))
 
     def aggregate(self, whole, *parts):
         self.root("IfcRelAggregates", None, RelatingObject=whole, RelatedObjects=list(parts))

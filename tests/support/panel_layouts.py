@@ -29,7 +29,7 @@ class Layout:
         return SimpleNamespace()
 
     def template_list(self, kind, _identifier, data, name, active, active_name, **_settings: object) -> None:
-        drawn = next(each for each in classes() if each.__name__ == kind)
+        drawn = next(cls for cls in classes() if cls.__name__ == kind)
         for index, item in enumerate(getattr(data, name)[:VISIBLE_ROWS]):
             drawn.draw_item(SimpleNamespace(), self._context, self, data, item, 0, active, active_name, index)
 

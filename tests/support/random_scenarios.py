@@ -58,7 +58,7 @@ def _value(item: Field, random: np.random.Generator) -> Any:
 def _table(table_class: type[Table], random: np.random.Generator) -> Table | None:
     """A table of random values; None where they contradict each other every time."""
     for _ in range(_TRIES):
-        given = [each for each in fields(table_class) if each.default is MISSING or random.random() < 0.5]
+        given = [field for field in fields(table_class) if field.default is MISSING or random.random() < 0.5]
         given = [each for each in given if each.default_factory is MISSING]
         try:
             return table_class(**{each.name: _value(each, random) for each in given})

@@ -8,7 +8,7 @@ from bridge_demolition_addon.ui.messages import messages_of
 
 
 def texts(bpy):
-    return [(each.level, each.text) for each in messages_of(bpy.context.scene)]
+    return [(message.level, message.text) for message in messages_of(bpy.context.scene)]
 
 
 def test_an_error_stays_until_its_button_works(extension, settings):

@@ -55,10 +55,10 @@ def settings_of(scene):
         if name != "bda"
     }
     for part in (scene, scene.unit_settings, scene.render):
-        for each in part.bl_rna.properties:
-            if each.type in ("BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"):
-                value = getattr(part, each.identifier)
-                found[part.bl_rna.identifier, each.identifier] = tuple(value) if getattr(each, "is_array", 0) else value
+        for prop in part.bl_rna.properties:
+            if prop.type in ("BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"):
+                value = getattr(part, prop.identifier)
+                found[part.bl_rna.identifier, prop.identifier] = tuple(value) if getattr(prop, "is_array", 0) else value
     return found
 
 

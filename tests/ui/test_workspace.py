@@ -23,10 +23,10 @@ def kinds(screen):
 
 def test_it_is_made_once_and_leaves_others_as_they_are(windowed):
     """Without a window's events Blender does not go to it: that is seen in a real window."""
-    before, layout = {each.name for each in windowed.data.workspaces}, kinds(windowed.context.window.screen)
+    before, layout = {workspace.name for workspace in windowed.data.workspaces}, kinds(windowed.context.window.screen)
     for _ in range(3):
         assert windowed.ops.bda.make_workspace() == {"FINISHED"}
-    assert {each.name for each in windowed.data.workspaces} - before == {"BDA"}
+    assert {workspace.name for workspace in windowed.data.workspaces} - before == {"BDA"}
     assert kinds(windowed.data.workspaces["Layout"].screens[0]) == layout
 
 

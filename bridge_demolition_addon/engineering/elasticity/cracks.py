@@ -117,7 +117,7 @@ class Cracks:
             Of all bodies.
         """
         ends = [np.tile(each, _COUNT) for each in (first, second)]
-        anchors = [turned_back(rotations[..., each], places_m.reshape(3, -1) - positions_m[:, each]) for each in ends]
+        anchors = [turned_back(rotations[..., end], places_m.reshape(3, -1) - positions_m[:, end]) for end in ends]
         count = len(ends[0])
         self.rows = np.concatenate((self.rows, rows))
         self._first, self._second = _joined(self._first, ends[0]), _joined(self._second, ends[1])

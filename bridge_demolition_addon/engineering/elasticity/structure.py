@@ -417,11 +417,11 @@ class ElasticStructure:
             connections = np.concatenate((connections, each.rows[of_stale]))
         place_of = np.full(len(self._frames), len(connections))
         place_of[connections] = np.arange(len(connections))
-        blocks = [np.concatenate((each, np.zeros((6, 6, 1))), axis=2) for each in blocks]  # what broke since has none
+        blocks = [np.concatenate((block, np.zeros((6, 6, 1))), axis=2) for block in blocks]  # what broke since has none
         for number in np.flatnonzero(stale).tolist():
             part = self._parts[number]
             which = place_of[part.connections]
-            part.system.factor(own[..., row_of_body[part.bodies]], *(each[..., which] for each in blocks))
+            part.system.factor(own[..., row_of_body[part.bodies]], *(block[..., which] for block in blocks))
         self._stale[stale] = False
 
     def _solved(self, awake: BoolArray, right: FloatArray) -> FloatArray:

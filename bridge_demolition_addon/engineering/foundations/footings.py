@@ -152,7 +152,7 @@ class Footings:
         number = np.full(len(self.rows), -1)
         number[chosen] = np.arange(len(chosen))
         which = np.flatnonzero(number[self._of] >= 0)
-        gaps, arms, ground_arms = (each[:, which] for each in self._gaps(positions_m, rotations))
+        gaps, arms, ground_arms = (gap[:, which] for gap in self._gaps(positions_m, rotations))
         between = Gaps(self._ground[which], self._standing[which], ground_arms, arms, gaps - self._unloaded[:, which])
         return FootingStep(
             self.rows[chosen],
@@ -265,7 +265,7 @@ class FootingStep:
         return self._forces - turned(self._tangents, moved)
 
     def _summed(self, values: FloatArray) -> FloatArray:
-        return np.stack([np.bincount(self._of, each, len(self.rows)) for each in values])
+        return np.stack([np.bincount(self._of, value, len(self.rows)) for value in values])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

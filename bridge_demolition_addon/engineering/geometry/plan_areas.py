@@ -37,7 +37,7 @@ def united(areas: Iterable[CrossSection]) -> CrossSection:
 
 def outlines(area: CrossSection) -> list[FloatArray]:
     """Closed outlines of an area, each (k, 2) in m: outer ones run anticlockwise, those of holes clockwise."""
-    return [np.asarray(each, float) for each in area.to_polygons()]
+    return [np.asarray(polygon, float) for polygon in area.to_polygons()]
 
 
 def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:

@@ -143,7 +143,7 @@ class FrameLoads:
 
     def unknown(self) -> FrameLoads:
         """Return loads of the same shape of which nothing is known: nan throughout."""
-        return FrameLoads(*(np.full_like(getattr(self, each.name), np.nan) for each in fields(self)))
+        return FrameLoads(*(np.full_like(getattr(self, field.name), np.nan) for field in fields(self)))
 
 
 class LoadAccumulator:

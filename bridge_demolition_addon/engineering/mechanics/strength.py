@@ -46,10 +46,10 @@ class Strength:
     bending_pa: float | FloatArray
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            value = getattr(self, each.name)
+        for field in fields(self):
+            value = getattr(self, field.name)
             if not np.all((np.asarray(value) > 0.0) & np.isfinite(value)):
-                raise ScenarioError(f"{each.name} of a strength is {value}: expected a positive number")
+                raise ScenarioError(f"{field.name} of a strength is {value}: expected a positive number")
 
     @classmethod
     def in_n_mm2(cls, compression: float, tension: float, shear: float, torsion: float, bending: float) -> Strength:
@@ -58,7 +58,7 @@ class Strength:
 
     def times(self, factor: float) -> Strength:
         """All strengths times a factor above 0; with a factor of 1 the same object."""
-        return self if factor == 1.0 else Strength(*(factor * getattr(self, each.name) for each in fields(self)))
+        return self if factor == 1.0 else Strength(*(factor * getattr(self, field.name) for field in fields(self)))
 
 
 MATERIALS = {

@@ -278,9 +278,9 @@ class WorkAccumulator:
         ]
         both, made, taken = gains[0] + gains[1], total.take(rows), np.minimum(total, 0.0)
         share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
-        starts = np.searchsorted(rows, [each.start for each in substeps] + [len(total)]).tolist()
+        starts = np.searchsorted(rows, [substep.start for substep in substeps] + [len(total)]).tolist()
         return PairWork(
-            taken_j=[float(taken[each].sum()) for each in substeps],
+            taken_j=[float(taken[substep].sum()) for substep in substeps],
             made_j=[float(made[start:end].sum()) for start, end in itertools.pairwise(starts)],
             made_by_body_j=[
                 np.bincount(bodies.take(rows), share * gain, free.size).reshape(free.shape)
@@ -349,7 +349,7 @@ def _of_tools(
         each_j = []
         for substep in substeps:
             rows = substep.start + np.flatnonzero(acts[substep])
-            work = _dot([each.take(rows) for each in loads], motion.take(bodies[rows], axis=1))
+            work = _dot([load.take(rows) for load in loads], motion.take(bodies[rows], axis=1))
             each_j.append(sign * float(work.sum()))
         works.append(each_j)
     return works
@@ -357,7 +357,7 @@ def _of_tools(
 
 def _components(*vectors: FloatArray) -> FloatArray:
     """Components (c, k) of vectors (..., 3), one after the other."""
-    return np.concatenate([_rows(each) for each in vectors])
+    return np.concatenate([_rows(vector) for vector in vectors])
 
 
 def _rows(vectors: FloatArray) -> FloatArray:

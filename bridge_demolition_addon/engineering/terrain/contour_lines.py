@@ -16,7 +16,9 @@ def contour_lines(corners: FloatArray) -> FloatArray:
     if not len(corners):
         return np.zeros((0, 2, 3))
     low, high = float(heights.min()), float(heights.max())
-    distance = next((each for each in _DISTANCES_M if high - low <= _MOST_LINES * each), _DISTANCES_M[-1])
+    distance = next(
+        (distance_m for distance_m in _DISTANCES_M if high - low <= _MOST_LINES * distance_m), _DISTANCES_M[-1]
+    )
     numbers = np.arange(np.ceil(low / distance), np.floor(high / distance) + 1.0)
     return np.concatenate([np.zeros((0, 2, 3)), *(_lines_at(corners, number * distance) for number in numbers)])
 

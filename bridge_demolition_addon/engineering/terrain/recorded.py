@@ -82,8 +82,8 @@ class RecordedGround:
         if self.terrain is not None:
             heights = self.terrain.heights_at(flat)
             heights = np.where(np.isnan(heights), self.terrain.mesh.vertices[:, 2].min(), heights)
-        for each in self.surfaces:
-            heights = np.fmax(heights, each.surface.heights_at(flat))
+        for surface in self.surfaces:
+            heights = np.fmax(heights, surface.surface.heights_at(flat))
         return heights.reshape(places.shape[:-1])
 
 

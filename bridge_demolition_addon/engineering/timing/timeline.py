@@ -101,10 +101,10 @@ def _frames_slowing_down(frame_s: float, slow_frame_s: float, duration_s: float)
 def _merged(slow_motions: Sequence[SlowMotion], least_gap_s: float) -> list[SlowMotion]:
     """In the order of time, those with too small a gap in between as one, in the shorter frames of the two."""
     merged: list[SlowMotion] = []
-    for each in sorted(slow_motions, key=lambda motion: motion.start_s):
-        if merged and each.start_s < merged[-1].end_s + least_gap_s:
+    for slow_motion in sorted(slow_motions, key=lambda motion: motion.start_s):
+        if merged and slow_motion.start_s < merged[-1].end_s + least_gap_s:
             last = merged.pop()
-            end = max(last.end_s, each.end_s)
-            each = SlowMotion(last.start_s, end - last.start_s, min(last.frame_s, each.frame_s))
-        merged.append(each)
+            end = max(last.end_s, slow_motion.end_s)
+            slow_motion = SlowMotion(last.start_s, end - last.start_s, min(last.frame_s, slow_motion.frame_s))
+        merged.append(slow_motion)
     return merged

@@ -61,7 +61,7 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
     """
     if scenario.bridge and not scenario.geometry:
         return deck_top(scenario.bridge)
-    corners = np.concatenate([each.solid.corners for each in members])
+    corners = np.concatenate([member.solid.corners for member in members])
     heights = _heights_above(corners, np.asarray(place_m, dtype=float))
     if not len(heights):
         raise GeometryError(

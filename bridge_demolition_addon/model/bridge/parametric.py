@@ -26,10 +26,10 @@ def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple
     """Solids of all members, touching without overlap: decks and girders, abutments, each pier's cap and columns."""
     members = [*superstructure(bridge), *substructure(bridge, ground)]
     if bridge.merge:
-        convex = tuple(part for each in members for part in each.parts or (each.solid,))
-        members = [Member("bridge", "bridge", _merged(bridge, [each.solid for each in members]), parts=convex)]
+        convex = tuple(part for member in members for part in member.parts or (member.solid,))
+        members = [Member("bridge", "bridge", _merged(bridge, [member.solid for member in members]), parts=convex)]
     density = bridge_density(bridge, members)
-    return tuple(replace(each, density_kg_m3=_own_density(bridge, each.kind) or density) for each in members)
+    return tuple(replace(member, density_kg_m3=_own_density(bridge, member.kind) or density) for member in members)
 
 
 def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:

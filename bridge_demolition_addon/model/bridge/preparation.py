@@ -53,7 +53,7 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
     bridge = given(scenario.weighed_bridge)
     if terrain is None:
         return bridge_members(bridge)
-    check_under(terrain, [(each.name, each.solid) for each in bridge_members(bridge)])
+    check_under(terrain, [(bridge_member.name, bridge_member.solid) for bridge_member in bridge_members(bridge)])
 
     def height(name: str, x_m: float, y_m: float) -> float:
         found = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])

@@ -75,8 +75,8 @@ def debris_of(results: Results) -> Debris:
 
 def _above(ground: RecordedGround, corners: Sequence[np.ndarray]) -> Iterator[np.ndarray]:
     """Give the heights (v,) of corners, d times (v, 3), above the ground below each."""
-    for each in corners:
-        yield each[:, 2] if ground.is_flat else each[:, 2] - ground.heights_at(each[:, :2])
+    for corner in corners:
+        yield corner[:, 2] if ground.is_flat else corner[:, 2] - ground.heights_at(corner[:, :2])
 
 
 def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray:
@@ -84,7 +84,7 @@ def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray
     if not len(corners):
         return np.zeros(0)
     distances = distances_outside(straightened(outline), np.concatenate(corners)[:, :2])
-    counts = [len(each) for each in corners]
+    counts = [len(corner) for corner in corners]
     return np.maximum.reduceat(distances, np.cumsum([0, *counts[:-1]]))
 
 
@@ -133,8 +133,8 @@ def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> Height
     if not solid:
         return HeightMap(np.zeros(0), np.zeros(0), np.zeros((0, 0)))
     all_corners = corners_at(results, -1, solid)
-    low = np.min([each[:, :2].min(axis=0) for each in all_corners], axis=0)
-    high = np.max([each[:, :2].max(axis=0) for each in all_corners], axis=0)
+    low = np.min([corner[:, :2].min(axis=0) for corner in all_corners], axis=0)
+    high = np.max([corner[:, :2].max(axis=0) for corner in all_corners], axis=0)
     size = float((high - low).max()) / cells
     counts = np.maximum(np.ceil((high - low) / size).astype(int), 2)
     xs, ys = (low[axis] + size * (np.arange(counts[axis]) + 0.5) for axis in (0, 1))

@@ -178,4 +178,4 @@ What falls shakes the ground with less than 10 Hz, charges with more than 50 Hz 
 
 def reached(velocity_m_s: float) -> tuple[VibrationLimit, ...]:
     """Return the limits that a velocity reaches or exceeds."""
-    return tuple(each for each in LIMITS if velocity_m_s >= each.velocity_m_s)
+    return tuple(limit for limit in LIMITS if velocity_m_s >= limit.velocity_m_s)

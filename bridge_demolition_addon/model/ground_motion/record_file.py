@@ -21,7 +21,7 @@ _QUANTITIES = (
     ("displacement", "m", "displacements_m"),
 )
 
-_HEADING = ("time_s", *(f"{name}_{each}_{unit}" for name, unit, _ in _QUANTITIES for each in DIRECTIONS))
+_HEADING = ("time_s", *(f"{name}_{direction}_{unit}" for name, unit, _ in _QUANTITIES for direction in DIRECTIONS))
 
 
 def record_text(record: GroundRecord, start_s: float) -> str:

@@ -25,7 +25,7 @@ def ground_record(motion: GroundMotion, seed: int) -> GroundRecord:
     """Return how the ground moves; the seed draws the phases of a record that is made from a spectrum."""
     times, found = _accelerations(motion, seed)
     along = np.zeros((len(times), len(DIRECTIONS)))
-    along[:, [DIRECTIONS.index(each) for each in motion.directions]] = motion.factor * found
+    along[:, [DIRECTIONS.index(direction) for direction in motion.directions]] = motion.factor * found
     return corrected(times, along, motion.baseline)
 
 

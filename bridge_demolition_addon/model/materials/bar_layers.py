@@ -110,7 +110,7 @@ class ReinforcedSection:
         Sections stay plane, concrete that is pulled bears nothing, and there is no axial force: EN 1992-1-1:2004, 6.1
         (2). With one layer that yields, this is M = A_s f_y (d - a / 2) with a = A_s f_y / (b f_c).
         """
-        return self._moment(self.depths_m), self._moment([self.height_m - each for each in self.depths_m])
+        return self._moment(self.depths_m), self._moment([self.height_m - depth_m for depth_m in self.depths_m])
 
     def across_cracks_n(self) -> list[float]:
         """Return the force at which each layer yields across a crack that closes at one of its edges.

@@ -62,20 +62,20 @@ class Material(Table):
 def check_materials(materials: Iterable[Material]) -> None:
     """Check that materials differ by name from each other and from those that are known."""
     names = list(MATERIALS)
-    for each in materials:
-        if each.name in names:
-            raise each.unexpected("name", "a name that no other material has")
-        names.append(each.name)
+    for material in materials:
+        if material.name in names:
+            raise material.unexpected("name", "a name that no other material has")
+        names.append(material.name)
 
 
 def strengths(materials: Iterable[Material]) -> Mapping[str, Strength]:
     """Return the strengths of all materials by name: those that are known, and the user's own."""
-    return MATERIALS | {each.name: each.strength for each in materials}
+    return MATERIALS | {material.name: material.strength for material in materials}
 
 
 def moduli(materials: Iterable[Material], name: str) -> ElasticModuli:
     """Return how the material of a name deforms."""
-    own = {each.name: each for each in materials}
+    own = {material.name: material for material in materials}
     if name not in own:
         return ELASTIC_MODULI[name]
     found = own[name].moduli

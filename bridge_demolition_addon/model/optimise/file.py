@@ -52,7 +52,7 @@ def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisat
     check_criteria(settings.criteria, scenario)
     _check_objective(settings, scenario)
     variations = variations_of(settings.vary, scenario)
-    space = space_of(settings, scenario, [each.key.name for each in variations])
+    space = space_of(settings, scenario, [variation.key.name for variation in variations])
     if settings.candidates < _PER_DIMENSION * space.size:
         raise settings.unexpected(
             "candidates", f"at least {_PER_DIMENSION * space.size}, as {space.size} numbers may change"
@@ -63,5 +63,7 @@ def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisat
 def _check_objective(settings: OptimiseSettings, scenario: Scenario) -> None:
     if settings.objective in ("charge", "vibration") and not (scenario.charges and scenario.blast.explosion):
         raise settings.unexpected("objective", "another one, as the scenario has no charges that go off")
-    if settings.neighbour is not None and settings.neighbour not in [each.name for each in scenario.neighbours]:
+    if settings.neighbour is not None and settings.neighbour not in [
+        neighbour.name for neighbour in scenario.neighbours
+    ]:
         raise settings.unexpected("neighbour", "the name of one of [[neighbours]] of the scenario")

@@ -104,7 +104,7 @@ class Rounds:
     @property
     def done(self) -> int:
         """How many runs have ended."""
-        return sum(len(each.outputs) for each in self.candidates)
+        return sum(len(candidate.outputs) for candidate in self.candidates)
 
     @property
     def is_finished(self) -> bool:
@@ -158,7 +158,11 @@ class Rounds:
             self._recorded += 1
         if self._recorded == settings.candidates and not self.finalists:
             self.finalists = self._best_that_differ()
-        if self.chosen is None and self.finalists and all(self._has_all(each, FINAL) for each in self.finalists):
+        if (
+            self.chosen is None
+            and self.finalists
+            and all(self._has_all(finalist, FINAL) for finalist in self.finalists)
+        ):
             self.chosen = self._in_order(self.finalists, FINAL)[0]
 
     def _best_that_differ(self) -> list[int]:

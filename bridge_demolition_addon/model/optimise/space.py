@@ -105,9 +105,9 @@ class Space:
 
     def _parts(self, shares: Shares) -> list[tuple[Dimension, Shares]]:
         found, begin = [], 0
-        for each in self.dimensions:
-            found.append((each, shares[begin : begin + each.size]))
-            begin += each.size
+        for dimension in self.dimensions:
+            found.append((dimension, shares[begin : begin + dimension.size]))
+            begin += dimension.size
         return found
 
 
@@ -217,4 +217,4 @@ def _check_ends(scenario: Scenario, dimension: Dimension) -> None:
 
 def total_charge_kg(scenario: Scenario) -> float:
     """Return the mass of all charges of a scenario; 0 where it blasts nothing."""
-    return float(sum(each.mass_kg for each in scenario.charges)) if scenario.blast.explosion else 0.0
+    return float(sum(charge.mass_kg for charge in scenario.charges)) if scenario.blast.explosion else 0.0

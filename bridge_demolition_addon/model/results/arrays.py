@@ -186,12 +186,12 @@ def results_in(folder: Path) -> Path:
 
 def named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
     """Give the arrays of a dataclass and of those in it, by their names in the files; what is None is left out."""
-    for each in fields(part):
-        value = getattr(part, each.name)
+    for field in fields(part):
+        value = getattr(part, field.name)
         if is_dataclass(value):
             yield from named_arrays(value)
         elif value is not None:
-            yield _stored_name(type(part), each.name), value
+            yield _stored_name(type(part), field.name), value
 
 
 def frames_of(arrays: Mapping[str, np.ndarray]) -> FrameSeries:
@@ -245,9 +245,9 @@ def _left_contacts(path: Path, frames: np.ndarray) -> dict[str, np.ndarray]:
 def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> _Part:
     """A part of the results, with the fields that are known already; arrays that may be None need not be there."""
     missing = {
-        each.name for each in fields(kind) if each.default is None and _stored_name(kind, each.name) not in arrays
+        field.name for field in fields(kind) if field.default is None and _stored_name(kind, field.name) not in arrays
     }
-    names = [each.name for each in fields(kind) if each.name not in known.keys() | missing]
+    names = [field.name for field in fields(kind) if field.name not in known.keys() | missing]
     return kind(**{name: arrays[_stored_name(kind, name)] for name in names}, **known)
 
 

@@ -54,7 +54,7 @@ def motion_digest(results: Results) -> str:
 
     It is the same whether loads were recorded or not.
     """
-    parts = {each.name: getattr(results.frames, each.name) for each in fields(results.frames)}
+    parts = {field.name: getattr(results.frames, field.name) for field in fields(results.frames)}
     return digest({name: part for name, part in parts.items() if not is_dataclass(part)})
 
 

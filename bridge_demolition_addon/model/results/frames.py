@@ -71,13 +71,13 @@ class FrameSeries(_Recorded[IntArray, FloatArray]):
     @classmethod
     def of(cls, frames: Sequence[Frame]) -> FrameSeries:
         """Put frames one after another; there has to be one."""
-        return cls(*(_stacked([getattr(frame, each.name) for frame in frames]) for each in fields(Frame)))
+        return cls(*(_stacked([getattr(frame, field.name) for frame in frames]) for field in fields(Frame)))
 
     def __len__(self) -> int:
         return len(self.number)
 
     def __getitem__(self, row: int) -> Frame:
-        return Frame(*(_row(getattr(self, each.name), row) for each in fields(Frame)))
+        return Frame(*(_row(getattr(self, field.name), row) for field in fields(Frame)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -148,7 +148,7 @@ class ContactHistory:
     def of_frame(self, number: int) -> ContactHistory:
         """Return the contacts of one of Blender's frames."""
         first, last = np.searchsorted(self.frames, (number, number + 1))
-        return ContactHistory(*(getattr(self, each.name)[first:last] for each in fields(self)))
+        return ContactHistory(*(getattr(self, field.name)[first:last] for field in fields(self)))
 
     def __len__(self) -> int:
         return len(self.frames)
@@ -159,7 +159,7 @@ def _stacked(parts: Sequence[Any]) -> Any:
     if not is_dataclass(parts[0]):
         return np.array(parts)
     kind: type[Any] = type(parts[0])
-    return kind(*(_stacked([getattr(part, each.name) for part in parts]) for each in fields(kind)))
+    return kind(*(_stacked([getattr(part, field.name) for part in parts]) for field in fields(kind)))
 
 
 def _row(series: Any, row: int) -> Any:
@@ -167,4 +167,4 @@ def _row(series: Any, row: int) -> Any:
     if not is_dataclass(series):
         return series[row]
     kind: type[Any] = type(series)
-    return kind(*(_row(getattr(series, each.name), row) for each in fields(kind)))
+    return kind(*(_row(getattr(series, field.name), row) for field in fields(kind)))

@@ -94,7 +94,7 @@ def energy_summary(results: Results) -> dict[str, Any] | None:
     if not is_known(results):
         return None
     work = results.frames.work
-    totals = {each.name: float(np.nansum(getattr(work, each.name))) for each in fields(work)}
+    totals = {field.name: float(np.nansum(getattr(work, field.name))) for field in fields(work)}
     names, farthest = results.inventory.body_names, throws_of(results)
     return {
         "gravity_J": totals["gravity_j"],

@@ -276,7 +276,7 @@ class Ball(_Drop, PlannedAction):
         at_s = self.release_time_s + period_s / 4
         yield "swing to and fro", f"{period_s:.3f} s, at its lowest ({lowest}) m at {at_s:.3f} s"
         yield "largest speed", f"{cable.largest_speed_m_s:.2f} m/s"
-        yield "largest energy", f"{self.mass_kg * cable.largest_speed_m_s**2 / 2000.0:.1f} kJ"
+        yield "largest energy", f"{self.mass_kg * cable.largest_speed_m_s * cable.largest_speed_m_s / 2000.0:.1f} kJ"
 
     def _drop_facts(self, duration_s: float) -> Iterator[Fact]:
         impact_s = self.release_time_s + self.fall_time_s
@@ -286,7 +286,7 @@ class Ball(_Drop, PlannedAction):
         yield "impact speed", f"{self.impact_speed_m_s:.2f} m/s"
         for number, hit in enumerate(self.hits, start=2):
             yield f"hit {number}", f"at {hit.release_time_s + hit.fall_time_s:.3f} s, {hit.impact_speed_m_s:.2f} m/s"
-        yield "impact energy", f"{self.mass_kg * self.impact_speed_m_s**2 / 2000.0:.1f} kJ"
+        yield "impact energy", f"{self.mass_kg * self.impact_speed_m_s * self.impact_speed_m_s / 2000.0:.1f} kJ"
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it is let go within the run, is up before it is let go again, and swings above flat ground."""

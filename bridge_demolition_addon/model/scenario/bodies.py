@@ -124,7 +124,7 @@ class Ground(Table):
     def _check_together(self) -> None:
         if self.origin is not None and len(self.origin) != _AXES:
             raise self.unexpected("origin", "3 numbers: easting, northing and height")
-        names = [each.name for each in self.surfaces]
+        names = [surface.name for surface in self.surfaces]
         for name in names:
             if names.count(name) > 1:
                 raise ScenarioError(

@@ -361,11 +361,11 @@ class ConnectionSettings(JointSettings):
     def _check_together(self) -> None:
         if self._has_strength:
             check_exactly_one(self, *STRENGTH_KEYS)
-        for each in self._tables:
-            if each.material is not None and self.method != "face":
-                raise each.unexpected("material", f'method "face" with it, found "{self.method}"')
-            if isinstance(each, ConnectionSettings) or each.changes_joint:
-                each.check_type(each.type or self.type)
+        for table in self._tables:
+            if table.material is not None and self.method != "face":
+                raise table.unexpected("material", f'method "face" with it, found "{self.method}"')
+            if isinstance(table, ConnectionSettings) or table.changes_joint:
+                table.check_type(table.type or self.type)
         if self.ductile_share > 0.0 and self.material is None:
             raise self.unexpected("ductile_share", "0 where connections.material is not given")
         if self.ductile_share > 0.0 and self.ductile_elongation_m is None:
@@ -399,10 +399,10 @@ class ConnectionSettings(JointSettings):
     def _check_elastic(self) -> None:
         """Check that what only elastic connections have goes with them, and that these have all that they need."""
         names = ("elastic_modulus_n_mm2", "poisson_ratio", "damping_ratio")
-        for each in self._tables:
+        for table in self._tables:
             for name in names:
-                if not self.is_elastic and getattr(each, name, None) is not None:
-                    raise each.unexpected(name, 'none where connections.stiffness is "rigid"')
+                if not self.is_elastic and getattr(table, name, None) is not None:
+                    raise table.unexpected(name, 'none where connections.stiffness is "rigid"')
         if not self.is_elastic:
             return
         if self.method != "face":
@@ -412,21 +412,21 @@ class ConnectionSettings(JointSettings):
                 'connections.material is missing: expected it with stiffness "elastic"; elastic connections break by '
                 "stress, not by one force"
             )
-        for each in self._tables:
-            kind = each.type or self.type
-            if kind not in ELASTIC_TYPES and not getattr(each, "none", False):
-                raise each.unexpected("type", f'one of {", ".join(ELASTIC_TYPES)} with stiffness "elastic"')
-            if each is not self and each.breaking_force_newton is not None:
+        for table in self._tables:
+            kind = table.type or self.type
+            if kind not in ELASTIC_TYPES and not getattr(table, "none", False):
+                raise table.unexpected("type", f'one of {", ".join(ELASTIC_TYPES)} with stiffness "elastic"')
+            if table is not self and table.breaking_force_newton is not None:
                 raise ScenarioError(
-                    f'{each.table} has a breaking force: expected a material with stiffness "elastic"; elastic '
+                    f'{table.table} has a breaking force: expected a material with stiffness "elastic"; elastic '
                     "connections break by stress, not by one force"
                 )
 
     def _check_materials(self, known: Collection[str]) -> None:
-        for each in self._tables:
-            if each.material is not None and each.material not in known:
-                item = next(item for item in fields(each) if item.name == "material")
-                raise each.unexpected("material", expected(item))
+        for table in self._tables:
+            if table.material is not None and table.material not in known:
+                item = next(item for item in fields(table) if item.name == "material")
+                raise table.unexpected("material", expected(item))
 
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
         """Check that a key is given for the methods that need it, and for no others."""

@@ -72,9 +72,9 @@ def files_of(scenario: Scenario) -> Iterator[Path]:
     for name, key in PATHS:
         tables: list[Any] = [scenario]
         for step in name.split("."):
-            found = [getattr(each, step) for each in tables]
+            found = [getattr(table, step) for table in tables]
             tables = [inner for each in found for inner in (each if isinstance(each, tuple) else [each]) if inner]
-        yield from (Path(path) for each in tables if (path := getattr(each, key)))
+        yield from (Path(path) for table in tables if (path := getattr(table, key)))
 
 
 def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:

@@ -130,7 +130,7 @@ class FractureSettings(Table):
     finer: tuple[Finer, ...] = ()
 
     def _check_together(self) -> None:
-        names = [each.member for each in self.members]
+        names = [member.member for member in self.members]
         for name in names:
             if names.count(name) > 1:
                 raise ScenarioError(f'fracture.members.member is "{name}" more than once: expected it once')

@@ -17,12 +17,12 @@ _Table = TypeVar("_Table", bound=Table)
 
 def tables_text(tables: Iterable[Table]) -> str:
     """Return tables as a JSON list."""
-    return values_text([{"table": each.table, **asdict(each)} for each in tables])
+    return values_text([{"table": table.table, **asdict(table)} for table in tables])
 
 
 def tables_from_text(text: str, classes: Iterable[type[_Table]]) -> tuple[_Table, ...]:
     """Return the tables in a JSON list, each of one of some classes; none where the text is empty."""
-    named = {each.table: each for each in classes}
+    named = {cls.table: cls for cls in classes}
     kept = values_from_text(text, [])
     try:
         return tuple(table_from_values(named[values.pop("table")], values) for values in kept)

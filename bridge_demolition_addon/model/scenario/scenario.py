@@ -105,7 +105,7 @@ class Scenario(Table):
 
     @property
     def _material_density_kg_m3(self) -> float | None:
-        named = {each.name: each.density_kg_m3 for each in self.materials}
+        named = {material.name: material.density_kg_m3 for material in self.materials}
         return named.get(self.connections.material) if self.connections.material else None
 
     @property
@@ -119,7 +119,7 @@ class Scenario(Table):
         steel, layers = self.connections.steel, self.reinforcement
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
-        yields = sum(each.area_m2 * each.yield_pa for each in layers) / sum(each.area_m2 for each in layers)
+        yields = sum(layer.area_m2 * layer.yield_pa for layer in layers) / sum(layer.area_m2 for layer in layers)
         return replace(steel, yield_pa=yields)
 
     @property

@@ -74,7 +74,7 @@ def search_of(settings: SearchSettings, scenario: Scenario) -> Search:
     for key in keys:
         if key.name == SEED:
             raise ScenarioError(f"search.key is {SEED}: expected a quantity of the bridge or its demolition")
-        if key.name in [each.key.name for each in variations]:
+        if key.name in [variation.key.name for variation in variations]:
             raise ScenarioError(f"{key.name} is searched along and drawn as well: leave out its table [[vary]]")
         if settings.factor and (isinstance(key.value, bool) or not isinstance(key.value, int | float)):
             raise ScenarioError(f"search.factor is true: {key.name} has no number in the scenario to multiply")

@@ -56,7 +56,7 @@ def placed_loads(
 def placed_on_model(load: Load, number: int, model: Model, structure: Structure) -> PlacedLoad:
     """Place a load, of a number in its list, on the shards of a model with this structure."""
     masses_kg = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
-    boxes_m = np.concatenate(([each.bounds for each in model.shards], np.zeros((1, 2, 3))))
+    boxes_m = np.concatenate(([shard.bounds for shard in model.shards], np.zeros((1, 2, 3))))
     return _placed(number, load, structure, masses_kg, boxes_m)
 
 

@@ -91,7 +91,7 @@ class StandingBridge:
         self._moves = np.append(~model.fixed, False)
         self._pairs = model.connections.pairs % len(self._moves)
         sections = member_sections_of(model)
-        self._judges = [overloads_of(model, each.strength, sections) if each.strength else None for each in joints]
+        self._judges = [overloads_of(model, joint.strength, sections) if joint.strength else None for joint in joints]
 
     def rest(
         self,
@@ -121,7 +121,7 @@ class StandingBridge:
         kept = model.connections.only(intact)
         found = at_rest(
             kept,
-            SectionStiffness(*(getattr(model.stiffness, each.name)[rows] for each in fields(SectionStiffness))),
+            SectionStiffness(*(getattr(model.stiffness, field.name)[rows] for field in fields(SectionStiffness))),
             self._masses,
             self._inertias,
             model.centres_m,

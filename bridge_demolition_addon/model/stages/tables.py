@@ -159,10 +159,10 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
 
 def criticality_sentences(members: Sequence[Criticality]) -> list[str]:
     """Return what comes down without which member, the most first."""
-    falls = sorted((each for each in members if each.falls_kg), key=lambda one: -one.falls_kg)
+    falls = sorted((member for member in members if member.falls_kg), key=lambda one: -one.falls_kg)
     if not falls:
         return ["without any one member the others stand"]
-    return [f"without {each.member}: {each.falls_kg / 1000.0:.1f} t come down, {each.share:.0%}" for each in falls]
+    return [f"without {fall.member}: {fall.falls_kg / 1000.0:.1f} t come down, {fall.share:.0%}" for fall in falls]
 
 
 def factor_in_words(factor: float) -> str:

@@ -49,7 +49,7 @@ def used_of_forces(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> 
     It is that of the direction that bears most: Bullet compares forces along three axes, and moments about them in N·m,
     one by one with the same number.
     """
-    forces = np.array([np.nan if each.breaking_force_n is None else each.breaking_force_n for each in joints])
+    forces = np.array([np.nan if joint.breaking_force_n is None else joint.breaking_force_n for joint in joints])
     return abs(rest.loads).max(axis=0, initial=0.0) / forces[model.joint_of_connection]
 
 

@@ -56,8 +56,8 @@ class LayersOfMember:
             self.width_m,
             compressive_pa,
             [self.highest - level for level in self.levels_m],
-            [each.area_m2 for each in self.layers],
-            [factor * each.yield_pa for each in self.layers],
+            [layer.area_m2 for layer in self.layers],
+            [factor * layer.yield_pa for layer in self.layers],
         )
 
 

@@ -91,7 +91,7 @@ def with_soil(stiffness: SectionStiffness, soil: SoilSprings) -> SectionStiffnes
 def _chosen(foundation: Foundation, members: Sequence[Member]) -> list[int]:
     chosen = [index for index, each in enumerate(members) if foundation.member in (each.name, each.kind)]
     if not chosen:
-        known = sorted({each.name for each in members} | {each.kind for each in members})
+        known = sorted({member.name for member in members} | {member.kind for member in members})
         raise ScenarioError(
             f'foundations.member is "{foundation.member}": expected the name or kind of a member, one of '
             f"{', '.join(known)}"

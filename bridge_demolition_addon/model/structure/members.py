@@ -245,7 +245,7 @@ def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> flo
 
 def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
     """Points of the user's own in each member, (p, 3) in m."""
-    places = [each.place_m for each in settings.points]
+    places = [point.place_m for point in settings.points]
     if settings.points_file is not None:
         places += points_from_file(Path(settings.points_file)).tolist()
     points = np.array(places, dtype=float).reshape(-1, 3)

@@ -27,7 +27,7 @@ def settlements(results: Results, foundations: Sequence[Foundation]) -> list[dic
     ground = set(inventory.of_kind("ground").tolist())
     rows = [row for row, pair in enumerate(inventory.pairs.tolist()) if ground.intersection(pair)]
     standing = np.array([next(b for b in inventory.pairs[row].tolist() if b not in ground) for row in rows], int)
-    named = [{each.member for each in foundations} & {*_names(results, body)} for body in standing.tolist()]
+    named = [{foundation.member for foundation in foundations} & {*_names(results, body)} for body in standing.tolist()]
     is_on_soil = np.array([bool(each) for each in named], bool)
     members = inventory.body_members[standing]
     found = []

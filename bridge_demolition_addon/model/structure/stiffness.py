@@ -53,7 +53,7 @@ def connection_stiffness(
             "connections need shared faces"
         )
     young, shear = (
-        np.array([getattr(each.moduli, name) for each in joints])[joint_of_connection]
+        np.array([getattr(joint.moduli, name) for joint in joints])[joint_of_connection]
         for name in ("young_pa", "shear_pa")
     )
     ends = connections.pairs.T

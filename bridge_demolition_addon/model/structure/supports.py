@@ -48,7 +48,7 @@ def fixed_shards(
     for support in supports:
         chosen = [index for index, each in enumerate(members) if support.member in (each.name, each.kind)]
         if not chosen:
-            known = sorted({each.name for each in members} | {each.kind for each in members})
+            known = sorted({member.name for member in members} | {member.kind for member in members})
             raise ScenarioError(
                 f'supports.member is "{support.member}": expected the name or kind of a member, one of '
                 f"{', '.join(known)}"

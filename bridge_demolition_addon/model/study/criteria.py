@@ -126,7 +126,7 @@ class Criterion(Table):
         if self.span is not None and self.span > spans:
             raise self.unexpected("span", f"a whole number up to {spans}, as the scenario has no more spans")
         for name, tables in (("zone", scenario.zones), ("neighbour", scenario.neighbours)):
-            names = [each.name for each in tables]
+            names = [table.name for table in tables]
             if getattr(self, name) is not None and getattr(self, name) not in names:
                 listed = ", ".join(map(shown, names)) or f"none, as the scenario has no [[{name}s]]"
                 raise self.unexpected(name, f"one of {listed}" if names else listed)

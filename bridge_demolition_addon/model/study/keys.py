@@ -174,7 +174,7 @@ def _values(item: Field, value: Any, name: str, parts: list[str], before: str, s
 
 
 def _name_of(table: Table) -> str | None:
-    return next((getattr(table, each) for each in _NAMES if getattr(table, each, None)), None)
+    return next((getattr(table, name) for name in _NAMES if getattr(table, name, None)), None)
 
 
 def _first_key(tables: tuple[Table, ...]) -> str:

@@ -55,16 +55,16 @@ class Outlines:
     def arrays(self) -> dict[str, np.ndarray]:
         """All outlines as arrays by name, in single precision: ``bridge_m`` (c, 2), ``bridge_counts`` (o,), …"""
         found = {}
-        for each in fields(self):
-            rings = getattr(self, each.name)
-            found[f"{each.name}_m"] = np.concatenate([_NO_OUTLINES, *rings]).astype(np.float32)
-            found[f"{each.name}_counts"] = np.array([len(ring) for ring in rings], np.int32)
+        for field in fields(self):
+            rings = getattr(self, field.name)
+            found[f"{field.name}_m"] = np.concatenate([_NO_OUTLINES, *rings]).astype(np.float32)
+            found[f"{field.name}_counts"] = np.array([len(ring) for ring in rings], np.int32)
         return found
 
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Self:
         """Outlines from what `arrays` gives."""
-        return cls(*(_rings(arrays[f"{each.name}_m"], arrays[f"{each.name}_counts"]) for each in fields(cls)))
+        return cls(*(_rings(arrays[f"{field.name}_m"], arrays[f"{field.name}_counts"]) for field in fields(cls)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,7 +172,7 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         watched = watch_zone(results, zone, bodies)
         found[zone_output(zone.name, "entered")] = bool(watched.entries)
         found[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
-    charges = [each for each in scenario.charges if each.mass_kg > 0.0] if scenario.blast.explosion else []
+    charges = [charge for charge in scenario.charges if charge.mass_kg > 0.0] if scenario.blast.explosion else []
     model, landed = BlastModel(scenario.blast.model), landings(results)
     for neighbour in scenario.neighbours:
         loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None

@@ -97,7 +97,10 @@ class BuiltGround:
 
     def recorded(self) -> RecordedGround:
         """Return the ground as the results of a run have it."""
-        surfaces = (NamedSurface(each.settings.name, each.settings.kind, Surface(each.mesh)) for each in self.surfaces)
+        surfaces = (
+            NamedSurface(surface.settings.name, surface.settings.kind, Surface(surface.mesh))
+            for surface in self.surfaces
+        )
         return RecordedGround(self.terrain, tuple(surfaces))
 
     def heights_at(self, places_m: np.ndarray) -> np.ndarray:
@@ -202,7 +205,7 @@ def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:
 
 def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
     """Return the facts that a run's summary keeps."""
-    known = {each.name: values[each.name] for each in fields(TerrainFacts)}
+    known = {field.name: values[field.name] for field in fields(TerrainFacts)}
     x, y = known["error_place_m"]
     return TerrainFacts(
         **known | {"error_place_m": (x, y), "levelled": tuple(Levelled(**each) for each in known["levelled"])}

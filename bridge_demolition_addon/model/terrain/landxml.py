@@ -53,9 +53,9 @@ def _triangles(definition: ElementTree.Element) -> TriangleMesh:
     if points is None or faces is None:
         raise GeometryError("its surface has no triangles: expected Pnts and Faces, as of a TIN")
     try:
-        places = {each.get("id"): [float(value) for value in (each.text or "").split()] for each in points}
+        places = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
         rows = {name: row for row, name in enumerate(places)}
-        visible = [each for each in faces if each.get("i") != "1"]
+        visible = [face for face in faces if face.get("i") != "1"]
         corners = [[rows[name] for name in (each.text or "").split()] for each in visible]
         vertices, triangles = np.array(list(places.values()), float), np.array(corners, np.int64)
     except (KeyError, ValueError) as error:

@@ -50,7 +50,9 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
     )
     blocks.append(_ring_table(charges, model, factor))
     if scenario.neighbours:
-        loads = [(each.name, loads_at(each.place_m, charges, model, factor)) for each in scenario.neighbours]
+        loads = [
+            (neighbour.name, loads_at(neighbour.place_m, charges, model, factor)) for neighbour in scenario.neighbours
+        ]
         blocks += _neighbour_blocks(loads)
     else:
         blocks.append(

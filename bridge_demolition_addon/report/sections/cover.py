@@ -182,7 +182,9 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
 
 def _findings(run: ReportedRun, debris: Debris) -> Iterator[tuple[str, str]]:
     has_ball = len(run.recorded.inventory.of_kind("ball")) > 0
-    yield from ((each.label, each.text) for each in findings(run, debris) if has_ball or each.label != IMPACT)
+    yield from (
+        (finding.label, finding.text) for finding in findings(run, debris) if has_ball or finding.label != IMPACT
+    )
 
 
 def _caption(run: ReportedRun, picture: str) -> str:

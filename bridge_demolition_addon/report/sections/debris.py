@@ -163,7 +163,10 @@ def terrain_section(run: ReportedRun) -> Section | None:
     if run.summary and run.summary.terrain:
         blocks.append(facts("Ground", terrain_summary(facts_from(run.summary.terrain)), "terrain"))
     if ground.surfaces:
-        rows = [(each.name, f"{each.kind}, {ground.shown(each).area():.1f} m² in plan") for each in ground.surfaces]
+        rows = [
+            (surface.name, f"{surface.kind}, {ground.shown(surface).area():.1f} m² in plan")
+            for surface in ground.surfaces
+        ]
         blocks.append(facts("Surfaces on the ground", rows, "surfaces"))
     if len(under):
         words = (

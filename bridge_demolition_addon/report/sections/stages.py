@@ -59,7 +59,7 @@ def stages_section(folder: Path) -> Section:
         raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error
     blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), table]
     blocks.append(Paragraph(_on_members(falls)))
-    if critical := sorted((each for each in falls if each[1] > 0.0), key=lambda each: -each[1]):
+    if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda each: -each[1]):
         columns = (
             Column("Without", "member"),
             Column("come down (t)", "falls_t", ".1f"),

@@ -16,7 +16,7 @@ def touchdown_section(results: Results, neighbours: Sequence[Neighbour]) -> Sect
         return None
     landed = landings(results)
     blocks: list[Block] = [Paragraph(_BASIS)]
-    shaken = [(each.name, shaking_at(each.place_m, landed)) for each in neighbours]
+    shaken = [(neighbour.name, shaking_at(neighbour.place_m, landed)) for neighbour in neighbours]
     if len(landed):
         blocks.append(_table([(name, shaking) for name, shaking in shaken if shaking is not None]))
     else:
@@ -28,8 +28,8 @@ def touchdown_section(results: Results, neighbours: Sequence[Neighbour]) -> Sect
 _BASIS = (
     f"Largest velocity of the ground by v = {100.0 * VELOCITY_M_S:.3g} cm/s (R / (E / 10 kJ)^(1/3))^-{EXPONENT:g} "
     f"(Zhou), with the distance R in m and the kinetic energy E in kJ of what lands within {TOGETHER_S:g} s. It is an "
-    "estimate: a factor of two to either side is usual, and soil, ditches and banks change it. One run is one draw: a "
-    "study gives the range."
+    "estimate: a factor of two to either side is usual, and soil, ditches and banks change it. "
+    "One run is one possible outcome: a study gives the range."
 )
 
 

@@ -53,7 +53,7 @@ def replace_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[b
 
 def charge_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """All objects that stand for charges, in the order in which they came into the scene."""
-    return [each for each in scene.objects if is_charge(each)]
+    return [obj for obj in scene.objects if is_charge(obj)]
 
 
 def is_charge(found: bpy.types.Object) -> bool:
@@ -74,7 +74,7 @@ def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
     BlastError
         A property of one was set to what no charge can have.
     """
-    return tuple(_charge(each) for each in charge_objects(scene))
+    return tuple(_charge(charge_object) for charge_object in charge_objects(scene))
 
 
 def show_until(charge: bpy.types.Object, frame: int) -> None:

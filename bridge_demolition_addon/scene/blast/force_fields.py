@@ -61,8 +61,7 @@ def has_other_fields(scene: bpy.types.Scene) -> bool:
     """Whether anything else in a scene may push bodies about: a field of the user's own, or particles, which may be."""
     ours = set(_all(scene))
     return any(
-        (each.field and each.field.type != "NONE" and each not in ours) or each.particle_systems
-        for each in scene.objects
+        (obj.field and obj.field.type != "NONE" and obj not in ours) or obj.particle_systems for obj in scene.objects
     )
 
 
@@ -130,7 +129,7 @@ class ForceFields:
 
     def _pushes(self, field: bpy.types.Object, strength: float) -> bool:
         copies = self._evaluated(field)
-        return bool(copies) and all(abs(each.field.strength - strength) <= _FLOAT32 * strength for each in copies)
+        return bool(copies) and all(abs(copy.field.strength - strength) <= _FLOAT32 * strength for copy in copies)
 
     def _evaluated(self, field: bpy.types.Object) -> list[bpy.types.Object]:
         """What Blender evaluates of a field; nothing where the field was deleted."""
@@ -139,12 +138,12 @@ class ForceFields:
             copies = [field.evaluated_get(graph) for graph in graphs]
         except ReferenceError:
             return []
-        return [each for each in copies if each.is_evaluated]  # what a graph leaves out it gives back as it is
+        return [copy for copy in copies if copy.is_evaluated]  # what a graph leaves out it gives back as it is
 
 
 def _all(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     collection = find_collection(scene, _ROLE)
-    return [each for each in collection.objects if _BODY in each] if collection else []
+    return [obj for obj in collection.objects if _BODY in obj] if collection else []
 
 
 def _orphans(scene: bpy.types.Scene) -> list[bpy.types.Object]:

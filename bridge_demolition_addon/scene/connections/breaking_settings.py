@@ -76,9 +76,9 @@ def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
 
 
 def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
-    if not any(_BARS in each for each in connections):
+    if not any(_BARS in connection for connection in connections):
         return None
-    numbers = np.array([kept_numbers(each, _BARS, (0.0, 0.0, 0.0)) for each in connections])
+    numbers = np.array([kept_numbers(connection, _BARS, (0.0, 0.0, 0.0)) for connection in connections])
     return FaceBars(numbers[:, 0], numbers[:, 1:])
 
 
@@ -88,9 +88,9 @@ def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] 
     Where any of m connections has a strength of its own, the strength has arrays (m,) float.
     """
     strength = Strength(*kept_numbers(scene, _STRENGTH, astuple(_UNBREAKABLE))) if _STRENGTH in scene else None
-    if any(_STRENGTH in each for each in connections):
+    if any(_STRENGTH in connection for connection in connections):
         other = astuple(strength or _UNBREAKABLE)
-        strength = Strength(*np.array([kept_numbers(each, _STRENGTH, other) for each in connections]).T)
+        strength = Strength(*np.array([kept_numbers(connection, _STRENGTH, other) for connection in connections]).T)
     ductility = Ductility(*kept_numbers(scene, _DUCTILITY, (0.0, 0.0))) if _DUCTILITY in scene else None
     return Breaking(
         strength,

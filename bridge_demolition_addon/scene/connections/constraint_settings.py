@@ -54,15 +54,18 @@ class ConstraintSettings:
 def constraint_settings_of(scene: bpy.types.Scene) -> ConstraintSettings:
     """Read the connections of a scene."""
     connections = connections_of(scene)
-    constraints = [each.rigid_body_constraint for each in connections]
+    constraints = [connection.rigid_body_constraint for connection in connections]
     return ConstraintSettings(
         objects=tuple(connections),
-        names=tuple(each.name for each in connections),
-        bodies=[(_name(each.object1), _name(each.object2)) for each in constraints],
-        positions_m=np.array([each.matrix_basis.translation for each in connections], float),
-        constraint={name: [getattr(each, name) for each in constraints] for name in _CONSTRAINT},
-        iterations=[each.solver_iterations if each.use_override_solver_iterations else 0 for each in constraints],
-        breaking_forces_n=[kept_breaking_force(each) for each in connections],
+        names=tuple(connection.name for connection in connections),
+        bodies=[(_name(constraint.object1), _name(constraint.object2)) for constraint in constraints],
+        positions_m=np.array([connection.matrix_basis.translation for connection in connections], float),
+        constraint={name: [getattr(constraint, name) for constraint in constraints] for name in _CONSTRAINT},
+        iterations=[
+            constraint.solver_iterations if constraint.use_override_solver_iterations else 0
+            for constraint in constraints
+        ],
+        breaking_forces_n=[kept_breaking_force(connection) for connection in connections],
     )
 
 

@@ -24,7 +24,7 @@ def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     constraints = scene.rigidbody_world.constraints
     if not constraints:
         return []
-    return [each for each in constraints.all_objects if each.rigid_body_constraint and not each.get(_IS_CABLE)]
+    return [obj for obj in constraints.all_objects if obj.rigid_body_constraint and not obj.get(_IS_CABLE)]
 
 
 def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
@@ -36,7 +36,7 @@ def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
 def loose_connections(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """Return connections that lack a body of the scene's world, such as those of a deleted shard: they do nothing."""
     bodies = set(bodies_of(scene))
-    return [each for each in connections_of(scene) if not ends_of(each) <= bodies]
+    return [connection for connection in connections_of(scene) if not ends_of(connection) <= bodies]
 
 
 def mark_cable(constraint: bpy.types.Object) -> None:

@@ -89,12 +89,14 @@ def damping_ratio_of(scene: bpy.types.Scene) -> float:
 
 def stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
     """Return the stiffness of connections."""
-    for each in connections:
-        if _STIFFNESS not in each:
+    for connection in connections:
+        if _STIFFNESS not in connection:
             raise SimulationError(
-                f"connection {each.name!r} has no stiffness as the others have: delete it, or build the scenario anew"
+                f"connection {connection.name!r} has no stiffness as the others have: delete it, or build anew"
             )
-    numbers = np.array([kept_numbers(each, _STIFFNESS, (0.0,) * _COUNT) for each in connections]).reshape(-1, _COUNT)
+    numbers = np.array([kept_numbers(connection, _STIFFNESS, (0.0,) * _COUNT) for connection in connections]).reshape(
+        -1, _COUNT
+    )
     if not ((numbers[:, [0, 1, 2, 3, 4, 6]] >= 0.0).all() and np.isfinite(numbers).all()):
         raise SimulationError("the stiffness of a connection was edited to a negative number: undo that")
     axial, first, second, torsion, *bending = numbers.T
@@ -104,5 +106,5 @@ def stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
 
 def thicknesses_of(connections: Sequence[bpy.types.Object]) -> np.ndarray:
     """Return the thickness (m,) of the members that connections are in, m; nan where none was kept."""
-    kept = np.array([kept_number(each, _THICKNESS, 0.0) for each in connections])
+    kept = np.array([kept_number(connection, _THICKNESS, 0.0) for connection in connections])
     return np.where(kept > 0.0, kept, np.nan)

@@ -31,9 +31,9 @@ def soil_of(connections: Sequence[bpy.types.Object]) -> SoilSprings | None:
     if not rows:
         return None
     numbers = [_numbers(connections[row]) for row in rows]
-    footings = np.array([each[:_OF_FOOTING] for each in numbers])
-    places = [each[_OF_FOOTING:].reshape(-1, _OF_PLACE) for each in numbers]
-    of_place = np.repeat(np.arange(len(rows)), [len(each) for each in places])
+    footings = np.array([number[:_OF_FOOTING] for number in numbers])
+    places = [number[_OF_FOOTING:].reshape(-1, _OF_PLACE) for number in numbers]
+    of_place = np.repeat(np.arange(len(rows)), [len(position) for position in places])
     each_place = np.concatenate(places)
     return SoilSprings(np.array(rows), of_place, each_place[:, :3], each_place[:, 3], *footings.T)
 

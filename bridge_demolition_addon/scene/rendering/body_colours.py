@@ -161,7 +161,9 @@ def show_materials(scene: bpy.types.Scene) -> None:
             for name in (_HAD_MATERIAL, _MATERIAL_BEFORE):
                 if name in layer:
                     del layer[name]
-    bpy.data.batch_remove([each for each in bpy.data.materials if each.get(_ROLE) in _MATERIALS and not each.users])
+    bpy.data.batch_remove(
+        [material for material in bpy.data.materials if material.get(_ROLE) in _MATERIALS and not material.users]
+    )
 
 
 def _bodies(scene: bpy.types.Scene) -> bpy.types.bpy_prop_collection | tuple:

@@ -42,11 +42,11 @@ def remove_dust(scene: bpy.types.Scene) -> int:
     collection = find_collection(scene, _ROLE)
     if collection is None:
         return 0
-    ours = [each for each in collection.objects if each.get(_MARK) == _ROLE]
-    data = {each.data for each in ours} | {
-        each.animation_data.action for each in ours if each.animation_data and each.animation_data.action
+    ours = [obj for obj in collection.objects if obj.get(_MARK) == _ROLE]
+    data = {our.data for our in ours} | {
+        our.animation_data.action for our in ours if our.animation_data and our.animation_data.action
     }
-    materials = {material for each in ours for material in each.data.materials if material}
+    materials = {material for our in ours for material in our.data.materials if material}
     bpy.data.batch_remove(ours)
     bpy.data.batch_remove([each for each in data if not each.users])
     bpy.data.batch_remove([each for each in materials if not each.users])

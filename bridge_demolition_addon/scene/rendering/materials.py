@@ -95,8 +95,12 @@ def material_of(surface: SurfaceMaterial) -> bpy.types.Material:
 
 def remove_unused_materials() -> None:
     """Remove the materials of surfaces that nothing has any more."""
-    ours = [each for each in bpy.data.materials if each.get(_ROLE) in set(SurfaceMaterial) and not each.library]
-    bpy.data.batch_remove([each for each in ours if not each.users])
+    ours = [
+        material
+        for material in bpy.data.materials
+        if material.get(_ROLE) in set(SurfaceMaterial) and not material.library
+    ]
+    bpy.data.batch_remove([our for our in ours if not our.users])
 
 
 def _lay_out(tree: bpy.types.NodeTree, look: _Look) -> None:

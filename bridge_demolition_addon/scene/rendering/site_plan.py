@@ -76,11 +76,11 @@ def remove_site_plan(scene: bpy.types.Scene) -> None:
     collection = find_collection(scene, _ROLE)
     if collection is None:
         return
-    ours = [each for each in collection.objects if each.get(_MARK) == _ROLE]
-    meshes, materials = {each.data for each in ours}, {slot.material for each in ours for slot in each.material_slots}
+    ours = [obj for obj in collection.objects if obj.get(_MARK) == _ROLE]
+    meshes, materials = {our.data for our in ours}, {slot.material for our in ours for slot in our.material_slots}
     bpy.data.batch_remove(ours)
-    bpy.data.batch_remove([each for each in meshes if not each.users])
-    bpy.data.batch_remove([each for each in materials if each and not each.users])
+    bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
+    bpy.data.batch_remove([material for material in materials if material and not material.users])
     if not collection.objects and not collection.children:
         bpy.data.collections.remove(collection)
 

@@ -19,29 +19,29 @@ _CUBE_CORNERS = 8
 
 def put_startup_objects_away(scene: bpy.types.Scene) -> None:
     """Hide the objects of Blender's start-up file that nobody has touched, and take their camera from the scene."""
-    for each in scene.objects:
-        if _PUT_AWAY not in each and _is_untouched(each):
-            each[_PUT_AWAY] = [each.hide_render, scene.camera == each]
-            each.hide_render = True
+    for obj in scene.objects:
+        if _PUT_AWAY not in obj and _is_untouched(obj):
+            obj[_PUT_AWAY] = [obj.hide_render, scene.camera == obj]
+            obj.hide_render = True
             for layer in scene.view_layers:
-                if each.name in layer.objects:
-                    each.hide_set(True, view_layer=layer)
-            if scene.camera == each:
+                if obj.name in layer.objects:
+                    obj.hide_set(True, view_layer=layer)
+            if scene.camera == obj:
                 scene.camera = None
 
 
 def bring_startup_objects_back(scene: bpy.types.Scene) -> None:
     """Show what was put away, and give the scene its camera back where it has none by now."""
-    for each in scene.objects:
-        if _PUT_AWAY in each:
-            hidden, was_camera = each[_PUT_AWAY]
-            del each[_PUT_AWAY]
-            each.hide_render = bool(hidden)
+    for obj in scene.objects:
+        if _PUT_AWAY in obj:
+            hidden, was_camera = obj[_PUT_AWAY]
+            del obj[_PUT_AWAY]
+            obj.hide_render = bool(hidden)
             for layer in scene.view_layers:
-                if each.name in layer.objects:
-                    each.hide_set(False, view_layer=layer)
+                if obj.name in layer.objects:
+                    obj.hide_set(False, view_layer=layer)
             if was_camera and scene.camera is None:
-                scene.camera = each
+                scene.camera = obj
 
 
 def _is_untouched(found: bpy.types.Object) -> bool:

@@ -111,7 +111,7 @@ def _remove(scene: bpy.types.Scene, camera: bpy.types.Object) -> None:
     for layer in scene.view_layers:
         layer.update()
     bpy.data.objects.remove(camera)
-    bpy.data.batch_remove([each for each in parts if each])
+    bpy.data.batch_remove([part for part in parts if part])
 
 
 def _corners(scene: bpy.types.Scene) -> np.ndarray:

@@ -57,8 +57,8 @@ def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings |
     land = _land(camera.data.clip_end / 2.0, _lowest_ground(scene))
     for each in (_sun(), land):
         collection.objects.link(each)
-    for each in collection.objects:
-        each[_MARK] = _ROLE
+    for obj in collection.objects:
+        obj[_MARK] = _ROLE
     for layer in scene.view_layers:
         land.hide_set(True, view_layer=layer)  # for pictures alone: View All would show nothing else
 
@@ -71,9 +71,9 @@ def points_in_view(scene: bpy.types.Scene) -> np.ndarray | None:
 def clear_surroundings(scene: bpy.types.Scene) -> None:
     """Take away what `surround` has made, and bring back what it has put away."""
     if collection := find_collection(scene, _ROLE):
-        ours = [each for each in collection.objects if each.get(_MARK) == _ROLE]
-        data = {each.data for each in ours if each.data}
-        data |= {each.animation_data.action for each in ours if each.animation_data and each.animation_data.action}
+        ours = [obj for obj in collection.objects if obj.get(_MARK) == _ROLE]
+        data = {our.data for our in ours if our.data}
+        data |= {our.animation_data.action for our in ours if our.animation_data and our.animation_data.action}
         bpy.data.batch_remove(ours)
         bpy.data.batch_remove([each for each in data if not each.users])
         if not collection.objects and not collection.children:
@@ -102,7 +102,7 @@ def _lowest_ground(scene: bpy.types.Scene) -> float:
     """Return the height of the lowest place of ground that is not flat, m; 0 without such."""
     world = scene.rigidbody_world
     bodies = bodies_of(scene) if world and world.collection else []
-    uneven = [each for each in bodies if is_uneven_ground(each)]
+    uneven = [body for body in bodies if is_uneven_ground(body)]
     return min((float(scaled_mesh(each).vertices[:, 2].min()) for each in uneven), default=0.0)
 
 

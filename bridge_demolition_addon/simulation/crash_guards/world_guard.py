@@ -172,4 +172,4 @@ def _world_of(scene: bpy.types.Scene) -> BulletWorld | None:
     bodies, loose = bodies_of(scene), set(loose_connections(scene))
     if not any(map(is_marked, bodies)):
         return None
-    return BulletWorld(scene, bodies, [each for each in connections_of(scene) if each not in loose])
+    return BulletWorld(scene, bodies, [connection for connection in connections_of(scene) if connection not in loose])

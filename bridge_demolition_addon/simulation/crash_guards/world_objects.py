@@ -43,11 +43,11 @@ class WorldObjects:
         for objects in self._collections():
             numbers.append(np.zeros(len(objects), np.int32))
             objects.foreach_get("session_uid", numbers[-1])
-        return b"|".join(each.tobytes() for each in numbers)
+        return b"|".join(number.tobytes() for number in numbers)
 
     def _names(self) -> dict[int, str]:
         """Names of the objects in the world, by the numbers that stay theirs while Blender runs."""
-        return {each.session_uid: each.name for objects in self._collections() for each in objects}
+        return {obj.session_uid: obj.name for objects in self._collections() for obj in objects}
 
     def _collections(self) -> list[bpy.types.bpy_prop_collection]:
         world = self._scene.rigidbody_world

@@ -100,7 +100,7 @@ class ElasticConnections:
         self._world, self._rows, self._reader = world, world.elastic_rows(), world.bodies.motion()
         self._damping_ratio = damping_ratio
         self._left_per_second = 1.0 - np.array(
-            [(each.rigid_body.linear_damping, each.rigid_body.angular_damping) for each in bodies]
+            [(body.rigid_body.linear_damping, body.rigid_body.angular_damping) for body in bodies]
         ).T.repeat(3, axis=0)
         is_first = world.first_is_body_a()
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
@@ -304,9 +304,9 @@ class ElasticConnections:
     def _check_frames(self, motion: BodyMotion) -> None:
         places = joint_places(self._frames, motion.positions_m, motion.rotations)
         connections = self._world.connection_objects
-        matrices = np.array([np.array(each.matrix_world) for each in connections]).reshape(-1, 4, 4)
-        names = [each.name for each in connections]
-        turned = np.array([each.matrix_world.decompose()[1].to_matrix() for each in connections], float)
+        matrices = np.array([np.array(connection.matrix_world) for connection in connections]).reshape(-1, 4, 4)
+        names = [connection.name for connection in connections]
+        turned = np.array([connection.matrix_world.decompose()[1].to_matrix() for connection in connections], float)
         for axes, bodies, levers in (
             (places.first_axes, self._frames.first, places.first_levers_m),
             (places.second_axes, self._frames.second, places.second_levers_m),

@@ -24,16 +24,16 @@ class Loads(Driver):
 
     def __init__(self, bodies: BodyTable, loads: Sequence[PlacedLoad]):
         self._table = bodies
-        self._loads = [each.load for each in loads]
-        counts = [len(each.bodies) for each in loads]
+        self._loads = [load.load for load in loads]
+        counts = [len(load.bodies) for load in loads]
         self._load_of = np.repeat(np.arange(len(loads)), counts)
-        self._bodies = np.concatenate([np.zeros(0, int), *(each.bodies for each in loads)])
-        shares = np.concatenate([np.zeros(0), *(each.shares for each in loads)])
-        directions = np.array([each.load.unit_direction for each in loads]).reshape(-1, 3)
+        self._bodies = np.concatenate([np.zeros(0, int), *(load.bodies for load in loads)])
+        shares = np.concatenate([np.zeros(0), *(load.shares for load in loads)])
+        directions = np.array([load.load.unit_direction for load in loads]).reshape(-1, 3)
         self._unit_forces = shares[:, None] * directions[self._load_of]
-        at_points = np.array([each.arm_m is not None for each in loads], bool)
+        at_points = np.array([load.arm_m is not None for load in loads], bool)
         self._turns = np.flatnonzero(at_points[self._load_of])
-        arms = np.array([each.arm_m for each in loads if each.arm_m is not None]).reshape(-1, 3)
+        arms = np.array([load.arm_m for load in loads if load.arm_m is not None]).reshape(-1, 3)
         self._arms = transformed_back(
             bodies.positions()[1][self._bodies[self._turns]], arms
         )  # in the axes of the bodies
@@ -49,7 +49,7 @@ class Loads(Driver):
         self._begins_s = max(self._begins_s, elapsed_s)
         middle_s = self._begins_s + substep_s / 2.0
         self._begins_s += substep_s
-        sizes_n = np.array([each.force_n(middle_s) for each in self._loads])[self._load_of]
+        sizes_n = np.array([load.force_n(middle_s) for load in self._loads])[self._load_of]
         forces = sizes_n[:, None] * self._unit_forces
         torques = np.zeros_like(forces)
         if len(self._turns):

@@ -62,7 +62,7 @@ def read_archive(path: Path) -> dict[str, np.ndarray]:
     """
     with zipfile.ZipFile(path) as archive:
         members = [each for each in archive.infolist() if each.filename.endswith(_ENDING)]
-        return {each.filename.removesuffix(_ENDING): _array(archive, each) for each in members}
+        return {member.filename.removesuffix(_ENDING): _array(archive, member) for member in members}
 
 
 def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:

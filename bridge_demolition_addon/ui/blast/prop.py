@@ -44,7 +44,7 @@ def select_shown(settings: bpy.types.PropertyGroup, context: bpy.types.Context) 
 
 def choice_of_charge(key: str, items: list[tuple[str, str, str]], name: str, description: str) -> Any:
     """Return a property that shows and sets one of a few values that the chosen charge keeps under a key."""
-    identifiers = [each[0] for each in items]
+    identifiers = [item[0] for item in items]
 
     def shown(settings: bpy.types.PropertyGroup) -> int:
         charge = shown_charge(settings.id_data)

@@ -75,7 +75,7 @@ def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
     }
     found = {name: make() for name, make in forces.items() if name in settings.vectors}
     lengths = [np.linalg.norm(force, axis=1) for _, force in found.values()]
-    largest = max((np.nanmax(each, initial=0.0) for each in lengths), default=0.0)
+    largest = max((np.nanmax(length, initial=0.0) for length in lengths), default=0.0)
     if largest <= 0.0:
         return {}
     longest_m = settings.vector_length_m

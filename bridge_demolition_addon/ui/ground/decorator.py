@@ -81,8 +81,8 @@ def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]
     for name, parts in _PARTS.items():
         if name not in scene.bda.overlays:
             continue
-        for each in parts(scene, layer):
-            yield replace(each, lines=draped(each.lines, areas.ground_of(scene))) if name in _ON_GROUND else each
+        for part in parts(scene, layer):
+            yield replace(part, lines=draped(part.lines, areas.ground_of(scene))) if name in _ON_GROUND else part
 
 
 def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:

@@ -92,7 +92,7 @@ class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
             ground_m=self.ground_m if self.own_ground else None,
             shards=self.shards,
             without=_parts(self.without),
-            kinds=tuple(_kind(each) for each in _parts(self.kinds)),
+            kinds=tuple(_kind(part) for part in _parts(self.kinds)),
         )
 
 
@@ -120,7 +120,7 @@ def _new_folder(path: Path) -> Path:
 
 
 def _done(bridge: ImportedBridge, folder: Path) -> str:
-    became = [each.became for each in bridge.outcomes]
+    became = [outcome.became for outcome in bridge.outcomes]
     return (
         f"Imported {bridge.scenario.title}: {became.count('member')} members, {became.count('connection')} bearings, "
         f"{became.count('left out')} elements left out; {folder / REPORT_FILE} says why"

@@ -72,7 +72,7 @@ def _tab_is_open(screen: bpy.types.Screen) -> bool:
         for region in area.regions
         if region.type == "UI" and region.width > 1
     )
-    return any(each.active_panel_category == SidebarPanel.bl_category for each in sidebars)
+    return any(sidebar.active_panel_category == SidebarPanel.bl_category for sidebar in sidebars)
 
 
 def _draw(context: bpy.types.Context) -> None:

@@ -46,8 +46,8 @@ class BDA_GGT_handles(bpy.types.GizmoGroup):
             wanted = handles(context.scene)
         except ScenarioError:  # the panel Scenario says what is wrong
             wanted = []
-        for each in self.gizmos:
-            each.hide = True
+        for gizmo in self.gizmos:
+            gizmo.hide = True
         for handle in wanted:
             key = (handle.kind, handle.index, handle.is_upright)
             if key not in self.made:

@@ -65,9 +65,9 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
 
     def _handle(self, context: bpy.types.Context) -> Handle:
         wanted = (self.kind, self.index, self.is_upright)
-        for each in handles(context.scene):
-            if (each.kind, each.index, each.is_upright) == wanted:
-                return each
+        for handle in handles(context.scene):
+            if (handle.kind, handle.index, handle.is_upright) == wanted:
+                return handle
         raise ScenarioError(f"there is no {self.kind.lower()} {self.index + 1} here to be dragged")
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:

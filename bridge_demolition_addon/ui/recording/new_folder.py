@@ -24,7 +24,7 @@ def new_folder(title: str) -> Path:
     name = re.sub(r"[^\w.-]+", "_", title)[:_LONGEST_NAME].strip("._") or "demolition"
     numbers = [0]
     if parent.is_dir():
-        numbers += [int(found[1]) for each in parent.iterdir() if (found := _numbered(name, each.name))]
+        numbers += [int(found[1]) for path in parent.iterdir() if (found := _numbered(name, path.name))]
     return parent / f"{name}_{max(numbers) + 1}"
 
 

@@ -43,7 +43,7 @@ CLASSES = (BDA_MT_presets,)
 
 def preset_files() -> dict[str, Path]:
     """Return the file of each preset by its name: those made for the sidebar, then the examples."""
-    folders = (PRESETS, next((each for each in _EXAMPLES if each.is_dir()), None))
+    folders = (PRESETS, next((example for example in _EXAMPLES if example.is_dir()), None))
     return {path.stem: path for folder in folders if folder for path in sorted(folder.glob("*" + _SUFFIX))}
 
 

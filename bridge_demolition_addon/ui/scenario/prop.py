@@ -245,7 +245,7 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
     if kind is bool:
         return BoolProperty(default=bool(default), **words)
     if rule.choices and kind is str:
-        items = [(each, each, "") for each in rule.choices]
+        items = [(choice, choice, "") for choice in rule.choices]
         return EnumProperty(items=items, default=default or rule.choices[0], **words)
     if kind is str:
         is_path = item.name == "file" or item.name.endswith("_file")
@@ -268,7 +268,7 @@ def _proposing(
 
 def materials_to_propose(group: bpy.types.PropertyGroup, rule: Key) -> list[str]:
     """Return the materials that a key may name: those that come with it, and the user's own."""
-    return [*rule.choices, *(each.name for each in group.id_data.bda.scenario.materials)]
+    return [*rule.choices, *(material.name for material in group.id_data.bda.scenario.materials)]
 
 
 _PROPOSED = {

@@ -101,7 +101,7 @@ def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: 
 
 def _summary(group: bpy.types.PropertyGroup) -> str:
     """Return the first value of a table, in words."""
-    table_class = next(each for each in all_tables() if group_name(each) == type(group).__name__)
+    table_class = next(table for table in all_tables() if group_name(table) == type(group).__name__)
     for item in key_fields(table_class):
         if is_optional(item) and not getattr(group, USE + item.name):
             continue

@@ -44,7 +44,7 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
 
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if not any(each.type == "MESH" for each in context.selected_objects):
+        if not any(selected_object.type == "MESH" for selected_object in context.selected_objects):
             return "Select the meshes that are to be members first"
         return None
 

@@ -111,15 +111,15 @@ def show_inner(group: bpy.types.PropertyGroup, item: Field, inner: Table | tuple
 
 def reset(group: bpy.types.PropertyGroup) -> None:
     """Set all properties of a group, and of the groups in it, to their defaults."""
-    for each in group.bl_rna.properties:
-        if each.identifier == "rna_type":  # Blender's own, which describes the group
+    for prop in group.bl_rna.properties:
+        if prop.identifier == "rna_type":  # Blender's own, which describes the group
             continue
-        if each.type == "POINTER":
-            reset(getattr(group, each.identifier))
-        elif each.type == "COLLECTION":
-            getattr(group, each.identifier).clear()
-        elif not each.is_readonly:
-            group.property_unset(each.identifier)
+        if prop.type == "POINTER":
+            reset(getattr(group, prop.identifier))
+        elif prop.type == "COLLECTION":
+            getattr(group, prop.identifier).clear()
+        elif not prop.is_readonly:
+            group.property_unset(prop.identifier)
 
 
 def list_of(text: str, name: str, item: Field) -> list:

@@ -126,8 +126,8 @@ def test_a_mechanism_leaves_other_parts_to_rest():
         for name in ("stiffness", "masses_kg", "inertias_kg_m2", "positions_m", "rotations")
     }
     frames = {
-        each.name: np.concatenate((getattr(cantilever.frames, each.name), getattr(swing.frames, each.name)), axis=-1)
-        for each in fields(cantilever.frames)
+        field.name: np.concatenate((getattr(cantilever.frames, field.name), getattr(swing.frames, field.name)), axis=-1)
+        for field in fields(cantilever.frames)
     }
     frames["first"][len(cantilever.frames) :] += count
     frames["second"][len(cantilever.frames) :] += count

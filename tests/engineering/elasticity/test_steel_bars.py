@@ -17,8 +17,8 @@ AT_YIELD_M = ELONGATION_M / 20.0
 def pulled(*stretches_m):
     """Forces of a bar along x, one stretch after another, and along y and z."""
     bars, slips, flows, forces = Bars.of(np.array([YIELD_N]), STEEL, ELONGATION_M), np.zeros((3, 1)), np.zeros(1), []
-    for each in stretches_m:
-        answer = bar_response(bars, np.array([[each], [0.0], [0.0]]), slips, flows)
+    for stretch_m in stretches_m:
+        answer = bar_response(bars, np.array([[stretch_m], [0.0], [0.0]]), slips, flows)
         slips, flows = answer.slips_m, answer.flows_m
         assert answer.forces_n[1:].tolist() == [[0.0], [0.0]]
         forces.append(float(answer.forces_n[0, 0]))

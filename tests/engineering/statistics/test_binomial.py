@@ -76,5 +76,5 @@ def test_bits_are_the_same_on_every_machine():
         binomial_cdf(happened * 500, 93_000, 0.3),
         binomial_cdf_inverse(happened, 93, 0.05),
     ]
-    digest = hashlib.sha256(b"".join(each.astype("<f8").tobytes() for each in results)).hexdigest()
+    digest = hashlib.sha256(b"".join(result.astype("<f8").tobytes() for result in results)).hexdigest()
     assert digest[:16] == "fd9ab02172620500"

@@ -117,7 +117,7 @@ def quantile_of_two_humps(quantile):
 @pytest.mark.parametrize("rank, runs", [(1, 59), (2, 93), (3, 124)])
 def test_limits_of_2000_ensembles_hold_as_often_as_promised(rank, runs):
     draws = two_humps(np.random.default_rng(20 + rank), (ENSEMBLES, runs))
-    limits = np.array([nth_largest(each, rank) for each in draws])
+    limits = np.array([nth_largest(draw, rank) for draw in draws])
     promised = achieved_confidence(rank, runs, 0.95)
     assert promised >= 0.95
     assert np.mean(limits >= quantile_of_two_humps(0.95)) == pytest.approx(promised, abs=tolerance(promised))

@@ -26,7 +26,7 @@ def reaches_m():
 
 @pytest.fixture(scope="module")
 def strips(reaches_m):
-    return probability_map([strip(each) for each in reaches_m], CONFIDENCE)
+    return probability_map([strip(reach_m) for reach_m in reaches_m], CONFIDENCE)
 
 
 def test_a_cell_is_hit_as_often_as_debris_slides_as_far(strips, reaches_m):

@@ -30,10 +30,10 @@ def test_limits_are_those_of_scipy(trials, confidence):
 
 def test_what_never_happened_has_the_limit_of_a_power():
     runs = np.array([1, 59, 299, 100_000])
-    limits = [upper_limit(0, each, 0.95) for each in runs]
+    limits = [upper_limit(0, run, 0.95) for run in runs]
     assert limits == pytest.approx(1.0 - 0.05 ** (1.0 / runs), rel=1e-10)
 
 
 def test_limits_of_many_counts_come_at_once():
     counts = np.array([0, 2, 93])
-    assert upper_limit(counts, 93, 0.95).tolist() == [upper_limit(each, 93, 0.95) for each in counts]
+    assert upper_limit(counts, 93, 0.95).tolist() == [upper_limit(count, 93, 0.95) for count in counts]

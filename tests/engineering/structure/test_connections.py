@@ -66,7 +66,7 @@ def test_neighbours_by_vertex_are_those_of_comparing_all_vertices(radius):
     generator = np.random.default_rng(5)
     sizes, places = generator.uniform(0.05, 0.4, (150, 3)), generator.uniform(-1.0, 1.0, (150, 3))
     shards = [box(size, place) for size, place in zip(sizes, places, strict=True)]
-    corners = np.array([each.vertices for each in shards])
+    corners = np.array([shard.vertices for shard in shards])
     differences = corners[:, None, :, None] - corners[None, :, None, :]
     apart = np.linalg.norm(differences, axis=4).min(axis=(2, 3))
     first, second = np.nonzero(np.triu(apart <= radius, 1))

@@ -50,7 +50,7 @@ def test_no_two_triangles_meet_at_a_gap():
     mesh = thinned(grid, 0.05, none_kept(grid), 8.0)
     sides = mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2).tolist()
     assert len(set(map(tuple, sides))) == len(sides)
-    alone = {tuple(each) for each in sides} - {tuple(each[::-1]) for each in sides}
+    alone = {tuple(side) for side in sides} - {tuple(side[::-1]) for side in sides}
     ends = mesh.vertices[np.array(sorted(alone))][..., :2]
     low, high = grid.low, grid.low + CELLS * STEP
     assert ((ends == low) | (ends == high)).all(axis=1).any(axis=1).all()

@@ -125,7 +125,7 @@ def test_one_solid_of_all_members_has_their_volume_and_is_one_body(name):
 @pytest.mark.parametrize("name", ["box", "box of three cells, skewed", "girders on columns, skewed", "decks apart"])
 def test_shards_of_a_bridge_of_any_kind_add_up_and_hold_together(name):
     model = build_model(scenario_of(BRIDGES[name]))
-    assert model.masses_kg.sum() == pytest.approx(sum(each.mass_kg for each in model.members), rel=VOLUME)
+    assert model.masses_kg.sum() == pytest.approx(sum(member.mass_kg for member in model.members), rel=VOLUME)
     # Every shard hangs together with every other, over the ground as well.
     label = np.arange(len(model.shards) + 1)
     for _ in range(len(label)):

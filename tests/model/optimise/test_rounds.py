@@ -113,7 +113,7 @@ def test_no_draw_is_in_two_rounds_and_all_candidates_have_the_same():
     asked = settings(candidates=25, runs_each=3, finalists=4, finalist_runs=7, confirmation_runs=30)
     rounds = played(Rounds(asked, ByChance(5, 3)), NoisyBowl(3))
     draws = [rounds.run_numbers(name) for name in (SEARCH, FINAL, CONFIRMATION)]
-    assert [list(each)[:: len(each) - 1] for each in draws] == [[1, 3], [4, 10], [11, 40]]
+    assert [list(draw)[:: len(draw) - 1] for draw in draws] == [[1, 3], [4, 10], [11, 40]]
     for number, candidate in enumerate(rounds.candidates):
         wanted = set(draws[0])
         wanted |= set(draws[1]) if number in rounds.finalists else set()
@@ -154,7 +154,7 @@ def test_runs_that_did_not_finish_are_no_success_and_have_no_end():
 
 def test_the_quantile_is_that_of_numpy_and_its_median_the_true_one():
     draws = np.random.default_rng(9).exponential(size=(4000, 59))
-    found = np.array([quantile_of(each, 0.8) for each in draws])
+    found = np.array([quantile_of(draw, 0.8) for draw in draws])
     assert found[:50] == pytest.approx(np.quantile(draws[:50], 0.8, axis=1, method="median_unbiased"))
     # Half of all estimates are below the true quantile of an exponential distribution, within 3 standard errors.
     assert (found < -np.log(0.2)).mean() == pytest.approx(0.5, abs=3.0 * 0.5 / np.sqrt(4000))

@@ -44,7 +44,7 @@ def test_every_material_with_strengths_has_moduli():
 
 
 def test_rigid_connections_have_no_moduli():
-    assert all(each.moduli is None for each in replace(ELASTIC, stiffness="rigid").joints())
+    assert all(joint.moduli is None for joint in replace(ELASTIC, stiffness="rigid").joints())
 
 
 @pytest.mark.parametrize(

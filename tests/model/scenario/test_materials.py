@@ -30,7 +30,7 @@ SCENARIO = replace(I235, materials=(LIKE_CONCRETE,), connections=BY_FACE)
 
 
 def stresses(strength):
-    return [getattr(strength, each.name) for each in fields(Strength)]
+    return [getattr(strength, field.name) for field in fields(Strength)]
 
 
 def test_own_strengths_and_moduli_are_what_connections_break_and_bend_by():
@@ -62,9 +62,9 @@ def test_a_factor_is_on_all_strengths_and_on_all_forces(factor):
     )
     settings = replace(BY_FACE, strength_factor=factor, between=between)
     own, force, steel, same = replace(SCENARIO, connections=settings).joints
-    assert stresses(own.strength) == [factor * each for each in stresses(MATERIALS["concrete"])]
+    assert stresses(own.strength) == [factor * stress for stress in stresses(MATERIALS["concrete"])]
     assert force.breaking_force_n == factor * 1000.0
-    assert stresses(steel.strength) == [factor * each for each in stresses(MATERIALS["steel"])]
+    assert stresses(steel.strength) == [factor * stress for stress in stresses(MATERIALS["steel"])]
     assert same.strength is own.strength
     by_force = replace(I235.connections, strength_factor=factor)
     assert replace(I235, connections=by_force).joints[0].breaking_force_n == pytest.approx(factor * 98_066.5)
@@ -73,7 +73,7 @@ def test_a_factor_is_on_all_strengths_and_on_all_forces(factor):
 def test_a_bridge_without_density_and_mass_has_the_density_of_its_material():
     given = prepared_members(replace(I235, bridge=replace(I235.bridge, mass_kg=None, density_kg_m3=2390.0)))
     found = prepared_members(replace(SCENARIO, bridge=replace(I235.bridge, mass_kg=None)))
-    assert [each.mass_kg for each in found.members] == [each.mass_kg for each in given.members]
+    assert [member.mass_kg for member in found.members] == [member.mass_kg for member in given.members]
     heavy = prepared_members(replace(SCENARIO, bridge=replace(I235.bridge, mass_kg=None, density_kg_m3=3000.0)))
     assert heavy.members[0].density_kg_m3 == 3000.0
 

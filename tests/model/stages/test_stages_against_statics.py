@@ -51,7 +51,7 @@ def chain_file(folder):
 def reaction_n(bridge, stage, support):
     """Force (3,) of a support on the bridge."""
     model = bridge.model
-    number = [each.name for each in model.members].index(support)
+    number = [member.name for member in model.members].index(support)
     ours = np.append(model.member_of_shard == number, False)[model.connections.pairs]
     forces = stage.standing.loads.forces_n
     return forces[ours[:, 1] & ~ours[:, 0]].sum(axis=0) - forces[ours[:, 0] & ~ours[:, 1]].sum(axis=0)

@@ -62,7 +62,7 @@ def test_bars_pull_at_their_depth():
 def test_only_the_member_that_is_named_has_bars_and_none_end_in_others():
     model = model_with(BOTTOM)
     members = np.append(model.member_of_shard, -1)[model.connections.pairs]
-    is_deck = np.array([each.kind == "deck" for each in model.members] + [False])[members].all(axis=1)
+    is_deck = np.array([member.kind == "deck" for member in model.members] + [False])[members].all(axis=1)
     assert (model.bars.yield_n[~is_deck] == 0.0).all()
 
 

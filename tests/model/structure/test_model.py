@@ -129,7 +129,7 @@ def test_members_rest_on_each_other_with_their_whole_area():
     model = model_of()
     between = model.connections.pairs[:, 1] != GROUND
     kinds = np.array([model.members[member].kind for member in model.member_of_shard])
-    met = [" on ".join(sorted(each)) for each in kinds[model.connections.pairs[between]]]
+    met = [" on ".join(sorted(kind)) for kind in kinds[model.connections.pairs[between]]]
     areas = {name: model.connections.areas[between][np.array(met) == name].sum() for name in set(met)}
     assert areas["deck on pier cap"] == pytest.approx(2 * 0.8 * 8.5, rel=AREA_TOLERANCE)
     assert areas["pier on pier cap"] == pytest.approx(4 * 0.7 * 0.7, rel=AREA_TOLERANCE)

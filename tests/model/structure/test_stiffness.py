@@ -35,7 +35,7 @@ DEPTH_M, WIDTH_M, HEIGHT_M = 1.0, 4.0, 20.0
 def upside_down(shards):
     """Shards of the slab, turned so that its top is its foot."""
     mirror = np.array((1.0, -1.0, -1.0))
-    return [TriangleMesh(each.vertices * mirror + (0.0, 0.0, HEIGHT_M), each.triangles) for each in shards]
+    return [TriangleMesh(shard.vertices * mirror + (0.0, 0.0, HEIGHT_M), shard.triangles) for shard in shards]
 
 
 def held_at_the_top(shards):

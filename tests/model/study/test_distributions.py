@@ -27,14 +27,14 @@ DEVIATION_OF_30_PERCENT = math.sqrt(math.log(1.0 + 0.3**2))
 
 def test_normal_quantiles_are_those_of_scipy_to_their_last_digits():
     probabilities = np.concatenate([PROBABILITIES, 10.0 ** -np.arange(1.0, 300.0, 0.7)])
-    found = [normal_quantile(float(each)) for each in probabilities]
+    found = [normal_quantile(float(probability)) for probability in probabilities]
     np.testing.assert_allclose(found, special.ndtri(probabilities), rtol=2e-15)
 
 
 def test_normal_probabilities_are_those_of_scipy():
     # The inverse of what has 16 digits: at -37 a digit of the value is 1e-13 of the probability.
     values = np.linspace(-37.0, 8.0, 400)
-    np.testing.assert_allclose([normal_probability(float(each)) for each in values], special.ndtr(values), rtol=1e-12)
+    np.testing.assert_allclose([normal_probability(float(value)) for value in values], special.ndtr(values), rtol=1e-12)
     assert normal_probability(0.0) == 0.5
     assert (normal_probability(-math.inf), normal_probability(math.inf)) == (0.0, 1.0)
 
@@ -54,7 +54,7 @@ def test_normal_probabilities_are_those_of_scipy():
     ],
 )
 def test_quantiles_are_those_of_scipy(own, of_scipy):
-    found = [own.quantile(float(each)) for each in PROBABILITIES]
+    found = [own.quantile(float(probability)) for probability in PROBABILITIES]
     np.testing.assert_allclose(found, of_scipy.ppf(PROBABILITIES), rtol=1e-13, atol=1e-13 * of_scipy.std())
     assert found == sorted(found)
 
@@ -77,7 +77,7 @@ def test_a_lognormal_distribution_is_cut_off_by_scaling_up_the_rest():
     first, last = whole.cdf([20.0, 50.0])
     shares = np.array(PROBABILITIES)
     expected = whole.ppf(first + shares * (last - first))
-    np.testing.assert_allclose([cut.quantile(float(each)) for each in shares], expected, rtol=1e-13)
+    np.testing.assert_allclose([cut.quantile(float(share)) for share in shares], expected, rtol=1e-13)
 
 
 def test_no_draw_of_a_normal_distribution_lies_beyond_its_ends():
@@ -89,7 +89,7 @@ def test_no_draw_of_a_normal_distribution_lies_beyond_its_ends():
 def test_all_values_of_a_choice_are_equally_likely():
     choice = Choice(("TNT", "PETN", "RDX"))
     found = [choice.quantile(float(each)) for each in (np.arange(3000) + 0.5) / 3000]
-    assert {each: found.count(each) for each in choice.values} == dict.fromkeys(choice.values, 1000)
+    assert {value: found.count(value) for value in choice.values} == dict.fromkeys(choice.values, 1000)
     assert choice.quantile(1.0 - LEAST_PROBABILITY) == "RDX"
 
 

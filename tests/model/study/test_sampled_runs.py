@@ -90,8 +90,8 @@ def test_a_draw_depends_neither_on_the_number_of_runs_nor_on_what_else_varies():
 
 def test_the_seed_of_the_fracture_is_drawn_even_where_nothing_varies():
     seeds = [sampled_run(study(), number).inputs for number in range(1, 101)]
-    assert {tuple(each) for each in seeds} == {(SEED,)}
-    assert len({each[SEED] for each in seeds}) == 100
+    assert {tuple(seed) for seed in seeds} == {(SEED,)}
+    assert len({seed[SEED] for seed in seeds}) == 100
 
 
 def test_draws_are_these_on_every_machine():

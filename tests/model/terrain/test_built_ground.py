@@ -77,7 +77,7 @@ def test_what_was_done_to_the_ground_is_told(model):
     assert facts.largest_error_m < 1e-6 and facts.filled_in_share == 0.0
     # The pads reach up to a cell of the grid beyond the columns, on either side.
     most = (COLUMN / 2 + 2 * facts.step_m) * (RISE_X + RISE_Y)
-    assert [each.name for each in facts.levelled] == [each.name for each in model.members if each.kind == "pier"]
+    assert [each.name for each in facts.levelled] == [member.name for member in model.members if member.kind == "pier"]
     for each in facts.levelled:
         assert 0.35 * RISE_X <= each.dug_m <= most and 0.35 * RISE_X <= each.filled_m <= most
     half = model.ground.terrain.bounds[1, 0]

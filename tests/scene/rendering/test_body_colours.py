@@ -97,7 +97,7 @@ def test_a_shaded_picture_keeps_hues_and_darkens_what_looks_away(hanging, tmp_pa
     for shaded in (False, True, False):
         contours_of(scene).show(replace(FRAME_BY_FRAME, shaded=shaded))
         pictures.append(render(scene, engine, tmp_path / "render.png"))
-    flat, shaded, again = (linear(each) for each in pictures)
+    flat, shaded, again = (linear(picture) for picture in pictures)
     assert np.array_equal(flat, again)
     dimmed = shaded / flat
     assert (dimmed < 0.97).all() and (dimmed > 0.2).all()
@@ -170,7 +170,7 @@ def test_a_file_saved_with_contours_can_be_put_back(hanging, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "with.blend"))
     scene = bpy.context.scene
     assert not contours_of(scene).is_shown
-    assert [tuple(each.color) for each in scene.rigidbody_world.collection.objects] == own
+    assert [tuple(obj.color) for obj in scene.rigidbody_world.collection.objects] == own
     show_materials(scene)
     assert scene.view_layers[0].material_override.name == "Red"
     assert scene.view_settings.view_transform == transform
@@ -281,7 +281,7 @@ def test_pictures_of_contours(hanging, tmp_path):
     assert (abs(rendered - highest).max(axis=1) <= ONE_LEVEL).sum() > 100  # the heavier block
     # The bar: a low and a high colour stand in the legend, the high one above the low.
     legend = pixels[:, : legend_width(180)]
-    ends = [np.argwhere(abs(legend - each).max(axis=2) < 0.02) for each in colours(ColourMap.VIRIDIS, [0.1, 0.9])]
+    ends = [np.argwhere(abs(legend - colour).max(axis=2) < 0.02) for colour in colours(ColourMap.VIRIDIS, [0.1, 0.9])]
     assert len(ends[0]) and len(ends[1]) and ends[1][:, 0].max() < ends[0][:, 0].min()
 
 

@@ -71,7 +71,7 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
         return np.median(picture[row - 2 : row + 3, column - 2 : column + 3])  # whatever outline crosses there
 
     (x, y, z), (end, _, top) = min(
-        (each.solid.bounds for each in model.members if each.kind == "pier"), key=lambda b: b[0, 1]
+        (member.solid.bounds for member in model.members if member.kind == "pier"), key=lambda b: b[0, 1]
     )
     # The ball of steel and the asphalt are dark, the cast side of a pier is light, and the soil lies between.
     ball, road, pier = (

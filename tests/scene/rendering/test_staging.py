@@ -38,15 +38,15 @@ def of_kind(scene, kind):
 
 
 def names(scene):
-    return {each.name for each in scene.objects}
+    return {obj.name for obj in scene.objects}
 
 
 def test_bodies_are_of_concrete_asphalt_steel_and_soil(blender):
     scene = blender.context.scene
     build(scene)
     (ball,), (ground,) = of_kind(scene, Kind.BALL), of_kind(scene, Kind.GROUND)
-    assert [each.name for each in ball.data.materials] == ["Steel"] and ball.data.materials[0].metallic > 0.5
-    assert [each.name for each in ground.data.materials] == ["Soil"]
+    assert [material.name for material in ball.data.materials] == ["Steel"] and ball.data.materials[0].metallic > 0.5
+    assert [material.name for material in ground.data.materials] == ["Soil"]
     shards = of_kind(scene, Kind.SHARD)
     cast, broken, road = shards[0].data.materials
     assert all(list(shard.data.materials) == [cast, broken, road] for shard in shards)
@@ -64,12 +64,12 @@ def test_what_blender_starts_with_is_hidden_and_comes_back(startup, blender):
     build(startup)
     assert all(each.hide_render and not each.visible_get() for each in (cube, lamp, camera))
     assert startup.camera.name == "Bridge camera" and startup.world.name == "Sky"
-    suns = [each for each in startup.objects if each.type == "LIGHT" and each.data.type == "SUN"]
+    suns = [obj for obj in startup.objects if obj.type == "LIGHT" and obj.data.type == "SUN"]
     assert len(suns) == 1
     remove_demolition(startup)
     assert names(startup) == before and startup.camera == camera and startup.world == world
     assert all(not each.hide_render and each.visible_get() for each in (cube, lamp, camera))
-    assert not {each.name for each in blender.data.materials} - {"Material", "Dots Stroke"}
+    assert not {material.name for material in blender.data.materials} - {"Material", "Dots Stroke"}
     assert [each.name for each in blender.data.worlds] == ["World"]
     assert not blender.data.lights.get("Sun") and not blender.data.cameras.get("Bridge camera")
 
@@ -82,7 +82,7 @@ def test_what_the_user_has_changed_is_left_alone(startup, blender):
     build(startup)
     assert cube.visible_get() and not cube.hide_render
     assert startup.camera == camera and startup.world == sky
-    (collection,) = (each for each in startup.collection.children if each.name == "Surroundings")
+    (collection,) = (child for child in startup.collection.children if child.name == "Surroundings")
     kept = blender.data.objects.new("Mine", None)
     collection.objects.link(kept)
     remove_demolition(startup)
@@ -94,9 +94,9 @@ def test_building_twice_leaves_one_sun_one_camera_and_one_sky(startup, blender):
     with blender.context.temp_override(scene=startup):
         blender.ops.rigidbody.world_remove()  # as the user may do by Blender's own button
     build(startup)
-    found = [each for each in startup.objects if each.type in ("LIGHT", "CAMERA")]
+    found = [obj for obj in startup.objects if obj.type in ("LIGHT", "CAMERA")]
     assert sorted(each.name.split(".")[0] for each in found) == ["Bridge camera", "Camera", "Light", "Sun"]
-    assert sorted(each.name for each in blender.data.worlds) == ["Sky", "World"]
+    assert sorted(world.name for world in blender.data.worlds) == ["Sky", "World"]
     assert startup.camera.name == "Bridge camera"
 
 

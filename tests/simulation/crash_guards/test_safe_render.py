@@ -111,4 +111,6 @@ def test_nothing_is_left_when_switched_off(blender):
     bridge_demolition_addon.register()
     bridge_demolition_addon.unregister()
     lists = (getattr(blender.app.handlers, name) for name in ("render_init", "render_complete", "render_cancel"))
-    assert not any(each.__module__.startswith("bridge_demolition_addon") for handlers in lists for each in handlers)
+    assert not any(
+        handler.__module__.startswith("bridge_demolition_addon") for handlers in lists for handler in handlers
+    )

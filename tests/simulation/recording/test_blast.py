@@ -126,8 +126,8 @@ def test_nothing_stays_switched_on(blender, tmp_path, apply):
     assert speeds[-1] > speeds[-2] > 0.0
     graph = blender.context.view_layer.depsgraph
     fields = force_objects(blocks.scene).values()
-    assert [each.field.strength for each in fields] == [0.0] * len(fields)
-    assert [each.evaluated_get(graph).field.strength for each in fields] == [0.0] * len(fields)
+    assert [field.field.strength for field in fields] == [0.0] * len(fields)
+    assert [field.evaluated_get(graph).field.strength for field in fields] == [0.0] * len(fields)
     places = []
     for frame in range(15, 25):
         blocks.scene.frame_set(frame)

@@ -105,6 +105,6 @@ def test_objects_are_refused(tmp_path):
 def test_blocks_put_together_are_the_array(shape):
     values = np.arange(np.prod(shape)).reshape(shape)
     blocks = list(blocks_of(values))
-    assert all(each.size <= 1 << 18 or len(each) == 1 for each in blocks)
+    assert all(block.size <= 1 << 18 or len(block) == 1 for block in blocks)
     if values.size:
         assert np.array_equal(np.concatenate(blocks), np.atleast_1d(values))

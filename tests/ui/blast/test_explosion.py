@@ -34,7 +34,7 @@ def test_choosing_a_charge_selects_it(extension, settings):
     for _ in range(3):
         extension.ops.bda.add_source_point()
     settings.charge_index = 1
-    assert [each.name for each in extension.context.selected_objects] == ["Charge 2"]
+    assert [selected_object.name for selected_object in extension.context.selected_objects] == ["Charge 2"]
     assert extension.context.view_layer.objects.active.name == "Charge 2"
 
 
@@ -56,7 +56,7 @@ def test_deleting_takes_the_chosen_one_and_chooses_the_next(extension, settings)
         extension.ops.bda.add_source_point()
     settings.charge_index = 1
     extension.ops.bda.delete_source_point()
-    assert [each.name for each in charge_objects(extension.context.scene)] == ["Charge 1", "Charge 3"]
+    assert [charge_object.name for charge_object in charge_objects(extension.context.scene)] == ["Charge 1", "Charge 3"]
     assert settings.charge_index == 1
     for _ in range(2):
         extension.ops.bda.delete_source_point()
@@ -75,13 +75,13 @@ def test_properties_of_a_charge_have_limits_and_tooltips(extension):
 def test_charges_keep_their_order_whatever_their_names(extension):
     for _ in range(11):
         extension.ops.bda.add_source_point()
-    assert [each.name for each in charges_of(extension.context.scene)] == [f"Charge {n}" for n in range(1, 12)]
+    assert [charge.name for charge in charges_of(extension.context.scene)] == [f"Charge {n}" for n in range(1, 12)]
 
 
 def test_total_mass_is_that_of_all_active_bodies_but_the_ball(built, settings):
     bodies = built.context.scene.rigidbody_world.collection.objects
-    ball = next(each for each in bodies if "ball" in each.name)
-    expected = sum(each.rigid_body.mass for each in bodies if each.rigid_body.type == "ACTIVE" and each != ball)
+    ball = next(body for body in bodies if "ball" in body.name)
+    expected = sum(body.rigid_body.mass for body in bodies if body.rigid_body.type == "ACTIVE" and body != ball)
     # The deck is 9 m x 4 m x 0.4 m, and each of two piers 0.8 m x 2 m x 3 m, of 2400 kg/m³.
     assert expected == pytest.approx(2400 * (9 * 4 * 0.4 + 2 * 0.8 * 2 * 3), rel=1e-5)
     built.ops.bda.show_total_mass()
@@ -91,7 +91,7 @@ def test_total_mass_is_that_of_all_active_bodies_but_the_ball(built, settings):
 def test_every_active_body_gets_a_force_object_once(built):
     for _ in range(2):
         built.ops.bda.build_force_objects()
-    fields = [each for each in built.context.scene.objects if each.field and each.field.type == "FORCE"]
+    fields = [obj for obj in built.context.scene.objects if obj.field and obj.field.type == "FORCE"]
     assert len(fields) == 31
 
 

@@ -134,7 +134,7 @@ def test_switching_the_add_on_off_puts_everything_back(blender, tmp_path):
     assert ours_in_handlers() == 0
     assert blocks.scene.view_layers[0].material_override is None
     assert blocks.scene.view_settings.view_transform == transform
-    assert not [each for each in blender.data.materials if each.name.startswith("Contours")]
+    assert not [material for material in blender.data.materials if material.name.startswith("Contours")]
 
 
 @pytest.mark.parametrize(

@@ -45,7 +45,7 @@ def test_a_search_is_stopped_gone_on_with_and_told(blender, panel, tmp_path):
     table = read_runs(folder / "trials.csv")
     assert table.rows[: len(kept)] == kept.rows and len(table) == 8
     heights = [row.inputs["ball.drop_height_m"] for row in table.rows]
-    assert all(0.05 <= each <= 0.1 for each in heights) and len(set(heights)) > 1
+    assert all(0.05 <= height <= 0.1 for height in heights) and len(set(heights)) > 1
     assert json.loads((folder / "search.json").read_text(encoding="utf-8"))["successes"] == 0
     told = drawn(blender, PANELS)
     assert "0 of 8 runs met all criteria: the criteria were never met in the range." in told

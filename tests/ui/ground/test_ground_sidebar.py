@@ -151,7 +151,7 @@ def test_a_site_plan_lies_as_wide_and_turned_as_asked(built, extension, tmp_path
     assert corners[0] == pytest.approx((-20.0, 20.0, 0.01), abs=1e-4)  # lower left: a quarter of 80 m to the left
     assert not plan.rigid_body
     assert bpy.ops.bda.lay_site_plan() == {"FINISHED"}
-    assert [each.name for each in built.objects if each.name.startswith("Site plan")] == ["Site plan"]
+    assert [obj.name for obj in built.objects if obj.name.startswith("Site plan")] == ["Site plan"]
     (tmp_path / "none.png").write_text("no picture")
     settings.plan_picture = str(tmp_path / "none.png")
     with pytest.raises(RuntimeError, match=r"none\.png"):
@@ -161,10 +161,10 @@ def test_a_site_plan_lies_as_wide_and_turned_as_asked(built, extension, tmp_path
 
 def test_dust_is_off_and_renders_where_it_is_raised(ran, extension, tmp_path):
     bpy = extension
-    assert not [each for each in ran.objects if each.name.startswith("Dust")]
+    assert not [obj for obj in ran.objects if obj.name.startswith("Dust")]
     before = json.loads((tmp_path / "run" / "summary.json").read_text())["fingerprint"]
     assert bpy.ops.bda.raise_dust() == {"FINISHED"}
-    clouds = [each for each in ran.objects if each.name.startswith("Dust")]
+    clouds = [obj for obj in ran.objects if obj.name.startswith("Dust")]
     assert clouds and not any(each.rigid_body or each.particle_systems for each in clouds)
     ran.render.engine, ran.cycles.samples, ran.cycles.use_denoising = "CYCLES", 4, False
     ran.render.resolution_x, ran.render.resolution_y = 96, 54
@@ -182,7 +182,7 @@ def test_dust_is_off_and_renders_where_it_is_raised(ran, extension, tmp_path):
     # The noise of both is the same: without clouds, no pixel differs. With them 20 and more do, by version of Blender.
     assert (abs(pictures[0] - pictures[1]).max(axis=2) > 0.05).sum() > 10
     assert bpy.ops.bda.settle_dust() == {"FINISHED"}
-    assert not [each for each in ran.objects if each.name.startswith("Dust")]
+    assert not [obj for obj in ran.objects if obj.name.startswith("Dust")]
     ran.bda.overwrite = True
     assert bpy.ops.bda.run() == {"FINISHED"}
     assert json.loads((tmp_path / "run" / "summary.json").read_text())["fingerprint"] == before
@@ -203,7 +203,7 @@ def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, ex
     marked = {marker.name: marker.frame for marker in ran.timeline_markers}
     first = int(frames.number[(~frames.intact).any(axis=1).argmax()])
     assert marked["First break"] == first
-    assert {each.name for each in SHORT.charges} <= set(marked)
+    assert {charge.name for charge in SHORT.charges} <= set(marked)
     assert "Release" not in marked  # there is no ball
     ran.bda.overwrite = True
     assert extension.ops.bda.run() == {"FINISHED"}

@@ -26,12 +26,12 @@ def test_an_imported_bridge_is_shown_built_and_stands(extension, settings, tmp_p
     settings.scenario.shards.start_deactivated = False
     assert extension.ops.bda.build_scenario() == {"FINISHED"}
     scene = extension.context.scene
-    shards = [each for each in bodies_of(scene) if kind_of(each) == Kind.SHARD]
-    assert sum(each.rigid_body.mass for each in shards) == pytest.approx(MASS_KG, rel=_SINGLE)
-    start = {each.name: each.matrix_world.translation.copy() for each in shards}
+    shards = [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
+    assert sum(shard.rigid_body.mass for shard in shards) == pytest.approx(MASS_KG, rel=_SINGLE)
+    start = {shard.name: shard.matrix_world.translation.copy() for shard in shards}
     for frame in range(1, 7):
         scene.frame_set(frame)
-    moved = [(each.matrix_world.translation - start[each.name]).length for each in shards]
+    moved = [(shard.matrix_world.translation - start[shard.name]).length for shard in shards]
     assert max(moved) < 0.01  # 5 frames of free fall are 0.21 m
 
 

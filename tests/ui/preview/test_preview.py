@@ -19,7 +19,7 @@ def lines(settings):
 def handle_texts(scene):
     from bridge_demolition_addon.ui.preview.handles import handles
 
-    return [each.name for each in handles(scene)]
+    return [handle.name for handle in handles(scene)]
 
 
 def test_the_preview_follows_the_sizes_and_makes_no_data(settings, lines, extension):
@@ -56,7 +56,7 @@ def test_dragging_sets_target_and_drop_height_and_the_panels_say_what_was_built(
     assert drag(kind="DROP", is_upright=True, place_m=(9.0, 9.0, top + 2.5)) == {"FINISHED"}
     assert ball.drop_height_m == pytest.approx(2.5)
     assert tuple(ball.target_m) == pytest.approx((3.12, -0.5))
-    assert [each.key for each in changes(settings)] == ["ball.target_m", "ball.drop_height_m"]
+    assert [change.key for change in changes(settings)] == ["ball.target_m", "ball.drop_height_m"]
     assert drag(kind="DROP", is_upright=True, place_m=(0.0, 0.0, 0.0)) == {"FINISHED"}
     assert ball.drop_height_m == pytest.approx(0.01)  # within the limits of a scenario
 

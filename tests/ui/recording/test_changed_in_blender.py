@@ -120,7 +120,7 @@ def summary_in(folder):
 
 def test_every_setting_of_time_is_tried():
     taken_at_run = {"stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s"}
-    assert {f"time.{each.name}" for each in fields(TimeSettings) if each.name not in taken_at_run} <= set(CHANGES)
+    assert {f"time.{field.name}" for field in fields(TimeSettings) if field.name not in taken_at_run} <= set(CHANGES)
 
 
 @pytest.mark.parametrize("key", CHANGES)
@@ -181,7 +181,7 @@ def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, c
     first_line = (folder / "scenario_as_run.toml").read_text(encoding="utf-8").splitlines()[0]
     assert first_line.startswith("# Changed in Blender, and not in this scenario: ") and what in first_line
     assert scenario_text(read_scenario(folder / "scenario_as_run.toml")) == settings.built_scenario
-    assert any(what in each for each in read_run(folder).shortcomings)
+    assert any(what in shortcoming for shortcoming in read_run(folder).shortcomings)
 
 
 def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(extension, settings, tmp_path):

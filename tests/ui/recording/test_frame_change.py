@@ -175,7 +175,7 @@ def test_results_lead_to_body_and_frame(built, tmp_path):
     largest = summary["largest_resultant"]
     built.ops.bda.go_to_body(body=largest["body"], frame=largest["frame"])
     assert built.context.scene.frame_current == largest["frame"]
-    assert [each.name for each in built.context.selected_objects] == [largest["body"]]
+    assert [selected_object.name for selected_object in built.context.selected_objects] == [largest["body"]]
     assert built.context.view_layer.objects.active.name == largest["body"]
     with pytest.raises(RuntimeError, match="not in this scene any more"):
         built.ops.bda.go_to_body(body="Shard 99999", frame=1)
@@ -233,7 +233,7 @@ def test_charts_are_drawn_into_the_folder(built, tmp_path):
     record(built)
     built.ops.bda.draw_charts()
     charts = sorted((tmp_path / "results" / "charts").glob("*.png"))
-    assert [each.name for each in charts] == ["force_over_time.png"], "a ball is nothing to choose charges by"
+    assert [chart.name for chart in charts] == ["force_over_time.png"], "a ball is nothing to choose charges by"
     assert charts[0].read_bytes().startswith(b"\x89PNG")
 
 
@@ -244,5 +244,5 @@ def test_charts_to_choose_charges_by_are_drawn_where_there_were_charges(built, s
     settings.scenario.blast.start_s = 0.2
     record(built)
     built.ops.bda.draw_charts()
-    charts = {each.name for each in (tmp_path / "results" / "charts").glob("*.png")}
+    charts = {path.name for path in (tmp_path / "results" / "charts").glob("*.png")}
     assert "force_over_time.png" in charts and len(charts) > 1

@@ -99,7 +99,7 @@ def explode(extension, scene):
     scene.bda.scenario.blast.explosion = True
     scene.bda.scenario.blast.start_s = 0.1
     extension.ops.bda.build_force_objects()
-    return next(each for each in extension.data.objects if "bda_mass_kg" in each)
+    return next(obj for obj in extension.data.objects if "bda_mass_kg" in obj)
 
 
 @pytest.mark.parametrize("overwrite", [False, True])

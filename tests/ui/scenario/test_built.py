@@ -126,7 +126,7 @@ def test_building_anew_and_running_is_one_step(built, settings, tmp_path):
     settings.scenario.time.duration_s = 0.5
     settings.scenario.ball.release_time_s = 0.1
     assert built.ops.bda.run(build_anew=True) == {"FINISHED"}
-    ball = next(each for each in built.context.scene.rigidbody_world.collection.objects if "ball" in each.name)
+    ball = next(obj for obj in built.context.scene.rigidbody_world.collection.objects if "ball" in obj.name)
     assert ball.rigid_body.mass == 5000.0
     assert read_scenario(tmp_path / "results" / "scenario_as_run.toml") == scenario_of(settings)
     summary = json.loads((tmp_path / "results" / "summary.json").read_text(encoding="utf-8"))
@@ -142,10 +142,10 @@ def test_a_run_that_is_refused_has_changed_no_objects(built, settings, spoilt, s
         settings[spoilt] = "//results"
     else:
         built.context.scene.rigidbody_world.constraints.objects[0]["bda_area_m2"] = ""
-    before = {each.name: each.session_uid for each in built.data.objects}
+    before = {obj.name: obj.session_uid for obj in built.data.objects}
     with pytest.raises(RuntimeError, match=said):
         built.ops.bda.run(build_anew=spoilt is not None)
-    assert {each.name: each.session_uid for each in built.data.objects} == before
+    assert {obj.name: obj.session_uid for obj in built.data.objects} == before
 
 
 def test_a_run_without_frames_has_changed_no_objects(extension, settings):
@@ -162,7 +162,7 @@ def test_a_run_without_frames_has_changed_no_objects(extension, settings):
 
 def test_build_anew_leaves_everything_where_it_is_refused(built, settings):
     settings.scenario.ball.target_m = (1000.0, 0.0)
-    before = sorted(each.name for each in built.data.objects)
+    before = sorted(obj.name for obj in built.data.objects)
     with pytest.raises(RuntimeError, match=r"ball\.target_m\[0\]"):
         built.ops.bda.build_anew()
     mine = built.data.objects.new("Mine", built.data.meshes.new("Mine"))
@@ -170,7 +170,7 @@ def test_build_anew_leaves_everything_where_it_is_refused(built, settings):
     settings.scenario.ball.target_m = (1.0, 0.0)
     with pytest.raises(RuntimeError, match="1 bodies that were not built here, such as 'Mine'"):
         built.ops.bda.build_anew()
-    assert sorted(each.name for each in built.data.objects) == sorted([*before, "Mine"])
+    assert sorted(obj.name for obj in built.data.objects) == sorted([*before, "Mine"])
 
 
 def test_values_are_set_back_and_those_of_the_run_stay(built, settings, tmp_path):

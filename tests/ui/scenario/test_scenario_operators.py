@@ -12,7 +12,7 @@ EXAMPLE = EXAMPLES / "single_span_explosives.toml"
 
 
 def names(bpy):
-    return sorted(each.name for each in bpy.data.objects)
+    return sorted(obj.name for obj in bpy.data.objects)
 
 
 def test_loading_shows_the_file_and_its_charges_and_builds_nothing(extension, settings):
@@ -86,7 +86,7 @@ def test_presets_are_shown_and_can_be_built(extension, settings, path):
     settings.scenario.fracture.shards = 40
     extension.ops.bda.build_scenario()
     bodies = extension.context.scene.rigidbody_world.collection.objects
-    assert len([each for each in bodies if each.name.startswith("Shard")]) == 40
+    assert len([body for body in bodies if body.name.startswith("Shard")]) == 40
 
 
 def test_a_preset_that_is_not_there_changes_nothing(extension, settings):
@@ -125,7 +125,7 @@ def test_building_keeps_the_charges_that_are_there(extension, settings):
     charge = extension.context.scene.objects["West pier"]
     charge.location.x = 0.25
     extension.ops.bda.build_scenario()
-    charges = [each for each in extension.context.scene.objects if "bda_mass_kg" in each]
+    charges = [obj for obj in extension.context.scene.objects if "bda_mass_kg" in obj]
     assert [each.name for each in charges] == ["West pier", "East pier", "Mid span"]
     assert charges[0] == charge and charge.location.x == 0.25
 

@@ -46,7 +46,7 @@ def registered():
 
 def property_of(table, name):
     # Every group of Blender's has a name of its own, listed before ours, which takes its place.
-    return [each for each in registered_group(group_name(table)).bl_rna.properties if each.identifier == name][-1]
+    return [prop for prop in registered_group(group_name(table)).bl_rna.properties if prop.identifier == name][-1]
 
 
 def tables_within(table):

@@ -15,16 +15,16 @@ NUMBERS = ("FLOAT", "INT")
 def groups(extension):
     """All property groups of the sidebar: of the settings, of scenario and study, and of their lists."""
     found = [extension.types.Scene.bl_rna.properties["bda"].fixed_type]
-    found += [registered_group(group_name(each)).bl_rna for each in all_tables()]
+    found += [registered_group(group_name(table)).bl_rna for table in all_tables()]
     return found
 
 
 def shown_properties(extension):
     return [
-        (group.identifier, each)
+        (group.identifier, prop)
         for group in groups(extension)
-        for each in group.properties
-        if each.identifier not in ("rna_type", "name", "given") and not each.is_hidden
+        for prop in group.properties
+        if prop.identifier not in ("rna_type", "name", "given") and not prop.is_hidden
     ]
 
 
@@ -37,7 +37,7 @@ def test_every_field_has_a_tooltip(extension):
 def test_every_number_says_a_value(extension):
     """In digits; of keys, that it is a value which they take is seen below."""
     numbers = [(group, each) for group, each in shown_properties(extension) if each.type in NUMBERS]
-    numbers = [each for each in numbers if not each[1].identifier.endswith("_index")]
+    numbers = [number for number in numbers if not number[1].identifier.endswith("_index")]
     silent = [f"{group}.{each.identifier}" for group, each in numbers if not re.search(r"\d", each.description)]
     assert silent == []
 

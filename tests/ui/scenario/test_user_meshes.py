@@ -39,7 +39,7 @@ def test_selected_meshes_are_built_as_members(extension, settings, objects, tmp_
     folder = tmp_path / "members"
     assert extension.ops.bda.add_selected_members(directory=str(folder), density_kg_m3=2500.0) == {"FINISHED"}
     assert sorted(path.name for path in folder.iterdir()) == ["deck.ply", "east wall.ply", "west wall.ply"]
-    assert all(each.hide_get() for each in objects)
+    assert all(obj.hide_get() for obj in objects)
     model = build_model(scenario_of(settings))
     masses = {member.name: member.mass_kg for member in model.members}
     # Blender keeps single precision of some metres.
@@ -63,8 +63,8 @@ def test_the_default_bridge_is_built_too_only_where_that_was_said(extension, set
 def test_the_saved_scenario_needs_no_objects(extension, settings, objects, tmp_path):
     extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"))
     extension.ops.bda.save_scenario(filepath=str(tmp_path / "saved.toml"))
-    for each in objects:
-        extension.data.objects.remove(each)
+    for obj in objects:
+        extension.data.objects.remove(obj)
     model = build_model(read_scenario(tmp_path / "saved.toml"))
     assert sum(member.mass_kg for member in model.members) == pytest.approx(2400 * 36, rel=1e-5)
 
@@ -88,14 +88,14 @@ def test_what_cannot_be_a_member_changes_nothing(extension, settings, objects, t
     with pytest.raises(RuntimeError, match="lamp: is of type LIGHT"):
         extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"))
     assert not (tmp_path / "members").exists() and not len(settings.scenario.geometry)
-    assert not any(each.hide_get() for each in objects)
+    assert not any(obj.hide_get() for obj in objects)
 
 
 def test_files_of_others_are_not_overwritten(extension, settings, objects, tmp_path):
     (tmp_path / "deck.ply").write_text("mine")
     with pytest.raises(RuntimeError, match=r"deck\.ply: exists already"):
         extension.ops.bda.add_selected_members(directory=str(tmp_path))
-    assert (tmp_path / "deck.ply").read_text() == "mine" and [each.name for each in tmp_path.iterdir()] == ["deck.ply"]
+    assert (tmp_path / "deck.ply").read_text() == "mine" and [path.name for path in tmp_path.iterdir()] == ["deck.ply"]
 
 
 def test_a_folder_beside_a_file_without_a_place_is_refused(extension, objects):
@@ -104,8 +104,8 @@ def test_a_folder_beside_a_file_without_a_place_is_refused(extension, objects):
 
 
 def test_nothing_selected(extension, objects):
-    for each in objects:
-        each.select_set(False)
+    for obj in objects:
+        obj.select_set(False)
     with pytest.raises(RuntimeError, match="Select the meshes"):
         extension.ops.bda.add_selected_members(directory="/tmp")
 
