@@ -79,7 +79,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("cases", nargs="*", choices=[[], *CASES], metavar="CASE", help="cases: " + ", ".join(CASES))
     parser.add_argument("--output", type=Path, metavar="DIR", help="keep scenarios and results here")
     parser.add_argument("--keep", action="store_true", help="write what the named cases come to into the document")
-    parser.add_argument("--page", action="store_true", help="write the document anew from what was kept; run nothing")
+    parser.add_argument("--page", action="store_true", help="write the document again from what was kept; run nothing")
     return parser.parse_args(arguments)
 
 

@@ -258,7 +258,7 @@ class BulletWorld:
     def take_out_edited(self) -> list[bpy.types.Object]:
         """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
 
-        Blender copies an edited object anew. It frees the constraint of the former copy, makes another, and forgets to
+        Blender copies an edited object again. It frees the constraint of the former copy, makes another, and forgets to
         take the first one out. To be called before Blender updates anything.
 
         Raises

@@ -24,7 +24,7 @@ def has_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
 
 
 def hide_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene, hidden: bool) -> None:
-    """Hide the connections and force objects from view, or show them; they work all the same."""
+    """Hide the connections and force fields from view, or show them; they work all the same."""
     for collection in _collections(layer, scene):
         collection.hide_viewport = hidden
     for each in _loose(layer, scene):

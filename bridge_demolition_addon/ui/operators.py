@@ -84,7 +84,7 @@ def no_world(context: bpy.types.Context) -> str | None:
 
 def recording_runs(_context: bpy.types.Context) -> str | None:
     """Return a sentence where a recording runs, else None."""
-    return "A recording runs: unregister its handler first" if running_recording() else None
+    return "A recording runs: stop it first" if running_recording() else None
 
 
 def other_mode(context: bpy.types.Context) -> str | None:

@@ -37,7 +37,7 @@ def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: 
 
 
 def redraw_sidebars(context: bpy.types.Context) -> None:
-    """Have the sidebars of all 3D views drawn anew."""
+    """Have the sidebars of all 3D views drawn again."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             for region in area.regions:

@@ -22,7 +22,7 @@ def steps(person: Person) -> Steps:
     yield 0.5
     person.expect("the box is ticked", person.scene.bda.contours)
     results = person.folder / "results"
-    yield from panels.show_only("Frame Change Event Handler")
+    yield from panels.show_only("Record")
     yield from register(person, results)
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield from play_or_pause(person)

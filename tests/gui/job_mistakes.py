@@ -23,7 +23,7 @@ def press_greyed_buttons(person: Person) -> Steps:
         "bda.load_scenario": "Choose a scenario file first",
         "bda.import_ifc": "IFC is read by IfcOpenShell",  # which the extension does not bring
         "bda.register_handler": "build a scenario first",
-        "bda.unregister_handler": "No handler is registered",
+        "bda.unregister_handler": "No recording runs",
     }
     for button, reason in reasons.items():
         person.expect(f"{button} is greyed with a reason", reason in person.refusal(button))

@@ -21,7 +21,7 @@ def steps(person: Person) -> Steps:
     yield from delete_all(person)
     yield from panels.widen(160)
     yield from build(person, SCENARIO)
-    yield from panels.show_only("Frame Change Event Handler")
+    yield from panels.show_only("Record")
     person.expect_reports("nothing but the building is reported", "Deleted 3 object", f"{SHARDS} shards")
     yield from stop_with_escape(person)
     yield from run_to_the_end(person)

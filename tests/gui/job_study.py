@@ -187,7 +187,7 @@ def run_the_worst_draw(person: Person, panels: Panels) -> Steps:
     person.expect_reports("the worst draw is reported", f"Run {worst['run']}, whose debris distance is")
     height = person.scene.bda.scenario.ball.drop_height_m
     person.expect("the panels show its height", math.isclose(height, float(worst[f"in.{HEIGHT_KEY}"]), rel_tol=1e-6))
-    yield from panels.show_only("Frame Change Event Handler")
+    yield from panels.show_only("Record")
     results = person.folder / "worst"
     yield from person.fill_in("output_directory", str(results))
     yield from person.click("bda.run")

@@ -153,7 +153,7 @@ def out_of_sight(person: Person) -> list[tuple[float, ...]]:
 
 
 def place_charges(person: Person, panels: Panels) -> Steps:
-    """Add Source Point, at the 3D cursor; edit the row of the list; drag it; a second; and a third, to be deleted."""
+    """Add Charge, at the 3D cursor; edit the row of the list; drag it; a second; and a third, to be deleted."""
     scene = person.scene
     yield from panels.show_only("Explosion")
     yield from person.click("bda.add_source_point")
@@ -200,10 +200,10 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     yield from panels.widen(-WIDER_PX)
 
     yield from person.click("bda.build_force_objects")
-    person.expect_reports("every shard gets a force object", f"{SHARDS} force objects made, 0 kept")
+    person.expect_reports("every shard gets a force field", f"{SHARDS} force fields made, 0 kept")
     yield from person.click("bda.show_total_mass")
     mass = f"{VOLUME_M3 * DENSITY_KG_M3:,.0f}".replace(",", " ")
-    person.expect_reports("the total mass is that by hand", f"Total mass of particles: {mass} kg")
+    person.expect_reports("the total mass is that by hand", f"Total mass: {mass} kg")
     if not person.scene.bda.scenario.blast.explosion:
         yield from person.click("explosion")
     person.expect("Explosion is ticked", person.scene.bda.scenario.blast.explosion)
@@ -252,7 +252,7 @@ def type_place(person: Person) -> Steps:
 
 
 def choose_logs(person: Person, panels: Panels) -> Steps:
-    """Set Debris Log Filepath and Set Force Log Filepath, in the file browser."""
+    """Choose Debris Log and Choose Force Log, in the file browser."""
     yield from panels.show_only("Post Processing")
     for name in ("debris", "force"):
         file = person.folder / f"my_{name}_log.csv"
@@ -268,8 +268,8 @@ def choose_logs(person: Person, panels: Panels) -> Steps:
 
 
 def record(person: Person, panels: Panels) -> Steps:
-    """Register Handler, and play; contours and colour bar meanwhile."""
-    yield from panels.show_only("Frame Change Event Handler")
+    """Start Recording, and play; contours and colour bar meanwhile."""
+    yield from panels.show_only("Record")
     yield from register(person, person.folder / "results")
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield 1.0  # Blender moves the panels below slowly
@@ -426,7 +426,7 @@ def hide_and_undo(person: Person, panels: Panels) -> Steps:
     """Show Connections and Forces; undo that; show them again, and hide them."""
     yield from panels.toggle_inner(0, "bda.load_results")
     every = hidden_symbols(person)
-    person.expect("connections and force objects are hidden at first", len(every) > SHARDS)
+    person.expect("connections and force fields are hidden at first", len(every) > SHARDS)
     person.expect("charges are seen", all(bpy.data.objects[name].visible_get() for name in (WEST, EAST)))
     yield from person.click("bda.toggle_symbols")
     yield 0.5
@@ -447,7 +447,7 @@ def hide_and_undo(person: Person, panels: Panels) -> Steps:
 
 
 def hidden_symbols(person: Person) -> set[str]:
-    """Names of the connections and force objects that are not seen."""
+    """Names of the connections and force fields that are not seen."""
     empties = [obj for obj in person.scene.objects if obj.type == "EMPTY" and obj.name not in (WEST, EAST)]
     return {empty.name for empty in empties if not empty.visible_get(view_layer=person.window.view_layer)}
 

@@ -5,7 +5,7 @@ from person import NOTCHES, Person, Steps
 
 PANELS = (
     *("Scenario", "Bridge", "Fracture", "Connections", "Shards", "Ball and Sequence"),
-    *("Explosion", "Frame Change Event Handler", "Post Processing", "Results", "Report", "Stages", "Study", "Search"),
+    *("Explosion", "Record", "Post Processing", "Results", "Report", "Stages", "Study", "Search"),
 )
 """From the top of the tab to its bottom."""
 

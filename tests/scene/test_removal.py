@@ -96,7 +96,7 @@ def test_a_scene_without_bodies_has_nothing_to_remove(blender):
 
 
 def test_the_world_goes_with_the_collection_that_it_has_by_then(blender):
-    """Any collection can be chosen in Blender's own panel, also that of the force objects, which goes when empty."""
+    """Any collection can be chosen in Blender's own panel, also that of the force fields, which goes when empty."""
     scene = blender.context.scene
     scenario = replace(read_scenario(EXAMPLES / "single_span_explosives.toml"), fracture=SPAN.fracture)
     scenario = replace(scenario, blast=replace(scenario.blast, apply="fields"))

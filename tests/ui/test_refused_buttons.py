@@ -33,7 +33,7 @@ IN_A_LINKED_SCENE = {
     "stop_optimise": "No optimisation is at work",
     "stop_search": "No search is at work",
     "stop_study": "No study is at work",
-    "unregister_handler": "No handler is registered",
+    "unregister_handler": "No recording runs",
 }
 """What buttons say that only look at a scene; all others change it."""
 

@@ -126,7 +126,7 @@ def _span(results: Results, ground: RecordedGround, name: str, bodies: np.ndarra
 
 
 def _above(ground: RecordedGround, places: np.ndarray) -> np.ndarray:
-    """Heights (k, b) of places (k, b, 3) above the ground below each; looked up anew only where a body has moved."""
+    """Heights (k, b) of places (k, b, 3) above the ground below each; looked up again only where a body has moved."""
     if ground.is_flat:
         return places[..., 2]
     moved = np.ones(places.shape[:2], bool)

@@ -26,7 +26,7 @@ _FLOAT32 = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class BuildCount:
-    """How many force objects were made, kept and removed."""
+    """How many force fields were made, kept and removed."""
 
     made: int
     kept: int
@@ -34,7 +34,7 @@ class BuildCount:
 
 
 def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Object]) -> BuildCount:
-    """Give each body one force object, and remove those of bodies that are gone."""
+    """Give each body one force field, and remove those of bodies that are gone."""
     pushed = [body for body in bodies if body.rigid_body.type == "ACTIVE"]
     if not pushed:
         raise SimulationError("no active body to push: give the bridge's shards an active rigid body first")
@@ -48,12 +48,12 @@ def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Objec
 
 
 def force_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
-    """The collection that force objects are in, where there is one."""
+    """The collection that force fields are in, where there is one."""
     return find_collection(scene, _ROLE)
 
 
 def force_objects(scene: bpy.types.Scene) -> dict[bpy.types.Object, bpy.types.Object]:
-    """The force object of each body that has one."""
+    """The force field of each body that has one."""
     return {each[_BODY]: each for each in _all(scene) if isinstance(each[_BODY], bpy.types.Object)}
 
 
@@ -66,17 +66,17 @@ def has_other_fields(scene: bpy.types.Scene) -> bool:
 
 
 def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
-    """The force objects of bodies, in their order."""
+    """The force fields of bodies, in their order."""
     existing = force_objects(scene)
     lacking = [body.name for body in bodies if body not in existing]
     if lacking:
         more = f" and {len(lacking) - 1} more" if len(lacking) > 1 else ""
-        raise SimulationError(f"body {lacking[0]!r}{more} has no force object: build the force objects again")
+        raise SimulationError(f"body {lacking[0]!r}{more} has no force field: build the force fields again")
     return [existing[body] for body in bodies]
 
 
 class ForceFields:
-    """The force objects of n bodies, as they push in the coming frame."""
+    """The force fields of n bodies, as they push in the coming frame."""
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]):
         self._scene = scene
@@ -107,8 +107,8 @@ class ForceFields:
             copies = self._evaluated(self._fields[row])
             if not copies:
                 raise SimulationError(
-                    f"force object {self._names[row]!r} is deleted, switched off or excluded from the view layer: "
-                    "build the force objects again or switch it on, or apply the blast directly"
+                    f"force field {self._names[row]!r} is deleted, switched off or excluded from the view layer: "
+                    "build the force fields again or switch it on, or apply the blast directly"
                 )
             for evaluated in copies:
                 evaluated.matrix_world = matrix
@@ -147,7 +147,7 @@ def _all(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 
 def _orphans(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Force objects without a body, or of a body that has another."""
+    """Force fields without a body, or of a body that has another."""
     first = set(force_objects(scene).values())
     return [each for each in _all(scene) if each not in first]
 

@@ -92,7 +92,7 @@ def stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
     for connection in connections:
         if _STIFFNESS not in connection:
             raise SimulationError(
-                f"connection {connection.name!r} has no stiffness as the others have: delete it, or build anew"
+                f"connection {connection.name!r} has no stiffness as the others have: delete it, or build again"
             )
     numbers = np.array([kept_numbers(connection, _STIFFNESS, (0.0,) * _COUNT) for connection in connections]).reshape(
         -1, _COUNT

@@ -98,7 +98,7 @@ def rows_on_moving_ground(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
     """Return which of the bodies (r,) move with the ground."""
     rows = [row for row, body in enumerate(bodies) if _is_fixed(body) and body.rigid_body.kinematic]
     if not rows:
-        raise SimulationError("the ground is to move, and no body of it is left: build the scenario anew")
+        raise SimulationError("the ground is to move, and no body of it is left: build the scenario again")
     return np.array(rows)
 
 

@@ -139,6 +139,6 @@ class ContourDisplay:
         positions_m = np.array([body.location for body in shards]).reshape(-1, 3)
         centres_m = self.stages.centres_m
         if positions_m.shape != centres_m.shape or not np.allclose(positions_m, centres_m, atol=_SAME_M):
-            raise ContourError("stages: they are of another bridge than the scene has; build it anew, or check again")
+            raise ContourError("stages: they are of another bridge than the scene has; build it again, or check again")
         frame = self.stages.show(self.stage, self.settings)
         paint(self.scene, depsgraph, {body.name: row for row, body in enumerate(shards)}, frame.screen_colours)

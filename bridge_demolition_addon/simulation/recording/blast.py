@@ -80,7 +80,7 @@ class FieldBlast:
         """Return the loads of the frame, after which the bodies are at centres (n, 3)."""
         if not self._fields.still_push():
             raise SimulationError(
-                "a force object was changed or deleted while it pushed: leave them alone while the blast goes on"
+                "a force field was changed or deleted while it pushed: leave them alone while the blast goes on"
             )
         if len(self._pushed):
             moves = (centres - self._centres)[self._pushed]
@@ -198,7 +198,7 @@ class Blast(Driver):
 
 
 def check_blast(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
-    """Check the charges and force objects of a scene, before anything is simulated."""
+    """Check the charges and force fields of a scene, before anything is simulated."""
     if goes_off(scene) and blast_of(scene).apply == Apply.FIELDS:
         fields_of(scene, [body for body in bodies if body.rigid_body.type == "ACTIVE"])
 

@@ -32,7 +32,7 @@ def check_recordable(scene: bpy.types.Scene) -> None:
     loose = loose_connections(scene)
     if loose and lacks_ground(scene):
         raise SimulationError(
-            f"the ground of scene {scene.name!r} is gone: undo what took it away, or build the scenario anew"
+            f"the ground of scene {scene.name!r} is gone: undo what took it away, or build the scenario again"
         )
     if loose:
         more = f", and so do {len(loose) - 1} more" if len(loose) > 1 else ""

@@ -30,10 +30,10 @@ def total_mass_kg(scene: bpy.types.Scene) -> float:
 
 
 class BDA_OT_add_source_point(Action, bpy.types.Operator):
-    """Add a charge at the 3D cursor; it can be dragged about like any object"""
+    """Add a charge at the 3D cursor; it can be dragged like any object; called Add Source Point in 2019"""
 
     bl_idname = "bda.add_source_point"
-    bl_label = "Add Source Point"
+    bl_label = "Add Charge"
     bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
@@ -66,10 +66,10 @@ class BDA_OT_delete_source_point(Action, bpy.types.Operator):
 
 
 class BDA_OT_build_force_objects(Action, bpy.types.Operator):
-    """Give every shard a force object, through which the blast pushes it, and remove those of shards that are gone"""
+    """Give every shard a force field, through which the blast pushes it; called Build Force Objects in 2019"""
 
     bl_idname = "bda.build_force_objects"
-    bl_label = "Build Force Objects"
+    bl_label = "Build Force Fields"
     bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
@@ -82,14 +82,14 @@ class BDA_OT_build_force_objects(Action, bpy.types.Operator):
         built = build_force_objects(scene, bodies_of(scene))
         if hidden:
             hide_symbols(layer, scene, hidden=True)  # the new ones as well
-        return f"{built.made} force objects made, {built.kept} kept, {built.removed} removed"
+        return f"{built.made} force fields made, {built.kept} kept, {built.removed} removed"
 
 
 class BDA_OT_show_total_mass(Action, bpy.types.Operator):
-    """Add up the masses of all active bodies but the ball"""
+    """Add up the masses of all active bodies but the ball; called Show Total Mass of Particles in 2019"""
 
     bl_idname = "bda.show_total_mass"
-    bl_label = "Show Total Mass of Particles"
+    bl_label = "Total Mass"
     bl_options = {"REGISTER", "UNDO"}
 
     disabled_reason = staticmethod(no_world)
@@ -97,7 +97,7 @@ class BDA_OT_show_total_mass(Action, bpy.types.Operator):
     def act(self, context: bpy.types.Context) -> str:
         text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")
         context.scene.bda.total_mass = text
-        return f"Total mass of particles: {text}"
+        return f"Total mass: {text}"
 
 
 CLASSES = (

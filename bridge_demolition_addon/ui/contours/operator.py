@@ -94,7 +94,7 @@ class BDA_OT_render_contours(RenderingTask, bpy.types.Operator):
 
 
 class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
-    """Hide the empties of all connections and force objects, or show them; they work all the same"""
+    """Hide the empties of all connections and force fields, or show them; they work all the same"""
 
     bl_idname = "bda.toggle_symbols"
     bl_label = "Show or Hide Connections and Forces"
@@ -103,7 +103,7 @@ class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if not has_symbols(context.view_layer, context.scene):
-            return "This scene has neither connections nor force objects"
+            return "This scene has neither connections nor force fields"
         return None
 
     def act(self, context: bpy.types.Context) -> str | None:

@@ -190,7 +190,7 @@ class BDA_OT_open_worst_draw(Action, bpy.types.Operator):
         number = int(runs.table.numbers[row])
         stop_playing(context)
         scene, scenario = context.scene, sampled_run(runs.ensemble, number).scenario
-        build_and_show(scene, scenario, anew=scene.rigidbody_world is not None)
+        build_and_show(scene, scenario, again=scene.rigidbody_world is not None)
         settings.scenario_path = settings.loaded_path = ""
         return f"Run {number}, whose debris distance is {runs.distances_m[row]:.1f} m"
 

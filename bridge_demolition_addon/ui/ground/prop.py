@@ -15,7 +15,7 @@ _OVERLAYS = (
     (DEBRIS, "Debris", "What the debris of the last run covers when it ends"),
     (RINGS, "Distances", "How far from the plan of the bridge the ground is"),
     (NEIGHBOURS, "Neighbours", "The neighbours of Scenario, with their names"),
-    (WAY, "Way of Ball", "The way of the ball in the last run"),
+    (WAY, "Path of Ball", "The path of the ball in the last run"),
     (FLASHES, "Flashes", "A flash where a charge goes off"),
     (NAMES, "Chosen Shard", "Outline and name of the body that is selected"),
 )

@@ -33,19 +33,19 @@ class _LogPathOperator(Action, FileWriter):
 
 
 class BDA_OT_set_debris_log(_LogPathOperator, bpy.types.Operator):
-    """Choose the file that the debris log is written to; none for the folder of the results"""
+    """Choose the file of the debris log; none for the folder of the results; called Set Debris Log Filepath in 2019"""
 
     bl_idname = "bda.set_debris_log"
-    bl_label = "Set Debris Log Filepath"
+    bl_label = "Choose Debris Log"
     setting = "debris_log_path"
     usual_name = DEBRIS_LOG
 
 
 class BDA_OT_set_force_log(_LogPathOperator, bpy.types.Operator):
-    """Choose the file that the force log is written to; none for the folder of the results"""
+    """Choose the file of the force log; none for the folder of the results; called Set Force Log Filepath in 2019"""
 
     bl_idname = "bda.set_force_log"
-    bl_label = "Set Force Log Filepath"
+    bl_label = "Choose Force Log"
     setting = "force_log_path"
     usual_name = FORCE_LOG
 

@@ -57,10 +57,10 @@ def recording_disabled_reason(context: bpy.types.Context) -> str | None:
 
 
 class BDA_OT_register_handler(Action, bpy.types.Operator):
-    """Go to the start frame, and record forces and debris from there while the timeline plays"""
+    """Go to the start frame, and record forces and debris while the timeline plays; called Register Handler in 2019"""
 
     bl_idname = "bda.register_handler"
-    bl_label = "Register Handler"
+    bl_label = "Start Recording"
 
     disabled_reason = staticmethod(recording_disabled_reason)
 
@@ -74,16 +74,16 @@ class BDA_OT_register_handler(Action, bpy.types.Operator):
 
 
 class BDA_OT_unregister_handler(GuardedOperator, bpy.types.Operator):
-    """End the recording and write its results"""
+    """End the recording and write its results; called Unregister Handler in 2019"""
 
     bl_idname = "bda.unregister_handler"
-    bl_label = "Unregister Handler"
+    bl_label = "Stop Recording"
     changes_scene = False
 
     @classmethod
     def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         if not running_recording():
-            return "No handler is registered"
+            return "No recording runs"
         return "Run is at work: Esc stops it" if session.run_goes_on() else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:

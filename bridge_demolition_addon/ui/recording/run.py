@@ -35,7 +35,7 @@ class BDA_OT_run(GuardedOperator, bpy.types.Operator):
     bl_label = "Run"
 
     build_anew: BoolProperty(
-        name="Build Anew",
+        name="Build Again",
         description="Build what the panels show first, in place of what was built before",
         options={"SKIP_SAVE"},
     )
@@ -109,7 +109,7 @@ class BDA_OT_run(GuardedOperator, bpy.types.Operator):
         if reason := other_mode(context):
             raise SimulationError(reason)
         check_output(context.scene.bda)
-        self.report({"INFO"}, build(context.scene, anew=True))
+        self.report({"INFO"}, build(context.scene, again=True))
         bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _show(self, context: bpy.types.Context) -> None:

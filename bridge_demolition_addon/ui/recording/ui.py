@@ -1,4 +1,4 @@
-"""The panels of recording: Frame Change Event Handler, and Post Processing with the files of the logs."""
+"""The panels of recording: Record, and Post Processing with the files of the logs."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
 
 
 class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
-    """Recording while the timeline plays."""
+    """Recording while the timeline plays; called Frame Change Event Handler in 2019."""
 
-    bl_label = "Frame Change Event Handler"
+    bl_label = "Record"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, recording = context.scene.bda, running_recording()

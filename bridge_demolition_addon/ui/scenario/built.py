@@ -184,7 +184,7 @@ def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
     if to_run != shown:
         raise ScenarioError(_sentence(changes(settings)))
     if not np.array_equal(to_run.timeline.frame_lengths_s, built.timeline.frame_lengths_s):
-        raise ScenarioError("slow motion was animated for the charges that the scene was built with: build it anew")
+        raise ScenarioError("slow motion was animated for the charges that the scene was built with: build it again")
     return to_run
 
 
@@ -197,7 +197,7 @@ def _sentence(changed: list[ChangedValue]) -> str:
         if listed
         else ("the scene was built from other values than the panels show")
     )
-    return f"{what}; build it anew, or show the values that it was built with"
+    return f"{what}; build it again, or show the values that it was built with"
 
 
 @cache

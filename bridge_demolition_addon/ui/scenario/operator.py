@@ -104,7 +104,7 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if context.scene.rigidbody_world:
-            return "This scene has a rigid-body world already: build it anew, or use a new scene"
+            return "This scene has a rigid-body world already: build it again, or use a new scene"
         return None
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -122,7 +122,7 @@ class BDA_OT_build_anew(Action, bpy.types.Operator):
     """Remove what was built here but the charges, with all changes by hand, and build what the panels show"""
 
     bl_idname = "bda.build_anew"
-    bl_label = "Build Anew"
+    bl_label = "Build Again"
     bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
@@ -136,14 +136,14 @@ class BDA_OT_build_anew(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         stop_playing(context)
-        return build(context.scene, anew=True)
+        return build(context.scene, again=True)
 
 
 class BDA_OT_show_built(Action, bpy.types.Operator):
     """Set values that have changed since the scene was built back to those that it was built with"""
 
     bl_idname = "bda.show_built"
-    bl_label = "Show As Built"
+    bl_label = "Show as Built"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -198,7 +198,7 @@ class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
         if reason := super().disabled_reason(context):
             return reason
         if lacks_ground(context.scene):
-            return "The ground is gone: undo what took it away, or build anew; without it the bridge hangs in the air"
+            return "The ground is gone: undo what took it away, or build again; without it the bridge hangs in the air"
         return None
 
     def act(self, context: bpy.types.Context) -> str:
@@ -218,25 +218,25 @@ CLASSES = (
 )
 
 
-def build(scene: bpy.types.Scene, *, anew: bool = False) -> str:
+def build(scene: bpy.types.Scene, *, again: bool = False) -> str:
     """Build the scenario that the panels show, or that is in a file which was not loaded yet, and say how large it is.
 
     Parameters
     ----------
     scene
         Where to.
-    anew
+    again
         Whether it takes the place of what was built there before.
     """
     settings = scene.bda
     is_new = settings.scenario_path not in ("", settings.loaded_path)
     scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
-    built = build_and_show(scene, scenario, is_shown=not is_new, anew=anew)
+    built = build_and_show(scene, scenario, is_shown=not is_new, again=again)
     settings.loaded_path = settings.scenario_path
     return built
 
 
-def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool = False, anew: bool = False) -> str:
+def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool = False, again: bool = False) -> str:
     """Build a scenario, show it in the panels where it is not yet, and say how large it is.
 
     Parameters
@@ -247,11 +247,11 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
         What to build.
     is_shown
         Whether the panels show it already.
-    anew
+    again
         Whether it takes the place of what was built there before.
     """
     settings, model = scene.bda, checked_model(scenario)
-    if anew:
+    if again:
         check_replaceable(scene, scenario, model)
         shown_results(scene).forget()
         forget_run(scene)

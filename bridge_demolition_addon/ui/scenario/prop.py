@@ -79,6 +79,15 @@ _PER_SECOND = "1/s"
 """A unit that the names of its keys say in words."""
 
 _DECIMALS = 3
+_WORDS = {
+    "place": "position",
+    "places": "positions",
+    "spin": "angular velocity",
+    "trials": "runs",
+    "turning": "rotational",
+}
+"""What labels say in place of words in keys, which keep their names."""
+
 _SMALL_WORDS = {"a", "and", "at", "by", "for", "in", "of", "on", "or", "per", "the", "to"}
 
 
@@ -316,7 +325,7 @@ def _default(item: Field, defaults: Table | None) -> Any:
 
 
 def _titled(name: str) -> str:
-    words = name.replace("_", " ").split()
+    words = " ".join(_WORDS.get(word, word) for word in name.split("_")).split()
     return " ".join(word if word in _SMALL_WORDS and number else word.capitalize() for number, word in enumerate(words))
 
 

@@ -80,7 +80,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
     bl_label = "Scenario"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
-        """Show the preview's switch, and an eye for connections and force objects once there are any."""
+        """Show the preview's switch, and an eye for connections and force fields once there are any."""
         self.layout.prop(context.scene.bda, "show_preview", text="", icon="MOD_WIREFRAME", emboss=False)
         if has_symbols(context.view_layer, context.scene):
             hidden = symbols_are_hidden(context.view_layer, context.scene)
@@ -170,8 +170,8 @@ class _TablePanel(SidebarPanel):
 
 
 def draw_run(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, *, has_changed: bool) -> None:
-    """Draw the button Run, which builds anew first where values have changed since the scene was built."""
-    text = "Build Anew and Run" if has_changed else "Run"
+    """Draw the button Run, which builds again first where values have changed since the scene was built."""
+    text = "Build Again and Run" if has_changed else "Run"
     run = layout.operator("bda.run", text=text, icon="PLAY")
     run.build_anew, run.pictures = has_changed, settings.pictures_of_run
 

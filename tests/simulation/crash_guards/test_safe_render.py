@@ -22,7 +22,7 @@ def scene(extension, settings, tmp_path):
     scene.camera = extension.data.objects.new("Camera", extension.data.cameras.new("Camera"))
     scene.collection.objects.link(scene.camera)
     scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 1, False
-    scene.world = None  # Cycles maps the light of the sky anew for each picture
+    scene.world = None  # Cycles maps the light of the sky again for each picture
     scene.render.resolution_x, scene.render.resolution_y = 32, 24
     scene.render.filepath = str(tmp_path / "picture_")
     scene.frame_end = FRAMES

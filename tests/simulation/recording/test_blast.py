@@ -340,7 +340,7 @@ def test_building_force_objects_again_updates_and_does_not_double(blender, tmp_p
     assert set(force_objects(blocks.scene)) == set(bodies)
     assert build_force_objects(blocks.scene, bodies_of(blocks.scene)).kept == 2
     added = blocks.block((11.0, 0, 0), MASS_KG)
-    with pytest.raises(SimulationError, match="'Block 2' has no force object: build the force objects again"):
+    with pytest.raises(SimulationError, match="'Block 2' has no force field: build the force fields again"):
         blocks.play(tmp_path, 3)
     blender.data.objects.remove(bodies[0])
     built = build_force_objects(blocks.scene, bodies_of(blocks.scene))
@@ -367,12 +367,12 @@ def test_changing_a_force_object_while_it_pushes_ends_the_recording_and_says_so(
         field.location.x += 0.1  # Blender makes a new evaluated copy, without our load
         blocks.scene.frame_set(frame)
     stop_recording()
-    assert "force object was changed" in str(recording.error)
+    assert "force field was changed" in str(recording.error)
 
 
 @pytest.mark.parametrize(
     "deleted_at, reason",
-    [(2, "has no force object"), (4, "is deleted, switched off"), (10, "is deleted, switched off")],
+    [(2, "has no force field"), (4, "is deleted, switched off"), (10, "is deleted, switched off")],
     ids=["before the first frame", "before it pushes", "after it pushed"],
 )
 def test_deleting_force_objects_ends_the_recording_and_says_so(blender, tmp_path, deleted_at, reason):
@@ -389,7 +389,7 @@ def test_deleting_force_objects_ends_the_recording_and_says_so(blender, tmp_path
     stop_recording()
     blocks.scene.frame_set(1)
     assert fields[pushed[1]].evaluated_get(blender.context.evaluated_depsgraph_get()).field.strength == 0.0
-    with pytest.raises(SimulationError, match="has no force object: build the force objects again"):
+    with pytest.raises(SimulationError, match="has no force field: build the force fields again"):
         Recording(blocks.scene, tmp_path)
 
 

@@ -19,7 +19,7 @@ def built(extension, settings):
 
 @pytest.mark.parametrize("hidden", [False, True])
 def test_charges_are_where_they_were(built, hidden):
-    """Blender works the places out anew only of what it shows, and only when it draws again."""
+    """Blender works the places out again only of what it shows, and only when it draws again."""
     built.context.view_layer.layer_collection.children[
         charge_collection(built.context.scene).name
     ].hide_viewport = hidden

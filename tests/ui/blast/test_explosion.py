@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel Explosion: charges in the scene, force objects, total mass, and what is ticked."""
+"""The panel Explosion: charges in the scene, force fields, total mass, and what is ticked."""
 
 import pytest
 from support.checkout import SMALL

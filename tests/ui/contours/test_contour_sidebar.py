@@ -142,7 +142,7 @@ def test_switching_the_add_on_off_puts_everything_back(blender, tmp_path):
     [
         ("load_results", "Choose a file results.npz first"),
         ("render_contours", "Choose a folder for the film first"),
-        ("toggle_symbols", "neither connections nor force objects"),
+        ("toggle_symbols", "neither connections nor force fields"),
     ],
 )
 def test_buttons_say_why_they_cannot_be_pressed(extension, operator, reason):

@@ -75,7 +75,7 @@ def test_the_next_step_follows_the_work(extension, settings, home):
     extension.ops.bda.build_scenario()
     assert next_step(scene).startswith("Next: Run")
     settings.scenario.ball.mass_kg = 4321.0
-    assert "Build Anew and Run" in next_step(scene)
+    assert "Build Again and Run" in next_step(scene)
     extension.ops.bda.show_built()
     scene.frame_end = 5
     extension.ops.bda.register_handler()

@@ -94,7 +94,7 @@ def test_run_takes_an_empty_folder_as_the_file_browser_makes_them(extension, sce
 
 
 def explode(extension, scene):
-    """A charge beside the blocks, and a force object for each of them."""
+    """A charge beside the blocks, and a force field for each of them."""
     extension.ops.bda.add_source_point()
     scene.bda.scenario.blast.explosion = True
     scene.bda.scenario.blast.start_s = 0.1
@@ -113,7 +113,7 @@ def test_a_body_added_after_the_force_objects_is_refused_and_nothing_is_lost(
         scene.bda.overwrite = True
     before = sorted(folder.rglob("*"))
     blocks.block((-3, 0, 5), 50.0)
-    assert "has no force object: build the force objects again" in refusal(extension.ops.bda.run)
+    assert "has no force field: build the force fields again" in refusal(extension.ops.bda.run)
     assert sorted(folder.rglob("*")) == before
     extension.ops.bda.build_force_objects()
     assert extension.ops.bda.run() == {"FINISHED"}

@@ -116,7 +116,7 @@ def test_a_list_that_is_written_otherwise_is_the_same_list(extension, settings):
 @pytest.mark.parametrize("operator", ["run", "register_handler"])
 def test_what_the_panels_do_not_show_is_not_run(built, settings, tmp_path, operator):
     settings.scenario.ball.mass_kg *= 5.0
-    with pytest.raises(RuntimeError, match=r"ball\.mass_kg \(.* kg, built with .* kg\); build it anew"):
+    with pytest.raises(RuntimeError, match=r"ball\.mass_kg \(.* kg, built with .* kg\); build it again"):
         getattr(built.ops.bda, operator)()
     assert not (tmp_path / "results").exists()
 
@@ -202,7 +202,7 @@ def test_a_file_that_only_keeps_its_scenario_is_not_run_with_other_values(built,
     """Files of earlier versions do not keep what the panels showed."""
     settings.built_values = ""
     settings.scenario.ball.mass_kg = 50000.0
-    with pytest.raises(RuntimeError, match="built from other values than the panels show; build it anew"):
+    with pytest.raises(RuntimeError, match="built from other values than the panels show; build it again"):
         built.ops.bda.run()
 
 
@@ -214,5 +214,5 @@ def test_slow_motion_that_was_animated_otherwise_is_not_run(extension, settings,
     settings.output_directory = str(tmp_path / "results")
     settings.scenario.blast.use_slow_frame_ms = True
     settings.scenario.blast.slow_frame_ms = 5.0
-    with pytest.raises(RuntimeError, match=r"slow motion was animated .* build it anew"):
+    with pytest.raises(RuntimeError, match=r"slow motion was animated .* build it again"):
         extension.ops.bda.run()

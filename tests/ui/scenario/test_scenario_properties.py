@@ -114,6 +114,14 @@ def test_labels_end_with_no_unit_that_blender_shows_itself():
     assert labels["bridge.density_kg_m3"] == "Density (kg/m³)"
 
 
+def test_labels_use_the_words_of_the_glossary():
+    labels = {f"{table.table}.{item.name}": label_of(table, item) for table, item in KEYS}
+    assert labels["search.trials"] == "Runs"
+    assert labels["neighbours.place_m"] == "Position"
+    assert labels["time.rest_spin_rad_s"] == "Rest Angular Velocity (rad/s)"
+    assert not {"Trials", "Draws", "Place", "Spin"} & {word for label in labels.values() for word in label.split()}
+
+
 def test_names_of_one_group_do_not_meet():
     for table in all_tables():
         names = [item.name for item in shown_keys(table)]
